@@ -1,0 +1,23 @@
+"""What an extractor returns, whichever source it read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.spec.model import Spec
+
+
+@dataclass(frozen=True)
+class Extraction:
+    """
+    The units found, what was noticed on the way, and which files were looked at.
+
+    :param units: one per executor, in the order of the files and of the lines in them.
+    :param diagnostics: sorted by place.
+    :param files_seen: every file that was read, as shown to the user.
+    """
+
+    units: tuple[Spec, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    files_seen: tuple[str, ...]

@@ -1,0 +1,377 @@
+"""
+The one description of a node: what an executor serves, as frozen values.
+
+A ``Spec`` is one verification unit: one executor with all nodes it serves. Values check
+themselves; what could not be found out is ``Unknown``. This room knows nothing of syntax
+trees, processes, UPPAAL text or YAML (``yaml_io.py`` is the only place that does).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.places import Place, Unknown
+
+
+class CallbackType(Enum):
+    """The four callback types of the published model."""
+
+    TMR = 'TMR'
+    SUB = 'SUB'
+    SRV = 'SRV'
+    CLT = 'CLT'
+
+
+class GroupType(Enum):
+    """The two group types of the published model."""
+
+    REENTRANT = 'REENTRANT'
+    EXCLUSIVE = 'EXCLUSIVE'
+
+
+class EntityKind(Enum):
+    """What exactly a callback belongs to; the published type is only the nearest."""
+
+    TIMER = 'timer'
+    SUBSCRIPTION = 'subscription'
+    SERVICE = 'service'
+    CLIENT = 'client'
+    GUARD_CONDITION = 'guard_condition'
+    ACTION_SERVER = 'action_server'
+    ACTION_CLIENT = 'action_client'
+    WAITABLE = 'waitable'
+    QOS_EVENT = 'qos_event'
+    PARAMETER_SERVICE = 'parameter_service'
+    LIFECYCLE_SERVICE = 'lifecycle_service'
+    ACTION_EXECUTE = 'action_execute'
+    DONE_CALLBACK = 'done_callback'
+    TASK = 'task'
+
+    @property
+    def published_type(self) -> CallbackType:
+        """The published type nearest to this kind."""
+        return _PUBLISHED_TYPE[self]
+
+    @property
+    def key_name(self) -> str | None:
+        """How the name of its topic, service or action is called; ``None`` if it has none."""
+        return _KEY_NAME.get(self)
+
+
+_PUBLISHED_TYPE = {
+    EntityKind.TIMER: CallbackType.TMR,
+    EntityKind.SUBSCRIPTION: CallbackType.SUB,
+    EntityKind.SERVICE: CallbackType.SRV,
+    EntityKind.CLIENT: CallbackType.CLT,
+    EntityKind.GUARD_CONDITION: CallbackType.SUB,
+    EntityKind.ACTION_SERVER: CallbackType.SRV,
+    EntityKind.ACTION_CLIENT: CallbackType.CLT,
+    EntityKind.WAITABLE: CallbackType.SUB,
+    EntityKind.QOS_EVENT: CallbackType.SUB,
+    EntityKind.PARAMETER_SERVICE: CallbackType.SRV,
+    EntityKind.LIFECYCLE_SERVICE: CallbackType.SRV,
+    EntityKind.ACTION_EXECUTE: CallbackType.SRV,
+    EntityKind.DONE_CALLBACK: CallbackType.CLT,
+    EntityKind.TASK: CallbackType.TMR,
+}
+
+_KEY_NAME = {
+    EntityKind.SUBSCRIPTION: 'topic',
+    EntityKind.QOS_EVENT: 'topic',
+    EntityKind.SERVICE: 'service',
+    EntityKind.CLIENT: 'service',
+    EntityKind.PARAMETER_SERVICE: 'service',
+    EntityKind.LIFECYCLE_SERVICE: 'service',
+    EntityKind.ACTION_SERVER: 'action',
+    EntityKind.ACTION_CLIENT: 'action',
+    EntityKind.ACTION_EXECUTE: 'action',
+}
+
+
+class Origin(Enum):
+    """Where a specification comes from."""
+
+    STATIC = 'static'
+    LIVE = 'live'
+    MERGED = 'merged'
+    MANUAL = 'manual'
+
+
+class When(Enum):
+    """When an entity comes into being."""
+
+    START = 'start'
+    LATER = 'later'
+    CALLBACK = 'callback'
+    CONFIGURE = 'configure'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blocking:
+    """
+    A call inside a callback that can hold its thread, or an ``await`` that holds its group.
+
+    :param call: what blocks, in the field's words: ``client.call``, ``Event.wait``,
+        ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
+    :param on: name of the callback, entity or object waited for, where known.
+    :param seconds: how long it sleeps; for calls with a time-out, the time-out.
+    :param chain: places of the calls that lead from the callback to ``source``, outermost first.
+    """
+
+    call: str
+    source: Place | None = None
+    on: str | Unknown | None = None
+    seconds: float | Unknown | None = None
+    chain: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Access:
+    """
+    A read or write of shared state by a callback.
+
+    :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
+    :param locks: locks held at that place, outermost first.
+    :param update: true when the old value is read for the new one (``+=``, ``append`` …).
+    """
+
+    name: str
+    source: Place | None = None
+    locks: tuple[str, ...] = ()
+    update: bool = False
+    chain: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Act:
+    """
+    Something else a callback does: takes a lock, publishes, creates an entity, moves a node.
+
+    :param name: the lock, the topic, the entity or executor concerned.
+    """
+
+    name: str | Unknown
+    source: Place | None = None
+    chain: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Callback:
+    """
+    One entity that an executor serves, or one piece of work outside every group.
+
+    :param group: name of a group of the same unit.
+    :param entity: exact kind; ``None`` in hand-written files of the published format.
+    :param node: name of the ROS node it belongs to.
+    :param function: qualified name of the function; ``None`` for a client without one.
+    :param key: topic, service or action name.
+    :param period_s: seconds, of a timer.
+    :param count: how many such entities one creation place makes.
+    :param alternative: equal marks stand for branches of which only one is taken.
+    :param library: made by a library on the node's behalf (tf, message_filters …).
+    :param builtin: made by rclpy itself; nobody wrote it.
+    :param unresolved: why the callback function or its node could not be followed.
+    :param assumed: the rule by which a fact about it was assumed.
+    """
+
+    name: str
+    type: CallbackType
+    group: str
+    entity: EntityKind | None = None
+    node: str | Unknown | None = None
+    function: str | None = None
+    cls: str | None = None
+    key: str | Unknown | None = None
+    period_s: float | Unknown | None = None
+    count: int | Unknown = 1
+    when: When = When.START
+    conditional: bool = False
+    alternative: str | None = None
+    coroutine: bool = False
+    one_shot: bool = False
+    destroyed: bool = False
+    groupless: bool = False
+    library: str | None = None
+    builtin: bool = False
+    unresolved: Unknown | None = None
+    assumed: str | None = None
+    source: Place | None = None
+    defined: Place | None = None
+    blocking: tuple[Blocking, ...] = ()
+    reads: tuple[Access, ...] = ()
+    writes: tuple[Access, ...] = ()
+    locks: tuple[Act, ...] = ()
+    publishes: tuple[Act, ...] = ()
+    changes: tuple[Act, ...] = ()
+
+    @property
+    def display_name(self) -> str:
+        """How the callback is called in text for people: its function, else its name."""
+        return self.function.rpartition('.')[2] if self.function else self.name
+
+
+@dataclass(frozen=True, kw_only=True)
+class CallbackGroup:
+    """
+    A callback group.
+
+    :param type: with ``unresolved`` set it is the type assumed for models, EXCLUSIVE.
+    :param default: the default group of ``node``.
+    :param groupless: stands for work that is in no group at all (always REENTRANT).
+    :param cls: class name where it is neither of rclpy's two.
+    """
+
+    name: str
+    type: GroupType
+    default: bool = False
+    node: str | None = None
+    groupless: bool = False
+    library: str | None = None
+    builtin: bool = False
+    cls: str | None = None
+    count: int | Unknown = 1
+    unresolved: Unknown | None = None
+    assumed: str | None = None
+    source: Place | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Executor:
+    """
+    The executor of the unit and its worker threads.
+
+    :param kind: class name as in rclpy, a custom class name, or ``Unknown`` when none is found;
+        ``None`` in hand-written files of the published format.
+    :param threads: names of the worker threads, at least one.
+    :param threads_source: where the number comes from: a place as text, or a rule
+        (``default_cpu_count``: rclpy takes the number of CPUs at run time).
+    :param unresolved: why the executor, its kind or its thread count could not be followed.
+    :param spun: how it is run: ``rclpy.spin``, ``spin_once`` …
+    """
+
+    name: str
+    threads: tuple[str, ...]
+    kind: str | Unknown | None = None
+    threads_source: str | None = None
+    in_thread: bool = False
+    spun: str | None = None
+    unresolved: Unknown | None = None
+    assumed: str | None = None
+    source: Place | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unresolved:
+    """
+    One line of the list of what could not be found out.
+
+    :param subject: name of the callback, group or executor, or a dotted source name.
+    :param fact: which of its facts: ``group``, ``topic``, ``threads``, ``function`` …
+    """
+
+    subject: str
+    fact: str
+    reason: str
+    source: Place | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spec:
+    """
+    One verification unit.
+
+    :param name: UPPAAL identifier; with several nodes the name of the unit.
+    :param nodes: the ROS nodes served, in the order of ``add_node``.
+    :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
+        file are alternatives of each other.
+    :param rclpy: version of rclpy the facts are tied to, where known.
+    :raises SpecFormatError: on a duplicate name or a group that is not declared.
+    """
+
+    name: str
+    callbacks: tuple[Callback, ...]
+    groups: tuple[CallbackGroup, ...]
+    executor: Executor
+    origin: Origin = Origin.MANUAL
+    nodes: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    entry: str | None = None
+    rclpy: str | None = None
+    unresolved: tuple[Unresolved, ...] = ()
+
+    def __post_init__(self) -> None:
+        declared = {group.name for group in self.groups}
+        for callback in self.callbacks:
+            if callback.group not in declared:
+                raise SpecFormatError(
+                    f'callback {callback.name!r} is in group {callback.group!r}, which is not '
+                    'declared',
+                    callback.source,
+                    f'add it under callback_groups or use one of {_listing(declared)}',
+                )
+        for name, uses in Counter(self.names()).items():
+            if uses > 1:
+                raise SpecFormatError(
+                    f'name {name!r} is used {uses} times', None, 'names must be unique in a unit'
+                )
+
+    def names(self) -> Iterable[str]:
+        """All names of the unit; they share one name space, as in the published format."""
+        yield self.name
+        yield from (callback.name for callback in self.callbacks)
+        yield from (group.name for group in self.groups)
+        yield self.executor.name
+        yield from self.executor.threads
+
+    def group_of(self, callback: Callback) -> CallbackGroup:
+        """The group a callback of this unit is in."""
+        return next(group for group in self.groups if group.name == callback.group)
+
+
+def collect_unresolved(spec: Spec) -> tuple[Unresolved, ...]:
+    """List every fact of ``spec`` that is ``Unknown``, callbacks first, in order."""
+    found: list[Unresolved] = []
+    for callback in spec.callbacks:
+        found.extend(
+            _unresolved(callback.name, callback.source, fact, value)
+            for fact, value in (
+                ('function', callback.unresolved),
+                ('node', callback.node),
+                (_key_fact(callback), callback.key),
+                ('period', callback.period_s),
+                ('count', callback.count),
+            )
+            if isinstance(value, Unknown)
+        )
+    for group in spec.groups:
+        found.extend(
+            _unresolved(group.name, group.source, fact, value)
+            for fact, value in (('group', group.unresolved), ('count', group.count))
+            if isinstance(value, Unknown)
+        )
+    executor = spec.executor
+    if isinstance(executor.kind, Unknown):
+        found.append(_unresolved(executor.name, executor.source, 'executor', executor.kind))
+    if executor.unresolved is not None:
+        found.append(
+            _unresolved(executor.name, executor.source, 'executor', executor.unresolved)
+        )
+    return tuple(found)
+
+
+def _key_fact(callback: Callback) -> str:
+    return (callback.entity.key_name if callback.entity else None) or 'key'
+
+
+def _unresolved(subject: str, source: Place | None, fact: str, value: Unknown) -> Unresolved:
+    return Unresolved(
+        subject=subject, fact=fact, reason=value.reason, source=value.at or source
+    )
+
+
+def _listing(names: Iterable[str]) -> str:
+    return ', '.join(sorted(names)) or '(none)'
