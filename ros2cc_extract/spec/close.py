@@ -1,0 +1,124 @@
+"""
+The only door from a specification to a model: every hole is closed by a policy, in words.
+
+A model with a hole in it cannot be built by accident, because the generator takes a
+``ClosedSpec`` and nothing else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ros2cc_extract.errors import IncompleteSpecError
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.identifiers import mend
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec
+
+
+@dataclass(frozen=True, kw_only=True)
+class Policy:
+    """
+    How holes are closed.
+
+    :param builtin: keep the entities nobody wrote in the model.
+    :param threads: number of worker threads, instead of what the unit says.
+    """
+
+    builtin: bool = False
+    threads: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClosedSpec:
+    """
+    A unit without holes.
+
+    :param spec: the unit, reduced to what the model shows; groups without members are left out.
+    :param assumptions: what the policy decided, one clause each, for the reader of a verdict.
+    """
+
+    spec: Spec
+    assumptions: tuple[str, ...]
+
+
+def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
+    """
+    Decide every open fact of ``spec`` by ``policy``.
+
+    :raises IncompleteSpecError: when nothing is left to model.
+    """
+    callbacks = tuple(c for c in spec.callbacks if policy.builtin or not c.builtin)
+    if not callbacks:
+        raise IncompleteSpecError(
+            f'unit {spec.name!r} has no callback', spec.executor.source, 'nothing to verify'
+        )
+    used = {callback.group for callback in callbacks}
+    groups = tuple(group for group in spec.groups if group.name in used)
+    executor = _with_threads(spec, policy.threads)
+    reduced = replace(spec, callbacks=callbacks, groups=groups, executor=executor)
+    return ClosedSpec(spec=reduced, assumptions=tuple(_assumptions(reduced, policy)))
+
+
+def thread_names(spec: Spec, number: int) -> tuple[str, ...]:
+    """Name ``number`` worker threads so that no other name of the unit is taken."""
+    kept = spec.executor.threads[:number]
+    taken = set(spec.names())
+    names = list(kept)
+    for index in range(len(kept), number):
+        names.append(mend(f'thread_{index}', taken))
+        taken.add(names[-1])
+    return tuple(names)
+
+
+def _with_threads(spec: Spec, number: int | None) -> Executor:
+    if number is None or number == len(spec.executor.threads):
+        return spec.executor
+    return replace(
+        spec.executor, threads=thread_names(spec, number), threads_source='given', assumed=None
+    )
+
+
+def _assumptions(spec: Spec, policy: Policy) -> list[str]:
+    return [
+        *_executor_assumptions(spec.executor, policy),
+        *(text for group in spec.groups for text in _group_assumptions(group)),
+        *(text for callback in spec.callbacks for text in _callback_assumptions(callback)),
+    ]
+
+
+def _executor_assumptions(executor: Executor, policy: Policy) -> list[str]:
+    texts = []
+    if isinstance(executor.kind, Unknown):
+        texts.append(f'executor not found ({executor.kind}); modelled as one thread')
+    elif executor.unresolved is not None:
+        texts.append(f'executor {executor.kind} not resolved ({executor.unresolved})')
+    if executor.threads_source == 'default_cpu_count' and policy.threads is None:
+        texts.append(
+            f'thread count is the number of CPUs at run time; {len(executor.threads)} assumed'
+        )
+    return texts
+
+
+def _group_assumptions(group: CallbackGroup) -> list[str]:
+    texts = []
+    if group.unresolved is not None:
+        texts.append(
+            f'group {group.name} not resolved ({group.unresolved}); modelled as a group of its '
+            f'own, {group.type.value}'
+        )
+    if group.assumed:
+        texts.append(f'group {group.name}: {group.assumed}')
+    return texts
+
+
+def _callback_assumptions(callback: Callback) -> list[str]:
+    texts = []
+    if isinstance(callback.count, Unknown):
+        texts.append(f'{callback.name} is created an unknown number of times; modelled once')
+    elif callback.count > 1:
+        texts.append(f'{callback.name} is created {callback.count} times; modelled once')
+    if callback.conditional or callback.alternative:
+        texts.append(f'{callback.name} is created under a condition; modelled as present')
+    if callback.assumed:
+        texts.append(f'{callback.name}: {callback.assumed}')
+    return texts
