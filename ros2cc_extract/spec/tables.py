@@ -1,0 +1,279 @@
+"""The rows of every value of the format, in the order in which they are written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.codecs import (
+    COUNT,
+    FLAG,
+    NAME,
+    PLACE,
+    SECONDS,
+    TEXT,
+    Codec,
+    JsonSchema,
+    listing,
+    member,
+    optional,
+)
+from ros2cc_extract.spec.cursor import Cursor
+from ros2cc_extract.spec.fields import ABSENT, Open, Plain, Resolution, Row, plain_rows, record
+from ros2cc_extract.spec.identifiers import complaint
+from ros2cc_extract.spec.model import (
+    Access,
+    Act,
+    Blocking,
+    Callback,
+    CallbackGroup,
+    CallbackType,
+    EntityKind,
+    Executor,
+    GroupType,
+    Unresolved,
+    When,
+)
+
+
+def _decode_name(cursor: Cursor) -> str:
+    name = cursor.text()
+    what = complaint(name)
+    if what:
+        raise cursor.error(what, 'rename it: the model names a process by it')
+    return name
+
+
+PROCESS_NAME = Codec(NAME.encode, _decode_name, NAME.schema)
+_PLACES = listing(PLACE)
+_OPTIONAL_PLACE = optional(PLACE)
+
+_CHAIN = ('chain', 'chain', _PLACES)
+_SOURCE = ('source', 'source', _OPTIONAL_PLACE)
+
+BLOCKING = record(
+    Blocking,
+    (
+        Plain('call', 'call', TEXT),
+        Open(('on',), 'on', TEXT, ('on_resolved', False), 'on_', None),
+        Open(('seconds',), 'seconds', SECONDS, ('seconds_resolved', False), 'seconds_', None),
+        *plain_rows(Blocking, (_SOURCE, _CHAIN)),
+    ),
+    required=('call',),
+    flow=True,
+)
+ACCESS = record(
+    Access,
+    (
+        Plain('name', 'name', TEXT),
+        *plain_rows(
+            Access,
+            (('update', 'update', FLAG), ('locks', 'locks', listing(TEXT)), _SOURCE, _CHAIN),
+        ),
+    ),
+    required=('name',),
+    flow=True,
+)
+ACT = record(
+    Act,
+    (
+        Open(('name',), 'name', TEXT, ('name_resolved', False), 'name_'),
+        *plain_rows(Act, (_SOURCE, _CHAIN)),
+    ),
+    flow=True,
+)
+
+
+def _is_extracted(callback: Callback) -> bool:
+    return callback.entity is not None
+
+
+def _key_name(callback: Callback) -> str | None:
+    return callback.entity.key_name if callback.entity else None
+
+
+def _period_name(callback: Callback) -> str | None:
+    return 'period_s' if callback.entity is EntityKind.TIMER else None
+
+
+def _node_name(callback: Callback) -> str | None:
+    return 'node' if callback.node is not None else None
+
+
+CALLBACK = record(
+    Callback,
+    (
+        Plain('name', 'name', PROCESS_NAME),
+        Plain('type', 'type', member(CallbackType)),
+        *plain_rows(Callback, (('entity', 'entity', optional(member(EntityKind))),)),
+        Plain('callback_group', 'group', TEXT),
+        Open(('node',), 'node', TEXT, ('node_resolved', False), 'node_', None, _node_name),
+        Plain('callback', 'function', optional(TEXT), None, _is_extracted),
+        *plain_rows(Callback, (('class', 'cls', optional(TEXT)),)),
+        Open(
+            ('topic', 'service', 'action'),
+            'key',
+            TEXT,
+            ('key_resolved', False),
+            'key_',
+            None,
+            _key_name,
+        ),
+        Open(
+            ('period_s',),
+            'period_s',
+            SECONDS,
+            ('period_resolved', False),
+            'period_',
+            None,
+            _period_name,
+        ),
+        Open(('count',), 'count', COUNT, ('count', 'unknown'), 'count_', 1),
+        *plain_rows(
+            Callback,
+            (
+                ('when', 'when', member(When)),
+                ('conditional', 'conditional', FLAG),
+                ('alternative', 'alternative', optional(TEXT)),
+                ('coroutine', 'coroutine', FLAG),
+                ('one_shot', 'one_shot', FLAG),
+                ('destroyed', 'destroyed', FLAG),
+                ('groupless', 'groupless', FLAG),
+                ('library', 'library', optional(TEXT)),
+                ('builtin', 'builtin', FLAG),
+            ),
+        ),
+        Resolution(),
+        *plain_rows(Callback, (('assumed', 'assumed', optional(TEXT)),)),
+        Plain('blocking', 'blocking', listing(BLOCKING), (), _is_extracted),
+        *plain_rows(
+            Callback,
+            (
+                ('reads', 'reads', listing(ACCESS)),
+                ('writes', 'writes', listing(ACCESS)),
+                ('locks', 'locks', listing(ACT)),
+                ('publishes', 'publishes', listing(ACT)),
+                ('changes', 'changes', listing(ACT)),
+                _SOURCE,
+                ('defined', 'defined', _OPTIONAL_PLACE),
+            ),
+        ),
+    ),
+    required=('name', 'type', 'callback_group'),
+)
+
+
+def _is_default_group(group: CallbackGroup) -> bool:
+    return group.default
+
+
+GROUP = record(
+    CallbackGroup,
+    (
+        Plain('name', 'name', PROCESS_NAME),
+        Plain('type', 'type', member(GroupType)),
+        *plain_rows(
+            CallbackGroup,
+            (
+                ('default', 'default', FLAG),
+                ('node', 'node', optional(TEXT)),
+                ('class', 'cls', optional(TEXT)),
+                ('groupless', 'groupless', FLAG),
+                ('library', 'library', optional(TEXT)),
+                ('builtin', 'builtin', FLAG),
+            ),
+        ),
+        Open(('count',), 'count', COUNT, ('count', 'unknown'), 'count_', 1),
+        Resolution(),
+        *plain_rows(CallbackGroup, (('assumed', 'assumed', optional(TEXT)),)),
+        Plain('source', 'source', _OPTIONAL_PLACE, None, _is_default_group),
+    ),
+    required=('name', 'type'),
+    flow=True,
+)
+
+
+@dataclass(frozen=True)
+class _ExecutorKind:
+    """``kind: unknown`` takes ``reason`` and ``at`` for itself: nothing else is known then."""
+
+    attribute: str = 'kind'
+
+    @property
+    def schemas(self) -> Mapping[str, JsonSchema]:
+        return {'kind': optional(TEXT).schema}
+
+    def encode(self, owner: Executor) -> dict[str, Any]:
+        if owner.kind is None:
+            return {}
+        if not isinstance(owner.kind, Unknown):
+            return {'kind': owner.kind}
+        return {'kind': _UNKNOWN_KIND, **_UNKNOWN_RESOLUTION.encode(owner)}
+
+    def decode(self, found: Mapping[str, Cursor]) -> Any:
+        if 'kind' not in found:
+            return ABSENT
+        kind = optional(TEXT).decode(found['kind'])
+        if kind != _UNKNOWN_KIND:
+            return kind
+        unknown = _UNKNOWN_RESOLUTION.decode(found)
+        return Unknown('not stated') if unknown is ABSENT else unknown
+
+
+class _ExecutorResolution(Resolution):
+    """Holds only where the kind is known."""
+
+    def encode(self, owner: Executor) -> dict[str, Any]:
+        return {} if isinstance(owner.kind, Unknown) else super().encode(owner)
+
+    def decode(self, found: Mapping[str, Cursor]) -> Any:
+        if 'kind' in found and found['kind'].node.value == _UNKNOWN_KIND:
+            return ABSENT
+        return super().decode(found)
+
+
+_UNKNOWN_KIND = 'unknown'
+_UNKNOWN_RESOLUTION = Resolution('kind')
+
+
+def _thread_schema() -> JsonSchema:
+    return record(dict, (Plain('name', 'name', PROCESS_NAME),), required=('name',)).schema
+
+
+THREAD = Codec(
+    lambda name: {'name': name},
+    lambda cursor: PROCESS_NAME.decode(cursor.mapping(('name',), ('name',))['name']),
+    _thread_schema(),
+)
+EXECUTOR_ROWS: tuple[Row, ...] = (
+    Plain('name', 'name', PROCESS_NAME),
+    _ExecutorKind(),
+    _ExecutorResolution(),
+    Plain('threads', 'threads', listing(THREAD, at_least=1)),
+    *plain_rows(
+        Executor,
+        (
+            ('threads_source', 'threads_source', optional(TEXT)),
+            ('in_thread', 'in_thread', FLAG),
+            ('spun', 'spun', optional(TEXT)),
+            ('assumed', 'assumed', optional(TEXT)),
+            _SOURCE,
+        ),
+    ),
+)
+EXECUTOR = record(Executor, EXECUTOR_ROWS, required=('name', 'threads'))
+
+UNRESOLVED = record(
+    Unresolved,
+    (
+        Plain('subject', 'subject', TEXT),
+        Plain('fact', 'fact', TEXT),
+        Plain('reason', 'reason', TEXT),
+        *plain_rows(Unresolved, (_SOURCE,)),
+    ),
+    required=('subject', 'fact', 'reason'),
+    flow=True,
+)
+
