@@ -1,0 +1,136 @@
+"""
+Parses the texts of a model with lark; the only module that knows how lark is loaded.
+
+Works with lark 1.x and with lark-parser 0.12, which ROS environments bring.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.resources
+from enum import Enum
+from typing import Any
+
+from lark import Lark
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken, VisitError
+
+from ros2cc_extract.checker.uppaal import syntax
+from ros2cc_extract.checker.uppaal.builder import TreeBuilder
+from ros2cc_extract.checker.uppaal.precedence import MAX_DEPTH, NestingError
+from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.places import Place
+
+MEND_SUBSET = 'docs/checker.md lists the supported subset'
+_OUTSIDE = {
+    'priority': 'channel priorities',
+    'progress': 'progress measures',
+    'gantt': 'Gantt charts',
+    'before_update': 'before_update',
+    'after_update': 'after_update',
+    'import': 'external functions',
+    'process': 'textual processes',
+    'struct': 'structs',
+    'scalar': 'scalar sets',
+    'sup': 'sup queries',
+    'inf': 'inf queries',
+    'bounds': 'bounds queries',
+    'Pr': 'statistical queries',
+    'simulate': 'statistical queries',
+    'control': 'game queries',
+    'strategy': 'strategies',
+    'spawn': 'dynamic templates',
+    'dynamic': 'dynamic templates',
+    'assert': 'assertions',
+    '.': 'floating-point numbers',
+    "'": 'clock rates',
+}
+
+
+class Start(Enum):
+    """What a text is; the values are rules of the grammar."""
+
+    DECLARATIONS = 'declarations'
+    SYSTEM = 'system'
+    PARAMETERS = 'parameters'
+    SELECTS = 'selects'
+    UPDATES = 'updates'
+    CONDITION = 'condition'
+    QUERY = 'query'
+
+
+@functools.cache
+def _parser() -> Lark:
+    grammar = importlib.resources.files(__package__).joinpath('grammar.lark').read_text('utf-8')
+    return Lark(
+        grammar,
+        parser='lalr',
+        start=[start.value for start in Start],
+        transformer=TreeBuilder(),
+        maybe_placeholders=False,
+    )
+
+
+def parse(text: str, start: Start, place: Place) -> Any:
+    """
+    Parse one text of a model.
+
+    :param place: where the text starts; every line in the result is a line of that file.
+    :return: what the ``TreeBuilder`` method named like ``start`` returns.
+    :raises ModelFormatError: a syntax error, or too deep nesting.
+    """
+    try:
+        return _parser().parse('\n' * (place.line - 1) + text, start=start.value)
+    except UnexpectedInput as error:
+        raise _syntax_error(error, text, place) from None
+    except NestingError as error:
+        raise _nesting_error(error, place) from None
+    except VisitError as error:
+        if isinstance(error.orig_exc, NestingError):
+            raise _nesting_error(error.orig_exc, place) from None
+        raise
+
+
+def _nesting_error(error: NestingError, place: Place) -> ModelFormatError:
+    return ModelFormatError(
+        f'the text nests deeper than {MAX_DEPTH}',
+        Place(place.file, error.line or place.line),
+        'split the expression or statement',
+    )
+
+
+def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelFormatError:
+    if isinstance(error, UnexpectedToken) and error.token.type != '$END':
+        found, line = str(error.token), error.line
+    elif isinstance(error, UnexpectedCharacters):
+        found, line = _word_at(text, error.line - place.line, error.column - 1), error.line
+    else:
+        last = place.line + text.rstrip().count('\n')
+        what = 'syntax error: the text ends too early'
+        return ModelFormatError(what, Place(place.file, last), 'complete it')
+    at = Place(place.file, line)
+    words = [found, *_neighbours(text, line - place.line, found)]
+    for word in words:
+        if word in _OUTSIDE:
+            what = f'{_OUTSIDE[word]} are outside the supported subset of UPPAAL'
+            return ModelFormatError(what, at, MEND_SUBSET)
+    return ModelFormatError(f'syntax error at {found!r}', at, 'correct the text there')
+
+
+def _word_at(text: str, line: int, column: int) -> str:
+    lines = text.split('\n')
+    rest = lines[line][column:] if line < len(lines) else ''
+    return rest[:1] or 'end of line'
+
+
+def _neighbours(text: str, line: int, found: str) -> list[str]:
+    """Return the word before ``found``: an unknown keyword is read as a name at first."""
+    lines = text.split('\n')
+    before = lines[line].partition(found)[0].split() if line < len(lines) else []
+    return before[-1:]
+
+
+def parse_query(text: str, place: Place) -> syntax.Query:
+    """Parse one query."""
+    result = parse(text, Start.QUERY, place)
+    assert isinstance(result, syntax.Query)
+    return result
