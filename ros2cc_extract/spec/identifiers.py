@@ -14,22 +14,22 @@ from collections.abc import Collection
 _IDENTIFIER = re.compile(r'[A-Za-z_][A-Za-z0-9_]*\Z')
 _OTHER = re.compile(r'[^A-Za-z0-9_]+')
 
-_KEYWORD_TEXT = '''
+_KEYWORD_TEXT = """
 chan clock double bool int commit const urgent broadcast init process state invariant location
 guard sync assign system trans deadlock and or not imply true false for forall while do if else
 return typedef struct rate before_update after_update meta priority progress scalar select void
 default string minE maxE Pr switch case continue break enum exists sum
-'''
+"""
 
 # Words of the query grammar alone: they break a query that names the process, not the model.
 _QUERY_WORD_TEXT = 'A E U W R M inf sup bounds control simulate strategy query under'
 
-_MODEL_NAME_TEXT = '''
+_MODEL_NAME_TEXT = """
 NUM_CB NUM_CB_GROUP NUM_THREAD MAX_CYCLE CbId GroupId ThreadId CbType GroupType TMR SUB SRV
 CLT REENTRANT EXCLUSIVE cb_group_table cb_type_table group_closed group_close group_open
 ready_set cb_assign_signal thread_free thread_running thread_cb_assign_table cb_running
 get_thread_running_cb get_thread_running_group Callback CallbackGroup Thread Executor
-'''
+"""
 
 KEYWORDS = frozenset(_KEYWORD_TEXT.split())
 MODEL_NAMES = frozenset(_MODEL_NAME_TEXT.split())

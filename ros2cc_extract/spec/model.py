@@ -357,9 +357,7 @@ def collect_unresolved(spec: Spec) -> tuple[Unresolved, ...]:
     if isinstance(executor.kind, Unknown):
         found.append(_unresolved(executor.name, executor.source, 'executor', executor.kind))
     if executor.unresolved is not None:
-        found.append(
-            _unresolved(executor.name, executor.source, 'executor', executor.unresolved)
-        )
+        found.append(_unresolved(executor.name, executor.source, 'executor', executor.unresolved))
     return tuple(found)
 
 
@@ -368,9 +366,7 @@ def _key_fact(callback: Callback) -> str:
 
 
 def _unresolved(subject: str, source: Place | None, fact: str, value: Unknown) -> Unresolved:
-    return Unresolved(
-        subject=subject, fact=fact, reason=value.reason, source=value.at or source
-    )
+    return Unresolved(subject=subject, fact=fact, reason=value.reason, source=value.at or source)
 
 
 def _listing(names: Iterable[str]) -> str:

@@ -276,4 +276,3 @@ UNRESOLVED = record(
     required=('subject', 'fact', 'reason'),
     flow=True,
 )
-

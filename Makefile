@@ -1,0 +1,47 @@
+# Everything a new machine needs: python3, a C++ compiler, and these two words.
+#   make demo   install into .venv and check an example node
+#   make test   the whole test suite, live tests with real rclpy included
+
+PYTHON ?= python3
+VENV := .venv
+JAZZY := .venv-jazzy
+BIN := $(VENV)/bin
+PIP_FLAGS ?= --quiet --disable-pip-version-check
+
+.PHONY: demo test lint schema clean
+
+demo: $(VENV)/installed
+	$(BIN)/ros2cc-extract launch_free_examples/paper_case2/node.py
+
+test: $(VENV)/developed $(JAZZY)/installed
+	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -n auto $(PYTEST_FLAGS)
+
+lint: $(VENV)/developed
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+schema: $(VENV)/installed
+	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
+	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
+
+$(VENV)/bin/python:
+	@./scripts/make-venv $(PYTHON) $(VENV)
+
+$(JAZZY)/bin/python:
+	@./scripts/make-venv $(PYTHON) $(JAZZY)
+
+$(VENV)/installed: $(VENV)/bin/python pyproject.toml
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e .
+	@touch $@
+
+$(VENV)/developed: $(VENV)/bin/python pyproject.toml
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[dev]'
+	@touch $(VENV)/installed $@
+
+$(JAZZY)/installed: $(JAZZY)/bin/python pyproject.toml
+	$(JAZZY)/bin/python -m pip install $(PIP_FLAGS) -e '.[jazzy]'
+	@touch $@
+
+clean:
+	rm -rf $(VENV) $(JAZZY) build dist *.egg-info

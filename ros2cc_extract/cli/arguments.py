@@ -1,0 +1,118 @@
+"""Arguments that several subcommands share; nothing slow is imported before it is needed."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ros2cc_extract.spec.close import Policy
+    from ros2cc_extract.verify import Options
+
+
+def add_paths(parser: argparse.ArgumentParser) -> None:
+    """Add the files and directories to scan."""
+    parser.add_argument(
+        'paths', nargs='+', type=Path, metavar='PATH', help='a Python file or a directory'
+    )
+
+
+def add_unit_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what closes holes of a unit."""
+    parser.add_argument(
+        '--threads',
+        type=_positive,
+        metavar='N',
+        help='number of executor threads, instead of what the source says',
+    )
+    parser.add_argument(
+        '--builtin',
+        action='store_true',
+        help='keep the entities in the model that rclpy itself creates',
+    )
+
+
+def add_search_arguments(parser: argparse.ArgumentParser, *, seconds: float | None) -> None:
+    """Add profile, limits and the choice of the engine; ``seconds`` is the default limit."""
+    group = parser.add_argument_group('verification')
+    group.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
+    group.add_argument(
+        '--text',
+        choices=['plain', 'compact'],
+        default='plain',
+        help='plain: the published text; compact: same verdicts, fewer states',
+    )
+    group.add_argument(
+        '--max-cycle',
+        type=_positive,
+        default=1,
+        metavar='N',
+        help='how often each callback becomes ready (default 1, as published)',
+    )
+    group.add_argument(
+        '--engine',
+        choices=['auto', 'native', 'reference'],
+        default='auto',
+        help='native core or plain Python (default: native where it is built)',
+    )
+    group.add_argument(
+        '--fairness',
+        choices=['none', 'weak'],
+        default='none',
+        help='weak: running callbacks end and an executor that can move does',
+    )
+    group.add_argument(
+        '--no-reduction', action='store_true', help='explore every state of the text'
+    )
+    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after N states')
+    group.add_argument('--max-memory', type=_positive, metavar='MB', help='stop at this memory')
+    limit = f' (default {seconds:g})' if seconds else ''
+    group.add_argument(
+        '--timeout',
+        type=_seconds,
+        default=seconds,
+        metavar='S',
+        help=f'stop a model after S seconds{limit}; what is open then is undecided',
+    )
+
+
+def policy_of(args: argparse.Namespace) -> Policy:
+    """Collect what ``add_unit_arguments`` declared."""
+    from ros2cc_extract.spec.close import Policy
+
+    return Policy(builtin=args.builtin, threads=args.threads)
+
+
+def options_of(args: argparse.Namespace) -> Options:
+    """Collect what ``add_search_arguments`` declared."""
+    from ros2cc_extract.checker.api import EngineKind, Fairness, Limits
+    from ros2cc_extract.generator.build import Profile, Text
+    from ros2cc_extract.verify import Options
+
+    return Options(
+        profile=Profile(args.profile),
+        text=Text(args.text),
+        max_cycle=args.max_cycle,
+        engine=EngineKind[args.engine.upper()],
+        fairness=Fairness[args.fairness.upper()],
+        reduction=not args.no_reduction,
+        limits=Limits(states=args.max_states, memory_mb=args.max_memory, seconds=args.timeout),
+    )
+
+
+def _positive(text: str) -> int:
+    value = int(text) if text.isascii() and text.isdigit() else 0
+    if value < 1:
+        raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
+    return value
+
+
+def _seconds(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float('inf'):
+        raise argparse.ArgumentTypeError(f'{text!r} is not a number of seconds above 0')
+    return value

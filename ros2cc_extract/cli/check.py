@@ -1,0 +1,186 @@
+"""``ros2cc-extract PATH…``: the whole job, from the source to verdicts and findings."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ros2cc_extract.cli.arguments import (
+    add_paths,
+    add_search_arguments,
+    add_unit_arguments,
+    options_of,
+    policy_of,
+)
+from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS, EXIT_UNDECIDED
+from ros2cc_extract.cli.progress import search_progress
+from ros2cc_extract.cli.sources import has_errors, scan_sources
+from ros2cc_extract.diagnostics import Severity
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ros2cc_extract.extract.extraction import Extraction
+    from ros2cc_extract.findings.model import Finding
+    from ros2cc_extract.spec.close import ClosedSpec
+    from ros2cc_extract.verify import QueryResult, Verification
+
+DEFAULT_SECONDS = 20.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_paths(parser)
+    parser.add_argument(
+        '-o', '--output', type=Path, metavar='DIR', help='keep specification, model and queries'
+    )
+    parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
+    parser.add_argument('--output-format', choices=['text', 'json'], default='text')
+    add_unit_arguments(parser)
+    add_search_arguments(parser, seconds=DEFAULT_SECONDS)
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.findings.collect import findings_of
+    from ros2cc_extract.spec.close import close
+
+    extraction = scan_sources(args.paths, stderr)
+    closed_units = [close(unit, policy_of(args)) for unit in extraction.units]
+    if args.output is not None:
+        _keep(args, extraction, closed_units, stderr)
+    verifications = _verify(args, closed_units, stderr)
+    findings = findings_of(extraction)
+    if args.output_format == 'json':
+        _print_json(extraction, verifications, findings, stdout)
+    else:
+        _print_text(extraction, verifications, findings, stdout)
+    return _status(args, extraction, verifications, findings)
+
+
+def _keep(
+    args: argparse.Namespace,
+    extraction: Extraction,
+    closed_units: Sequence[ClosedSpec],
+    stderr: TextIO,
+) -> None:
+    from ros2cc_extract.cli.model import model_files
+    from ros2cc_extract.cli.output import write_atomically
+    from ros2cc_extract.generator.build import render
+    from ros2cc_extract.spec.yaml_io import write_specs
+
+    options = options_of(args)
+    for unit, closed in zip(extraction.units, closed_units, strict=True):
+        write_atomically(args.output / f'{unit.name}.spec.yaml', write_specs([unit]))
+        rendered = render(
+            closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
+        )
+        for name, text in model_files(rendered).items():
+            write_atomically(args.output / name, text)
+    print(f'kept {len(closed_units)} units in {args.output}', file=stderr)
+
+
+def _verify(
+    args: argparse.Namespace, closed_units: Sequence[ClosedSpec], stderr: TextIO
+) -> list[Verification]:
+    from ros2cc_extract.verify import verify_unit
+
+    options = options_of(args)
+    verifications = []
+    for closed in closed_units:
+        with search_progress(stderr, closed.spec.name) as progress:
+            verifications.append(verify_unit(closed, options, progress))
+    return verifications
+
+
+def _print_json(
+    extraction: Extraction,
+    verifications: Sequence[Verification],
+    findings: Sequence[Finding],
+    stdout: TextIO,
+) -> None:
+    from ros2cc_extract.report.json_report import check_data, to_text
+
+    summary = _summary(extraction, verifications, findings)
+    stdout.write(to_text(check_data(extraction.units, verifications, findings, summary)))
+
+
+def _print_text(
+    extraction: Extraction,
+    verifications: Sequence[Verification],
+    findings: Sequence[Finding],
+    stdout: TextIO,
+) -> None:
+    from ros2cc_extract.report.findings_text import print_findings
+    from ros2cc_extract.report.spec_text import print_spec
+    from ros2cc_extract.report.style import console_for
+
+    console = console_for(stdout)
+    for unit, verification in zip(extraction.units, verifications, strict=True):
+        print_spec(unit, console)
+        console.print()
+        _print_verification(verification, console)
+        console.print()
+    print_findings(findings, Path.cwd(), console)
+    counts = _summary(extraction, verifications, findings)
+    console.print(', '.join(f'{number} {what}' for what, number in counts.items()))
+
+
+def _print_verification(verification: Verification, console: Console) -> None:
+    from ros2cc_extract.report.verdict_text import print_evidence, print_table
+
+    print_table(verification, console, formulas=False)
+    shown, left_out = _first_of_each_family(verification)
+    print_evidence(shown, console)
+    if left_out:
+        console.print(f'  {left_out} more runs of these kinds: ros2cc-extract verify shows them')
+
+
+def _first_of_each_family(
+    verification: Verification,
+) -> tuple[list[tuple[int, QueryResult]], int]:
+    from ros2cc_extract.checker.api import Verdict
+
+    shown: dict[str | None, tuple[int, QueryResult]] = {}
+    runs = 0
+    for number, result in enumerate(verification.results, start=1):
+        if result.verdict is Verdict.NOT_SATISFIED and result.evidence is not None:
+            runs += 1
+            shown.setdefault(result.family, (number, result))
+    return list(shown.values()), runs - len(shown)
+
+
+def _summary(
+    extraction: Extraction, verifications: Sequence[Verification], findings: Sequence[Finding]
+) -> dict[str, int]:
+    verdicts = Counter(
+        result.verdict.value for verification in verifications for result in verification.results
+    )
+    severities = Counter(finding.severity for finding in findings)
+    return {
+        'files': len(extraction.files_seen),
+        'units': len(extraction.units),
+        'callbacks': sum(len(unit.callbacks) for unit in extraction.units),
+        'satisfied': verdicts['satisfied'],
+        'not satisfied': verdicts['not satisfied'],
+        'undecided': verdicts['undecided'],
+        'errors': severities[Severity.ERROR],
+        'warnings': severities[Severity.WARNING],
+        'notes': severities[Severity.NOTE],
+    }
+
+
+def _status(
+    args: argparse.Namespace,
+    extraction: Extraction,
+    verifications: Sequence[Verification],
+    findings: Sequence[Finding],
+) -> int:
+    if has_errors(extraction.diagnostics):
+        return EXIT_ERROR
+    if any(finding.severity is not Severity.NOTE for finding in findings):
+        return EXIT_FINDINGS
+    unresolved = args.strict and any(unit.unresolved for unit in extraction.units)
+    undecided = any(verification.is_undecided for verification in verifications)
+    return EXIT_UNDECIDED if unresolved or undecided else EXIT_CLEAN

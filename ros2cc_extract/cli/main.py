@@ -1,0 +1,121 @@
+"""
+The command line: finds the subcommand, loads only that one, and turns errors into one line.
+
+Exit status: 0 clean, 1 findings or a violated requirement, 2 usage, input or tool error,
+3 a verdict stayed undecided (with ``--strict`` also: something stayed unresolved).
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Protocol, TextIO, cast
+
+from ros2cc_extract.errors import Ros2ccError
+from ros2cc_extract.version import __version__
+
+PROGRAM = 'ros2cc-extract'
+DEFAULT_COMMAND = 'check'
+COMMANDS = {
+    'check': 'extract, model, verify and tell (the default: `ros2cc-extract my_node.py`)',
+    'spec': 'print the YAML specification of a node',
+    'model': 'write the UPPAAL model and its queries',
+    'verify': 'print the verdict table of a specification or a model',
+}
+EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
+EXIT_INTERRUPTED = 130
+
+
+class Command(Protocol):
+    """What a module in this folder offers."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the arguments; must not import anything slow."""
+
+    def run(self, args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+        """Do the work and return the exit status."""
+
+
+def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
+    """Run the tool; everything it says goes to the two streams."""
+    try:
+        return _dispatch(list(argv), stdout, stderr)
+    except Ros2ccError as error:
+        print(f'{PROGRAM}: error: {error}', file=stderr)
+        return EXIT_ERROR
+    except KeyboardInterrupt:
+        print(f'{PROGRAM}: interrupted', file=stderr)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        _silence(stdout)
+        return EXIT_CLEAN
+    except RecursionError:
+        print(f'{PROGRAM}: error: the input is nested too deeply', file=stderr)
+        return EXIT_ERROR
+    except Exception as error:
+        print(f'{PROGRAM}: internal error: {type(error).__name__}: {error}', file=stderr)
+        print('this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where', file=stderr)
+        if os.environ.get('ROS2CC_TRACEBACK'):
+            traceback.print_exception(error, file=stderr)
+        return EXIT_ERROR
+
+
+def entry_point() -> None:
+    """Run as the console script."""
+    sys.exit(main(sys.argv[1:], sys.stdout, sys.stderr))
+
+
+def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
+    if not argv or argv[0] in ('-h', '--help'):
+        stdout.write(_overview())
+        return EXIT_CLEAN if argv else EXIT_ERROR
+    if argv[0] == '--version':
+        print(f'{PROGRAM} {__version__}', file=stdout)
+        return EXIT_CLEAN
+    name = argv.pop(0) if argv[0] in COMMANDS else DEFAULT_COMMAND
+    command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.{name}'))
+    parser = argparse.ArgumentParser(
+        prog=f'{PROGRAM} {name}',
+        description=COMMANDS[name],
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    command.add_arguments(parser)
+    try:
+        args = parser.parse_args(argv)
+    except SystemExit as exit_:
+        return EXIT_CLEAN if not exit_.code else EXIT_ERROR
+    status = command.run(args, stdout, stderr)
+    stdout.flush()
+    return status
+
+
+def _overview() -> str:
+    width = max(map(len, COMMANDS))
+    listing = '\n'.join(f'  {name:<{width}}  {text}' for name, text in COMMANDS.items())
+    return f"""usage: {PROGRAM} PATH...            check a node file or a whole repository
+       {PROGRAM} COMMAND [options]
+
+Finds what the callbacks of a ROS 2 Python node can do to each other: extracts callbacks, groups,
+executors and threads from the source, model-checks them, and tells the result at your own lines.
+
+commands:
+{listing}
+
+`{PROGRAM} COMMAND --help` tells more. Exit status: 0 clean, 1 findings, 2 usage or input
+error, 3 undecided.
+"""
+
+
+def _silence(stream: TextIO) -> None:
+    """Keep the interpreter from complaining about the closed pipe once more at exit."""
+    with Path(os.devnull).open('w', encoding='utf-8') as devnull:
+        os.dup2(devnull.fileno(), stream.fileno())
+
+
+if __name__ == '__main__':
+    entry_point()

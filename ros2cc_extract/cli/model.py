@@ -1,0 +1,56 @@
+"""``ros2cc-extract model``: the UPPAAL model, its queries and the published tool's files."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ros2cc_extract.cli.arguments import add_unit_arguments, policy_of
+from ros2cc_extract.cli.main import EXIT_CLEAN
+
+if TYPE_CHECKING:
+    from ros2cc_extract.generator.build import RenderedModel
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        'path', type=Path, metavar='PATH|SPEC', help='a Python file, a directory or a YAML file'
+    )
+    parser.add_argument(
+        '-o', '--output', type=Path, required=True, metavar='DIR', help='folder to write to'
+    )
+    parser.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
+    parser.add_argument('--text', choices=['plain', 'compact'], default='plain')
+    parser.add_argument('--max-cycle', type=int, default=1, metavar='N')
+    add_unit_arguments(parser)
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.cli.output import write_atomically
+    from ros2cc_extract.cli.sources import load_units
+    from ros2cc_extract.generator.build import Profile, Text, render
+    from ros2cc_extract.spec.close import close
+
+    policy = policy_of(args)
+    closed_units = [close(unit, policy) for unit in load_units(args.path, stderr)]
+    for closed in closed_units:
+        rendered = render(
+            closed, profile=Profile(args.profile), text=Text(args.text), max_cycle=args.max_cycle
+        )
+        for assumption in closed.assumptions:
+            print(f'{rendered.name}: assumed: {assumption}', file=stderr)
+        for name, text in model_files(rendered).items():
+            write_atomically(args.output / name, text)
+            print(args.output / name, file=stdout)
+    return EXIT_CLEAN
+
+
+def model_files(rendered: RenderedModel) -> Mapping[str, str]:
+    """File name to text, of everything one unit gives."""
+    return {
+        f'{rendered.name}.xml': rendered.xml,
+        f'{rendered.name}.q': rendered.q,
+        **rendered.published,
+    }

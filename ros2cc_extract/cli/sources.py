@@ -1,0 +1,54 @@
+"""Where units come from: Python sources are scanned, YAML files are read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TextIO
+
+from ros2cc_extract.cli.progress import scan_progress
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Spec
+
+SPEC_SUFFIXES = ('.yaml', '.yml')
+
+
+def scan_sources(paths: Sequence[Path], stderr: TextIO) -> Extraction:
+    """Scan Python files and directories, with progress."""
+    from ros2cc_extract.extract.static.api import scan
+
+    with scan_progress(stderr) as progress:
+        return scan(paths, progress=progress)
+
+
+def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
+    """
+    Read a YAML file, or scan anything else as source.
+
+    :raises InputError: when there is no unit in it.
+    """
+    if path.suffix in SPEC_SUFFIXES:
+        from ros2cc_extract.spec.yaml_io import load_specs
+
+        return load_specs(path)
+    extraction = scan_sources([path], stderr)
+    print_diagnostics(extraction.diagnostics, stderr)
+    if not extraction.units:
+        raise InputError('no rclpy node found', Place(str(path)), 'nothing to model')
+    return extraction.units
+
+
+def print_diagnostics(diagnostics: Sequence[Diagnostic], stderr: TextIO) -> None:
+    """Print what the scan noticed, one line each."""
+    for diagnostic in diagnostics:
+        mend = f'; {diagnostic.help}' if diagnostic.help else ''
+        line = f'{diagnostic.place}: {diagnostic.severity.value}: {diagnostic.message}{mend}'
+        print(line, file=stderr)
+
+
+def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
+    """True when a file could not be read or parsed."""
+    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)

@@ -1,0 +1,145 @@
+"""
+Tells a path of the model in the developer's words: which callback, which thread, which group.
+
+The words stand in the templates, as comments of the edges (``{callback my_cb_id} starts on
+{thread id}``); here the expressions in braces are evaluated in the state after each step. So
+this module knows no template, and a model of somebody else is told by its locations.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from ros2cc_extract.checker.api import EdgeRef, Run, StateView
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Spec
+
+_PHRASE = re.compile(r'\{(callback|thread|group|executor)(?:\s+([^{}]+))?\}')
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moment:
+    """
+    One step of a run that means something to a developer.
+
+    :param number: 1-based, counts told steps only.
+    :param sentences: one per edge that has words.
+    :param places: of the callbacks named, in the order of naming.
+    :param changes: variables and locations that changed, with their new values.
+    """
+
+    number: int
+    sentences: tuple[str, ...]
+    places: tuple[tuple[str, Place], ...]
+    changes: Mapping[str, int | str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """
+    A run that shows why a verdict is as it is.
+
+    :param cycle_from: number of the moment from which the run repeats for ever.
+    :param ends: how a run without a cycle ends for good (``deadlock``, ``idle``), if it does.
+    """
+
+    moments: tuple[Moment, ...]
+    cycle_from: int | None
+    ends: str | None
+
+
+@dataclass(frozen=True)
+class Names:
+    """What stands for the n-th callback, thread and group of a model."""
+
+    callbacks: tuple[str, ...] = ()
+    threads: tuple[str, ...] = ()
+    groups: tuple[str, ...] = ()
+    executor: str = 'executor'
+    places: Mapping[str, Place] = field(default_factory=dict)
+
+    @staticmethod
+    def of(spec: Spec) -> Names:
+        """Names and places of a unit, in the order in which the model numbers them."""
+        places = {c.name: c.defined or c.source for c in spec.callbacks}
+        return Names(
+            tuple(callback.name for callback in spec.callbacks),
+            spec.executor.threads,
+            tuple(group.name for group in spec.groups),
+            spec.executor.name,
+            {name: place for name, place in places.items() if place is not None},
+        )
+
+    def lookup(self, kind: str, index: int) -> str:
+        """Name of the ``index``-th callback, thread or group."""
+        names = {'callback': self.callbacks, 'thread': self.threads, 'group': self.groups}[kind]
+        return names[index] if 0 <= index < len(names) else f'{kind} {index}'
+
+
+def tell(run: Run, names: Names) -> Evidence:
+    """Turn a replayed run into moments; steps without words are passed over."""
+    has_words = any(edge.comment for step in run.steps for edge in step.edges)
+    phrase = _spoken(names) if has_words else _located
+    moments: list[Moment] = []
+    cycle_from: int | None = None
+    before = run.initial
+    changes: dict[str, int | str] = {}
+    for index, step in enumerate(run.steps):
+        if index == run.cycle_start:
+            cycle_from = len(moments) + 1
+        changes |= _changes(before, step.state)
+        before = step.state
+        sentences = tuple(text for edge in step.edges if (text := phrase(edge, step.state)))
+        if sentences:
+            places = tuple(_places(sentences, names))
+            moments.append(
+                Moment(
+                    number=len(moments) + 1, sentences=sentences, places=places, changes=changes
+                )
+            )
+            changes = {}
+    if cycle_from is not None and cycle_from > len(moments):
+        cycle_from = None
+    return Evidence(moments=tuple(moments), cycle_from=cycle_from, ends=run.ends)
+
+
+Phrase = Callable[[EdgeRef, StateView], str]
+
+
+def _spoken(names: Names) -> Phrase:
+    def phrase(edge: EdgeRef, state: StateView) -> str:
+        def fill(match: re.Match[str]) -> str:
+            kind, expression = match.groups()
+            if kind == 'executor' or expression is None:
+                return names.executor
+            return names.lookup(kind, state.evaluate(expression, edge.process))
+
+        return _PHRASE.sub(fill, ' '.join(edge.comment.split()))
+
+    return phrase
+
+
+def _located(edge: EdgeRef, state: StateView) -> str:
+    channel = f' ({edge.channel})' if edge.channel else ''
+    return f'{edge.process}: {edge.source} -> {edge.target}{channel}'
+
+
+def _places(sentences: tuple[str, ...], names: Names) -> Iterator[tuple[str, Place]]:
+    words = [word for sentence in sentences for word in re.findall(r'\w+', sentence)]
+    for name in dict.fromkeys(words):
+        if name in names.places:
+            yield name, names.places[name]
+
+
+def _changes(before: StateView, after: StateView) -> dict[str, int | str]:
+    changed: dict[str, int | str] = {
+        process: location
+        for process, location in after.locations.items()
+        if before.locations[process] != location
+    }
+    for name, value in after.variables.items():
+        if before.variables[name] != value:
+            changed[name] = value
+    return changed

@@ -1,0 +1,49 @@
+"""Findings as ``path:line:col: CODE message`` with the source line and a caret."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.places import Place
+
+_COLOURS = {Severity.ERROR: 'red', Severity.WARNING: 'magenta', Severity.NOTE: 'cyan'}
+
+
+def print_findings(findings: Sequence[Finding], root: Path, console: Console) -> None:
+    """Print each finding with its source line, evidence and help."""
+    for finding in findings:
+        head = Text(f'{finding.place}: ')
+        head.append(finding.code, style=_COLOURS[finding.severity])
+        head.append(f' {finding.message}')
+        console.print(head, soft_wrap=True)
+        for line in source_excerpt(finding.place, root):
+            console.print(line, soft_wrap=True)
+        for line in finding.evidence:
+            console.print(f'      {line}', soft_wrap=True)
+        if finding.help:
+            console.print(f'  help: {finding.help}', soft_wrap=True)
+
+
+def source_excerpt(place: Place, root: Path) -> list[str]:
+    """Give the source line and a caret below it; nothing when the file cannot be read."""
+    if not place.line:
+        return []
+    try:
+        text = (root / place.file).read_text(encoding='utf-8', errors='replace')
+    except OSError:
+        return []
+    lines = text.splitlines()
+    if place.line > len(lines):
+        return []
+    line = lines[place.line - 1]
+    shown = [f'{place.line:5} | {line.expandtabs(4)}']
+    if place.column:
+        indent = len(line[: place.column - 1].expandtabs(4))
+        shown.append(f'      | {" " * indent}^')
+    return shown

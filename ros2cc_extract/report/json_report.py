@@ -1,0 +1,92 @@
+"""The JSON objects of ``verify`` and ``check``, as plain data."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.yaml_io import spec_to_data
+from ros2cc_extract.verify import QueryResult, Verification
+
+Data = dict[str, Any]
+
+
+def to_text(data: object) -> str:
+    """Write plain data as JSON text with a final newline."""
+    return json.dumps(data, indent=2, ensure_ascii=False) + '\n'
+
+
+def verification_data(verification: Verification) -> Data:
+    """One object per model; queries in the order of the ``.q`` file."""
+    return {
+        'model': verification.model,
+        'profile': verification.profile,
+        'text': verification.text,
+        'engine': verification.engine,
+        'states': verification.states,
+        'transitions': verification.transitions,
+        'seconds': verification.seconds,
+        'peak_mb': verification.peak_mb,
+        'complete': verification.complete,
+        'assumptions': list(verification.assumptions),
+        'queries': [_query_data(result) for result in verification.results],
+    }
+
+
+def check_data(
+    units: Sequence[Spec],
+    verifications: Sequence[Verification],
+    findings: Sequence[Finding],
+    summary: Mapping[str, int],
+) -> Data:
+    """The object of ``check``: units, verdicts, findings, summary."""
+    return {
+        'units': [spec_to_data(unit) for unit in units],
+        'verdicts': [verification_data(verification) for verification in verifications],
+        'findings': [_finding_data(finding) for finding in findings],
+        'summary': dict(summary),
+    }
+
+
+def _query_data(result: QueryResult) -> Data:
+    return {
+        'family': result.family,
+        'formula': result.formula,
+        'words': result.words,
+        'callbacks': list(result.callbacks),
+        'verdict': result.verdict.value,
+        'reason': result.reason,
+        'seconds': result.seconds,
+        'trace': evidence_data(result.evidence) if result.evidence else None,
+    }
+
+
+def evidence_data(evidence: Evidence) -> list[Data]:
+    """One object per step; the first step of an endless cycle carries ``cycle_start``."""
+    return [
+        {
+            'step': moment.number,
+            'text': list(moment.sentences),
+            'places': {name: str(place) for name, place in moment.places},
+            'changes': dict(moment.changes),
+            **({'cycle_start': True} if moment.number == evidence.cycle_from else {}),
+        }
+        for moment in evidence.moments
+    ]
+
+
+def _finding_data(finding: Finding) -> Data:
+    return {
+        'code': finding.code,
+        'severity': finding.severity.value,
+        'path': finding.place.file,
+        'line': finding.place.line,
+        'column': finding.place.column,
+        'message': finding.message,
+        'help': finding.help,
+        'evidence': list(finding.evidence),
+    }

@@ -1,0 +1,83 @@
+"""The verdict table and the runs behind it, for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich.console import Console
+from rich.padding import Padding
+
+from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.evidence import Evidence, Moment
+from ros2cc_extract.report.style import table, verdict_text
+from ros2cc_extract.verify import QueryResult, Verification
+
+
+def print_table(verification: Verification, console: Console, *, formulas: bool) -> None:
+    """Print one row per query, in the order of the ``.q`` file."""
+    columns = ['  #', 'query', *(['expression'] if formulas else []), 'verdict', 'time']
+    rows = table(*columns)
+    for number, result in enumerate(verification.results, start=1):
+        rows.add_row(
+            f'{number:3}',
+            result.words,
+            *([result.formula] if formulas else []),
+            verdict_text(result.verdict, result.reason),
+            f'{result.seconds:.3f} s',
+        )
+    console.print(rows)
+    console.print(f'  {_cost(verification)}')
+    for assumption in verification.assumptions:
+        console.print(f'  assumed: {assumption}')
+
+
+def print_evidence(
+    numbered: Iterable[tuple[int, QueryResult]], console: Console, *, changes: bool = False
+) -> None:
+    """Print the run behind each verdict that has one."""
+    for number, result in numbered:
+        if result.evidence is not None:
+            word = 'witness' if _is_witness(result) else 'counterexample'
+            console.print(f'{word} for {number}: {result.words}: {result.verdict.value}')
+            _print_run(result.evidence, console, changes=changes)
+
+
+def _is_witness(result: QueryResult) -> bool:
+    return result.verdict is Verdict.SATISFIED
+
+
+def _cost(verification: Verification) -> str:
+    model = ' '.join(filter(None, (verification.profile, verification.text)))
+    complete = '' if verification.complete else ', stopped by a limit'
+    return (
+        f'{verification.states} states, {verification.transitions} transitions, '
+        f'{verification.seconds:.3f} s, peak memory {verification.peak_mb:.0f} MB{complete} '
+        f'({model + " model, " if model else ""}{verification.engine} checker)'
+    )
+
+
+def _print_run(evidence: Evidence, console: Console, *, changes: bool) -> None:
+    rows = table('', '', '')
+    rows.show_header = False
+    for moment in evidence.moments:
+        if moment.number == evidence.cycle_from:
+            rows.add_row('', 'and then for ever:', '')
+        rows.add_row(f'{moment.number:3}', '; '.join(moment.sentences), _places(moment))
+        if changes and moment.changes:
+            changed = ', '.join(f'{name} = {value}' for name, value in moment.changes.items())
+            rows.add_row('', f'[{changed}]', '')
+    if not evidence.moments:
+        rows.add_row('', 'already the initial state shows it', '')
+    if evidence.ends:
+        rows.add_row('', _ENDS.get(evidence.ends, evidence.ends), '')
+    console.print(Padding(rows, (0, 0, 0, 2)))
+
+
+def _places(moment: Moment) -> str:
+    return ', '.join(dict.fromkeys(str(place) for _, place in moment.places))
+
+
+_ENDS = {
+    'deadlock': 'there nothing can move any more',
+    'idle': 'there it may stay for ever',
+}
