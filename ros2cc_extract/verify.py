@@ -19,12 +19,12 @@ from ros2cc_extract.checker.api import (
     Model,
     Progress,
     Query,
-    Verdict,
     check,
     load_model,
     read_model,
     read_queries,
 )
+from ros2cc_extract.checker.api import Verdict as Verdict
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.evidence import Evidence, Names, tell
 from ros2cc_extract.generator import build

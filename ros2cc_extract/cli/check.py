@@ -51,7 +51,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.output is not None:
         _keep(args, extraction, closed_units, stderr)
     verifications = _verify(args, closed_units, stderr)
-    findings = findings_of(extraction)
+    findings = findings_of(extraction.units, extraction.diagnostics)
     if args.output_format == 'json':
         _print_json(extraction, verifications, findings, stdout)
     else:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
@@ -17,11 +16,11 @@ CODES = {
 UNREADABLE_CODE = 'CC500'
 
 
-def findings_of(extraction: Extraction) -> tuple[Finding, ...]:
+def findings_of(units: Iterable[Spec], diagnostics: Iterable[Diagnostic]) -> tuple[Finding, ...]:
     """All findings, by place and then by code; the order of the units does not matter."""
     found = {
-        *(_of_diagnostic(diagnostic) for diagnostic in extraction.diagnostics),
-        *(finding for unit in extraction.units for finding in _unresolved(unit)),
+        *(_of_diagnostic(diagnostic) for diagnostic in diagnostics),
+        *(finding for unit in units for finding in _unresolved(unit)),
     }
     return tuple(sorted(found, key=lambda finding: (finding.place, finding.code, finding.message)))
 

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.verify import Verdict
 
 LOG_WIDTH = 120
 

@@ -7,10 +7,9 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.padding import Padding
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.evidence import Evidence, Moment
 from ros2cc_extract.report.style import table, verdict_text
-from ros2cc_extract.verify import QueryResult, Verification
+from ros2cc_extract.verify import QueryResult, Verdict, Verification
 
 
 def print_table(verification: Verification, console: Console, *, formulas: bool) -> None:

@@ -1,0 +1,145 @@
+"""The house: which room may import which, no cycles, no room that outgrows its walls."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = 'ros2cc_extract'
+LEAVES = {'errors', 'places', 'diagnostics', 'version'}
+ALLOWED = {
+    'cli': {'*'},
+    'report': {'findings', 'verify', 'spec'},
+    'findings': {'verify', 'spec'},
+    'verify': {'generator', 'checker', 'spec'},
+    'generator': {'spec'},
+    'checker': set(),
+    'spec': set(),
+    'merge': {'spec', 'extract'},
+    'extract': {'spec'},
+    'extract.static': {'spec', 'extract'},
+    'extract.live': {'spec', 'extract'},
+}
+ROOM_OF_MODULE = {'evidence': 'verify', 'verifyta': 'verify'}
+LONGEST_MODULE = 800
+LONGEST_FUNCTION = 60
+
+
+def modules() -> dict[str, Path]:
+    """Dotted name to file, of everything that is installed."""
+    found = {}
+    for folder, prefix in (
+        (ROOT / PACKAGE, PACKAGE),
+        (ROOT / 'generator', f'{PACKAGE}.generator'),
+    ):
+        for path in sorted(folder.rglob('*.py')):
+            parts = path.relative_to(folder).with_suffix('').parts
+            if 'profiles' in parts or 'bootstrap' in parts:
+                continue
+            found['.'.join([prefix, *parts]).removesuffix('.__init__')] = path
+    return found
+
+
+def room(module: str) -> str:
+    parts = module.split('.')[1:]
+    if not parts:
+        return ''
+    if parts[:2] in (['extract', 'static'], ['extract', 'live']):
+        return '.'.join(parts[:2])
+    return ROOM_OF_MODULE.get(parts[0], parts[0])
+
+
+def imports(path: Path, *, top_level: bool) -> Iterator[str]:
+    tree = ast.parse(path.read_text(encoding='utf-8'))
+    nodes = tree.body if top_level else ast.walk(tree)
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f'{path}: relative import'
+            yield node.module or ''
+            yield from (f'{node.module}.{alias.name}' for alias in node.names)
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+
+
+def edges(*, top_level: bool) -> Iterator[tuple[str, str]]:
+    known = modules()
+    for module, path in known.items():
+        for imported in imports(path, top_level=top_level):
+            if imported in known and imported != module:
+                yield module, imported
+
+
+def test_rooms_import_only_what_the_design_allows() -> None:
+    offences = [
+        f'{module} imports {imported}'
+        for module, imported in edges(top_level=False)
+        if not is_allowed(room(module), room(imported))
+    ]
+    assert offences == []
+
+
+def is_allowed(importer: str, imported: str) -> bool:
+    if importer in ('', imported) or imported in LEAVES or imported == '':
+        return True
+    if importer in LEAVES:
+        return False
+    rooms = ALLOWED.get(importer, set())
+    return '*' in rooms or imported in rooms
+
+
+def test_there_is_no_import_cycle() -> None:
+    graph: dict[str, set[str]] = {}
+    for module, imported in edges(top_level=True):
+        graph.setdefault(module, set()).add(imported)
+    assert cycles(graph) == []
+
+
+def cycles(graph: dict[str, set[str]]) -> list[str]:
+    found: list[str] = []
+    finished: set[str] = set()
+
+    def visit(module: str, path: tuple[str, ...]) -> None:
+        if module in path:
+            found.append(' -> '.join((*path[path.index(module) :], module)))
+        elif module not in finished:
+            for imported in sorted(graph.get(module, ())):
+                visit(imported, (*path, module))
+            finished.add(module)
+
+    for module in sorted(graph):
+        visit(module, ())
+    return found
+
+
+def test_cycle_finder_finds_a_cycle() -> None:
+    assert cycles({'a': {'b'}, 'b': {'c'}, 'c': {'a'}}) == ['a -> b -> c -> a']
+
+
+def test_modules_and_functions_stay_small() -> None:
+    too_long = []
+    for path in modules().values():
+        text = path.read_text(encoding='utf-8')
+        if len(text.splitlines()) > LONGEST_MODULE:
+            too_long.append(f'{path.name}: {len(text.splitlines())} lines')
+        too_long += [
+            f'{path.name}:{node.lineno} {node.name}'
+            for node in ast.walk(ast.parse(text))
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+            and length(node) > LONGEST_FUNCTION
+        ]
+    assert too_long == []
+
+
+def length(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
+    """Lines of a function without its docstring."""
+    lines = (node.end_lineno or node.lineno) - node.lineno + 1
+    first = node.body[0]
+    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
+        lines -= (first.end_lineno or first.lineno) - first.lineno + 1
+    return lines
+
+
+def test_packages_have_empty_init_files() -> None:
+    assert [p for p in modules().values() if p.name == '__init__.py' and p.read_text()] == []

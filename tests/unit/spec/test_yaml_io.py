@@ -1,0 +1,198 @@
+"""Reading and writing specifications: identity, and one precise complaint per fault."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+
+import jsonschema
+import pytest
+import yaml
+
+from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import (
+    Access,
+    Act,
+    Blocking,
+    Callback,
+    CallbackGroup,
+    CallbackType,
+    EntityKind,
+    Executor,
+    GroupType,
+    Origin,
+    Spec,
+    collect_unresolved,
+)
+from ros2cc_extract.spec.yaml_io import SPEC, read_specs, write_specs
+
+PUBLISHED = """\
+node:
+  name: "example"
+  callbacks:
+    - name: "TMR1"
+      type: "TMR"
+      callback_group: "G1"
+    - name: "SUB1"
+      type: "SUB"
+      callback_group: "G2"
+  callback_groups:
+    - name: "G1"
+      type: "REENTRANT"
+    - name: "G2"
+      type: "EXCLUSIVE"
+  executor:
+    name: "executor"
+    threads:
+      - name: "thread0"
+      - name: "thread1"
+"""
+AT = Place('arm.py', 42, 9)
+TRICKY = Spec(
+    name='arm',
+    nodes=('arm', 'leg'),
+    origin=Origin.STATIC,
+    sources=('arm.py',),
+    entry='arm.py:main',
+    callbacks=(
+        Callback(
+            name='on_joint',
+            type=CallbackType.SUB,
+            group='g',
+            entity=EntityKind.SUBSCRIPTION,
+            node='arm',
+            function='arm.Arm.on_joint',
+            key=Unknown('a parameter', AT),
+            count=Unknown('loop over a parameter'),
+            conditional=True,
+            source=AT,
+            blocking=(
+                Blocking(call='client.call', on=Unknown('x: y # "z"'), source=AT, chain=(AT, AT)),
+                Blocking(call='time.sleep', seconds=1e-05),
+            ),
+            writes=(Access(name='Arm.x', source=AT, locks=('lock',), update=True),),
+            publishes=(Act(name=Unknown('an expression', AT), source=AT), Act(name='out')),
+        ),
+        Callback(
+            name='tick',
+            type=CallbackType.TMR,
+            group='unresolved_1',
+            entity=EntityKind.TIMER,
+            node=Unknown('which node'),
+            period_s=Unknown('a parameter'),
+            count=3,
+            unresolved=Unknown('made by a factory', AT),
+        ),
+        Callback(name='plain', type=CallbackType.CLT, group='g'),
+    ),
+    groups=(
+        CallbackGroup(name='g', type=GroupType.EXCLUSIVE, default=True, node='arm'),
+        CallbackGroup(
+            name='unresolved_1', type=GroupType.EXCLUSIVE, unresolved=Unknown('an argument', AT)
+        ),
+    ),
+    executor=Executor(name='ex', kind=Unknown('none found', AT), threads=('thread_0',)),
+)
+
+
+def test_published_format_is_read() -> None:
+    (spec,) = read_specs(PUBLISHED, 'example.yaml')
+    assert spec == Spec(
+        name='example',
+        callbacks=(
+            Callback(name='TMR1', type=CallbackType.TMR, group='G1'),
+            Callback(name='SUB1', type=CallbackType.SUB, group='G2'),
+        ),
+        groups=(
+            CallbackGroup(name='G1', type=GroupType.REENTRANT),
+            CallbackGroup(name='G2', type=GroupType.EXCLUSIVE),
+        ),
+        executor=Executor(name='executor', threads=('thread0', 'thread1')),
+    )
+
+
+def test_writing_and_reading_is_the_identity() -> None:
+    text = write_specs([TRICKY, TRICKY])
+    assert read_specs(text, 'x.yaml') == (TRICKY, TRICKY)
+    assert write_specs(read_specs(text, 'x.yaml')) == text
+
+
+def test_unknown_facts_stay_visible() -> None:
+    facts = {(fact.subject, fact.fact): fact.reason for fact in collect_unresolved(TRICKY)}
+    assert facts == {
+        ('on_joint', 'topic'): 'a parameter',
+        ('on_joint', 'count'): 'loop over a parameter',
+        ('tick', 'function'): 'made by a factory',
+        ('tick', 'node'): 'which node',
+        ('tick', 'period'): 'a parameter',
+        ('unresolved_1', 'group'): 'an argument',
+        ('ex', 'executor'): 'none found',
+    }
+
+
+def test_committed_schema_is_the_one_of_the_tables() -> None:
+    committed = files('ros2cc_extract.spec').joinpath('schema.json').read_text(encoding='utf-8')
+    assert json.loads(committed) == SPEC.schema
+
+
+@pytest.mark.parametrize('text', [PUBLISHED, write_specs([TRICKY])])
+def test_what_is_read_fits_the_schema(text: str) -> None:
+    jsonschema.validate(yaml.safe_load(text), SPEC.schema)
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'line', 'what'),
+    [
+        ('  executor:', '  speed: 3\n  executor:', 15, "unknown key 'speed' in 'node'"),
+        ('"SUB1"', '"TMR1"', 7, "duplicate name 'TMR1', first used at line 4"),
+        ('"thread1"', '"G1"', 19, "duplicate name 'G1', first used at line 11"),
+        ('group: "G2"', 'group: "G3"', 9, "callback group 'G3' does not exist"),
+        ('"SUB"', '"Sub"', 8, "'node.callbacks[1].type' is 'Sub'"),
+        ('"REENTRANT"', 'yes', 12, 'must be a text, it is true or false'),
+        ('"SUB1"', 'on', 7, 'must be a text, it is true or false'),
+        ('"SUB1"', '"2nd"', 7, "'2nd' is no UPPAAL identifier"),
+        ('"SUB1"', '"clock"', 7, "'clock' is a UPPAAL keyword"),
+        ('"SUB1"', '"NUM_CB"', 7, "'NUM_CB' is a name of the model itself"),
+        ('      type: "TMR"\n', '', 4, "key 'type' is missing in 'node.callbacks[0]'"),
+        ('"TMR"', '"TMR"\n      type: "SUB"', 6, "key 'type' stands twice"),
+        (
+            '    threads:',
+            '    threads: 3\n    spun:',
+            17,
+            "'node.executor.threads' must be a list",
+        ),
+    ],
+)
+def test_a_fault_is_told_at_its_line(old: str, new: str, line: int, what: str) -> None:
+    assert old in PUBLISHED
+    with pytest.raises(SpecFormatError) as caught:
+        read_specs(PUBLISHED.replace(old, new, 1), 'arm.yaml')
+    assert what in str(caught.value)
+    assert caught.value.place is not None
+    assert (caught.value.place.file, caught.value.place.line) == ('arm.yaml', line)
+    assert caught.value.mend or 'must be' in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ('text', 'message'),
+    [
+        ('', 'arm.yaml: the file is empty; a specification is a YAML mapping with the key node'),
+        ('# nothing\n', 'arm.yaml: the file is empty; a specification is a YAML mapping'),
+        ('- a\n', 'arm.yaml:1:1: the document must be a mapping, it is a list'),
+        ('node: [1\n', 'arm.yaml:2:1: no valid YAML'),
+        ('node: \x01', 'arm.yaml: '),
+        ('node: {}\n', "arm.yaml:1:7: key 'name' is missing in 'node'"),
+        ('[' * 3000, 'arm.yaml'),
+    ],
+)
+def test_what_is_no_specification_is_refused(text: str, message: str) -> None:
+    with pytest.raises(SpecFormatError) as caught:
+        read_specs(text, 'arm.yaml')
+    assert str(caught.value).startswith(message)
+    assert '\n' not in str(caught.value)
+
+
+def test_unknown_version_is_refused() -> None:
+    with pytest.raises(SpecFormatError, match='spec_version 2 is not known'):
+        read_specs('ros2cc: {spec_version: 2}\n' + PUBLISHED, 'arm.yaml')
