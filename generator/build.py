@@ -1,0 +1,128 @@
+"""
+From a closed specification to a complete UPPAAL model and its queries.
+
+Owns the text of the models; the templates under ``profiles/`` are the only description of the
+executor's semantics. Knows nothing of how a model is explored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from ros2cc_extract.generator.queries import Family, Query, build_queries, write_query_file
+from ros2cc_extract.generator.unit import Unit, number_unit
+from ros2cc_extract.spec.close import ClosedSpec
+
+__all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
+
+
+class Profile(Enum):
+    """Whose executor the model describes."""
+
+    PAPER = 'paper'
+
+
+class Text(Enum):
+    """Which of the texts of a profile, equal in verdicts: as published, or with few states."""
+
+    PLAIN = 'plain'
+    COMPACT = 'compact'
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderedModel:
+    """
+    A model ready to be written.
+
+    :param name: name of the unit.
+    :param xml: the complete model, as UPPAAL opens it, queries included.
+    :param queries: in the order of ``q`` and of the queries of ``xml``.
+    :param published: the files of the published tool by file name, to be pasted into the
+        published template.
+    """
+
+    name: str
+    xml: str
+    queries: tuple[Query, ...]
+    q: str
+    published: Mapping[str, str]
+
+
+def render(
+    closed: ClosedSpec,
+    *,
+    profile: Profile = Profile.PAPER,
+    text: Text = Text.PLAIN,
+    max_cycle: int = 1,
+) -> RenderedModel:
+    """
+    Write the model of ``closed``.
+
+    :param max_cycle: how often each callback may become ready, at least 1.
+    :raises ValueError: when ``max_cycle`` is below 1.
+    """
+    if max_cycle < 1:
+        raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
+    unit = number_unit(closed, max_cycle)
+    queries = build_queries(unit, _PREMISE[text])
+    return RenderedModel(
+        name=unit.name,
+        xml=_write_xml(unit, queries, f'{profile.value}/{_FOLDER[text]}'),
+        queries=queries,
+        q=write_query_file(queries),
+        published=_write_published_files(unit),
+    )
+
+
+# Source of the plain premise: query family 7 of the published generator.
+_PREMISE = {
+    Text.PLAIN: '{executor}.schedule_start and {executor}.ready_set_copy[{c}]',
+    Text.COMPACT: '{executor}.schedule_start and {executor}.ready_set_copy[{c}]',
+}
+
+# The compact text is the plain one as long as it has no templates of its own.
+_FOLDER = {Text.PLAIN: 'plain', Text.COMPACT: 'plain'}
+
+
+def _write_xml(unit: Unit, queries: tuple[Query, ...], folder: str) -> str:
+    return _fill(
+        f'{folder}/model.xml.j2',
+        unit=unit,
+        queries=queries,
+        declarations=_fill(f'{folder}/declarations.c.j2', unit=unit),
+        system=_fill(f'{folder}/system.c.j2', unit=unit),
+    )
+
+
+def _write_published_files(unit: Unit) -> Mapping[str, str]:
+    queries = build_queries(unit, _PREMISE[Text.PLAIN])
+    return MappingProxyType(
+        {
+            f'{unit.name}_declarations.c': _fill('paper/plain/declarations.c.j2', unit=unit),
+            f'{unit.name}_system.c': _fill('paper/plain/system.c.j2', unit=unit),
+            f'{unit.name}_query.q': write_query_file(queries),
+        }
+    )
+
+
+def _fill(template: str, **values: object) -> str:
+    return _environment().get_template(template).render(values)
+
+
+@cache
+def _environment() -> Environment:
+    return Environment(
+        loader=FileSystemLoader(Path(__file__).parent / 'profiles'),
+        autoescape=lambda name: name is not None and name.endswith('.xml.j2'),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )

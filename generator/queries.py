@@ -1,0 +1,132 @@
+"""
+The seven query families of the published method, in its generator's order, with words.
+
+Formulas are those of the published tool (DOI 10.1142/S0218194026500439); its table lists the
+last but one family per callback, its generator per group, as here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from itertools import combinations
+
+from ros2cc_extract.generator.unit import Unit, UnitCallback, UnitGroup
+
+
+class Family(Enum):
+    """What a query asks."""
+
+    DEADLOCK = 'deadlock'
+    EXECUTABLE = 'executable'
+    NEVER_TOGETHER = 'never_together'
+    GROUP_CLOSED = 'group_closed_while_running'
+    CAN_OVERLAP = 'can_overlap'
+    GROUP_OPEN = 'group_always_open'
+    STARVATION = 'starvation'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Query:
+    """
+    One question to the model.
+
+    :param words: what is claimed, in the developer's words.
+    :param callbacks: names of the callbacks it is about, in the unit's order.
+    :param groups: names of the groups it is about.
+    """
+
+    family: Family
+    formula: str
+    words: str
+    callbacks: tuple[str, ...] = ()
+    groups: tuple[str, ...] = ()
+
+
+def build_queries(unit: Unit, premise: str) -> tuple[Query, ...]:
+    """
+    List all queries on ``unit`` in the order of the published generator.
+
+    :param premise: when a callback counts as seen ready, for the starvation family; a format
+        string of ``executor`` (its name) and ``c`` (number of the callback).
+    """
+    return (
+        Query(
+            family=Family.DEADLOCK,
+            formula='A[] not deadlock',
+            words='there is no dead-lock: some step is always possible',
+        ),
+        *(_executable(callback) for callback in unit.callbacks),
+        *(_never_together(a, b) for a, b in combinations(unit.callbacks, 2)),
+        *(_group_closed(callback, unit.group_of(callback)) for callback in unit.callbacks),
+        *(_can_overlap(a, b) for a, b in combinations(unit.callbacks, 2)),
+        *(_group_open(group) for group in unit.groups),
+        *(_starvation(callback, unit, premise) for callback in unit.callbacks),
+    )
+
+
+def write_query_file(queries: tuple[Query, ...]) -> str:
+    """Write ``queries`` as a ``.q`` file: each a comment and a formula."""
+    return '\n'.join(_file_entry(query) for query in queries)
+
+
+def _file_entry(query: Query) -> str:
+    return f'/*\n{query.words}\n*/\n{query.formula}\n'
+
+
+def _executable(callback: UnitCallback) -> Query:
+    return Query(
+        family=Family.EXECUTABLE,
+        formula=f'E<> cb_running({callback.index})',
+        words=f'{callback.words} can run',
+        callbacks=(callback.name,),
+    )
+
+
+def _never_together(a: UnitCallback, b: UnitCallback) -> Query:
+    return Query(
+        family=Family.NEVER_TOGETHER,
+        formula=f'A[] not (cb_running({a.index}) and cb_running({b.index}))',
+        words=f'{a.words} and {b.words} never run at the same time',
+        callbacks=(a.name, b.name),
+    )
+
+
+def _group_closed(callback: UnitCallback, group: UnitGroup) -> Query:
+    c = callback.index
+    return Query(
+        family=Family.GROUP_CLOSED,
+        formula=f'A[] cb_running({c}) imply group_closed[cb_group_table[{c}]]',
+        words=f'group {group.name} is closed while {callback.words} runs',
+        callbacks=(callback.name,),
+        groups=(group.name,),
+    )
+
+
+def _can_overlap(a: UnitCallback, b: UnitCallback) -> Query:
+    return Query(
+        family=Family.CAN_OVERLAP,
+        formula=f'E<> (cb_running({a.index}) and cb_running({b.index}))',
+        words=f'{a.words} and {b.words} can run at the same time',
+        callbacks=(a.name, b.name),
+    )
+
+
+def _group_open(group: UnitGroup) -> Query:
+    return Query(
+        family=Family.GROUP_OPEN,
+        formula=f'A[] not group_closed[{group.index}]',
+        words=f'group {group.name} is always open to further threads',
+        groups=(group.name,),
+    )
+
+
+def _starvation(callback: UnitCallback, unit: Unit, premise: str) -> Query:
+    seen_ready = premise.format(executor=unit.executor, c=callback.index)
+    running = f'cb_running({callback.index})'
+    return Query(
+        family=Family.STARVATION,
+        formula=f'({seen_ready} and !{running}) --> {running}',
+        words=f'{callback.words} never starves: once a poll has seen it ready, it runs',
+        callbacks=(callback.name,),
+    )

@@ -1,0 +1,96 @@
+"""A closed specification as the templates see it: names, numbers and types, nothing else."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Callback
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitCallback:
+    """
+    A callback of the model.
+
+    :param index: its place in the model's tables, from 0.
+    :param words: how it is called in text for people.
+    :param group: place of its group.
+    """
+
+    index: int
+    name: str
+    words: str
+    type: str
+    group: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitGroup:
+    """A callback group of the model; ``index`` is its place in the model's tables."""
+
+    index: int
+    name: str
+    type: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unit:
+    """
+    What a model is made of.
+
+    :param max_cycle: how often each callback may become ready.
+    """
+
+    name: str
+    callbacks: tuple[UnitCallback, ...]
+    groups: tuple[UnitGroup, ...]
+    threads: tuple[str, ...]
+    executor: str
+    max_cycle: int
+
+    @property
+    def processes(self) -> tuple[str, ...]:
+        """The instances in system order: executor, threads, groups, callbacks."""
+        groups = tuple(group.name for group in self.groups)
+        callbacks = tuple(callback.name for callback in self.callbacks)
+        return (self.executor, *self.threads, *groups, *callbacks)
+
+    def group_of(self, callback: UnitCallback) -> UnitGroup:
+        """The group of a callback of this unit."""
+        return self.groups[callback.group]
+
+
+def number_unit(closed: ClosedSpec, max_cycle: int) -> Unit:
+    """Give every callback and group of ``closed`` its place, in the order of the spec."""
+    spec = closed.spec
+    places = {group.name: index for index, group in enumerate(spec.groups)}
+    shown = Counter(callback.display_name for callback in spec.callbacks)
+    return Unit(
+        name=spec.name,
+        callbacks=tuple(
+            _number_callback(index, callback, places[callback.group], shown)
+            for index, callback in enumerate(spec.callbacks)
+        ),
+        groups=tuple(
+            UnitGroup(index=index, name=group.name, type=group.type.value)
+            for index, group in enumerate(spec.groups)
+        ),
+        threads=spec.executor.threads,
+        executor=spec.executor.name,
+        max_cycle=max_cycle,
+    )
+
+
+def _number_callback(
+    index: int, callback: Callback, group: int, shown: Counter[str]
+) -> UnitCallback:
+    name = callback.display_name
+    return UnitCallback(
+        index=index,
+        name=callback.name,
+        words=name if shown[name] == 1 else callback.name,
+        type=callback.type.value,
+        group=group,
+    )

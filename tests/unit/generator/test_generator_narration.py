@@ -1,0 +1,59 @@
+import re
+from xml.etree import ElementTree
+
+import pytest
+from generator_units import closed_unit
+
+from ros2cc_extract.generator.build import Text, render
+
+ARM = closed_unit('tick:TMR:a scan:SUB:b', 'a:EXCLUSIVE b:REENTRANT', 2)
+REFERENCE = re.compile(r'\{(?:(?:callback|thread|group) [a-z_\[\]]+|executor)\}')
+
+
+def narration(xml: str, template: str) -> list[str]:
+    """The sentences of one template, in the order of its edges."""
+    root = ElementTree.fromstring(xml.encode())
+    return [
+        label.text or ''
+        for item in root.iter('template')
+        if item.findtext('name') == template
+        for label in item.iter('label')
+        if label.get('kind') == 'comments'
+    ]
+
+
+def test_threads_tell_what_starts_and_ends():
+    assert narration(render(ARM).xml, 'Thread') == [
+        '{callback my_cb_id} starts on {thread id}',
+        '{callback my_cb_id} ends on {thread id}',
+    ]
+
+
+def test_groups_and_callbacks_tell_their_changes():
+    xml = render(ARM).xml
+    assert narration(xml, 'CallbackGroup') == [
+        'group {group id} closes',
+        'group {group id} opens',
+    ]
+    assert narration(xml, 'Callback') == [
+        '{callback id} becomes ready',
+        '{callback id} is no longer ready',
+    ]
+
+
+def test_executor_tells_its_decisions():
+    assert narration(render(ARM).xml, 'Executor') == [
+        '{executor} polls which callbacks are ready',
+        '{executor} waits: all threads are busy',
+        '{executor} goes on: {thread cur_thread_id} is idle',
+        '{executor} assigns {callback cur_cb_id} to {thread cur_thread_id}',
+        '{executor} passes over {callback cur_cb_id}: not ready, or its group is closed',
+    ]
+
+
+@pytest.mark.parametrize('text', Text)
+def test_every_brace_of_a_sentence_is_a_reference(text: Text):
+    xml = render(ARM, text=text).xml
+    for template in ('Callback', 'CallbackGroup', 'Thread', 'Executor'):
+        for sentence in narration(xml, template):
+            assert '{' not in REFERENCE.sub('', sentence), sentence
