@@ -194,9 +194,7 @@ def _edge_shapes(edge: DrawnEdge) -> Iterator[str]:
 
 def _clip(line: tuple[Point, ...]) -> tuple[Point, ...]:
     """Let the line begin and end on the circles instead of in their centres."""
-    return (
-        _toward(line[0], line[1], RADIUS), *line[1:-1], _toward(line[-1], line[-2], RADIUS)
-    )
+    return (_toward(line[0], line[1], RADIUS), *line[1:-1], _toward(line[-1], line[-2], RADIUS))
 
 
 def _toward(start: Point, end: Point, distance: float) -> Point:

@@ -15,7 +15,8 @@ class UnitCallback:
     A callback of the model.
 
     :param index: its place in the model's tables, from 0.
-    :param words: how it is called in text for people.
+    :param words: how it is called in text for people: its function, unless that is ambiguous or
+        has no name of its own (a lambda).
     :param group: place of its group.
     """
 
@@ -86,11 +87,12 @@ def number_unit(closed: ClosedSpec, max_cycle: int) -> Unit:
 def _number_callback(
     index: int, callback: Callback, group: int, shown: Counter[str]
 ) -> UnitCallback:
-    name = callback.display_name
+    function = callback.display_name
+    tells = function.isidentifier() and shown[function] == 1
     return UnitCallback(
         index=index,
         name=callback.name,
-        words=name if shown[name] == 1 else callback.name,
+        words=function if tells else callback.name,
         type=callback.type.value,
         group=group,
     )
