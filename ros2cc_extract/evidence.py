@@ -19,6 +19,18 @@ from ros2cc_extract.spec.model import Spec
 _PHRASE = re.compile(r'\{(callback|thread|group|executor)(?:\s+([^{}]+))?\}')
 
 
+@dataclass(frozen=True)
+class Sentence:
+    """
+    What one process does in a step.
+
+    :param lane: name of the process whose edge it is: a thread, the executor, a group …
+    """
+
+    lane: str
+    text: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Moment:
     """
@@ -31,7 +43,7 @@ class Moment:
     """
 
     number: int
-    sentences: tuple[str, ...]
+    sentences: tuple[Sentence, ...]
     places: tuple[tuple[str, Place], ...]
     changes: Mapping[str, int | str]
 
@@ -41,10 +53,12 @@ class Evidence:
     """
     A run that shows why a verdict is as it is.
 
+    :param start: location of every process before the first moment.
     :param cycle_from: number of the moment from which the run repeats for ever.
     :param ends: how a run without a cycle ends for good (``deadlock``, ``idle``), if it does.
     """
 
+    start: Mapping[str, str]
     moments: tuple[Moment, ...]
     cycle_from: int | None
     ends: str | None
@@ -91,7 +105,11 @@ def tell(run: Run, names: Names) -> Evidence:
             cycle_from = len(moments) + 1
         changes |= _changes(before, step.state)
         before = step.state
-        sentences = tuple(text for edge in step.edges if (text := phrase(edge, step.state)))
+        sentences = tuple(
+            Sentence(edge.process, text)
+            for edge in step.edges
+            if (text := phrase(edge, step.state))
+        )
         if sentences:
             places = tuple(_places(sentences, names))
             moments.append(
@@ -102,7 +120,12 @@ def tell(run: Run, names: Names) -> Evidence:
             changes = {}
     if cycle_from is not None and cycle_from > len(moments):
         cycle_from = None
-    return Evidence(moments=tuple(moments), cycle_from=cycle_from, ends=run.ends)
+    return Evidence(
+        start=dict(run.initial.locations),
+        moments=tuple(moments),
+        cycle_from=cycle_from,
+        ends=run.ends,
+    )
 
 
 Phrase = Callable[[EdgeRef, StateView], str]
@@ -126,8 +149,8 @@ def _located(edge: EdgeRef, state: StateView) -> str:
     return f'{edge.process}: {edge.source} -> {edge.target}{channel}'
 
 
-def _places(sentences: tuple[str, ...], names: Names) -> Iterator[tuple[str, Place]]:
-    words = [word for sentence in sentences for word in re.findall(r'\w+', sentence)]
+def _places(sentences: tuple[Sentence, ...], names: Names) -> Iterator[tuple[str, Place]]:
+    words = [word for sentence in sentences for word in re.findall(r'\w+', sentence.text)]
     for name in dict.fromkeys(words):
         if name in names.places:
             yield name, names.places[name]

@@ -70,7 +70,8 @@ def evidence_data(evidence: Evidence) -> list[Data]:
     return [
         {
             'step': moment.number,
-            'text': list(moment.sentences),
+            'text': [sentence.text for sentence in moment.sentences],
+            'lanes': [sentence.lane for sentence in moment.sentences],
             'places': {name: str(place) for name, place in moment.places},
             'changes': dict(moment.changes),
             **({'cycle_start': True} if moment.number == evidence.cycle_from else {}),

@@ -61,7 +61,11 @@ def _print_run(evidence: Evidence, console: Console, *, changes: bool) -> None:
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
             rows.add_row('', 'and then for ever:', '')
-        rows.add_row(f'{moment.number:3}', '; '.join(moment.sentences), _places(moment))
+        rows.add_row(
+            f'{moment.number:3}',
+            '; '.join(sentence.text for sentence in moment.sentences),
+            _places(moment),
+        )
         if changes and moment.changes:
             changed = ', '.join(f'{name} = {value}' for name, value in moment.changes.items())
             rows.add_row('', f'[{changed}]', '')

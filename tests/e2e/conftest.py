@@ -1,0 +1,41 @@
+"""Runs the installed command as a user would: a process of its own, in a folder of its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / 'launch_free_examples'
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run of the command left."""
+
+    status: int
+    out: str
+    err: str
+
+
+Run = Callable[..., Outcome]
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    def runner(*arguments: object, cwd: Path = tmp_path) -> Outcome:
+        done = subprocess.run(
+            [sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
+            cwd=cwd,
+            capture_output=True,
+            timeout=120,
+            check=False,
+        )
+        return Outcome(done.returncode, done.stdout.decode(), done.stderr.decode())
+
+    return runner

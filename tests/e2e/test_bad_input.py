@@ -1,0 +1,143 @@
+"""Bad input: one line with place and mend, status 2, no traceback, nothing left behind."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.e2e.conftest import EXAMPLES, Run
+
+NODE = EXAMPLES / 'two_groups' / 'node.py'
+PYTHON_2 = "class A:\n    def f(self):\n        print 'hello'\n"
+MODEL = """<?xml version="1.0" encoding="utf-8"?>
+<nta><declaration>int[0,3] v;</declaration>
+<template><name>T</name><location id="id0"><name>a</name></location><init ref="id0"/></template>
+<system>p = T(); system p;</system></nta>
+"""
+
+
+def assert_refused(outcome: object, *parts: str) -> None:
+    status, out, err = outcome.status, outcome.out, outcome.err  # type: ignore[attr-defined]
+    assert status == 2, err
+    assert 'Traceback' not in out + err
+    for part in parts:
+        assert part in out + err
+
+
+def test_missing_file(run: Run) -> None:
+    outcome = run('nowhere.py')
+    assert_refused(outcome, 'nowhere.py')
+    assert len(outcome.err.splitlines()) == 1
+
+
+def test_directory_without_python(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'empty').mkdir()
+    outcome = run('empty')
+    assert_refused(outcome, 'empty')
+    assert len(outcome.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ('name', 'content', 'place'),
+    [
+        ('broken.py', b'import rclpy\ndef f(:\n', 'broken.py:2'),
+        ('python2.py', b'import rclpy\n' + PYTHON_2.encode(), 'python2.py:4'),
+        ('binary.py', bytes(range(256)) * 40 + b'rclpy', 'binary.py'),
+    ],
+)
+def test_file_that_does_not_parse(
+    run: Run, tmp_path: Path, name: str, content: bytes, place: str
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    assert_refused(run(name), place)
+    assert_refused(run('spec', name), place)
+
+
+def test_one_broken_file_does_not_hide_the_others(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'broken.py').write_text('import rclpy\ndef f(:\n')
+    (tmp_path / 'node.py').write_text(NODE.read_text())
+    outcome = run('spec', '.')
+    assert outcome.status == 2
+    assert 'broken.py:2' in outcome.err
+    assert 'callback_groups:' in outcome.out
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason='root reads every file')
+def test_unreadable_file(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / 'secret.py'
+    path.write_text('import rclpy\n')
+    path.chmod(0)
+    assert_refused(run('secret.py'), 'secret.py')
+
+
+def test_empty_file_holds_no_node(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'nothing.py').write_text('')
+    outcome = run('nothing.py')
+    assert (outcome.status, outcome.err) == (0, '')
+
+
+def test_five_megabytes_of_generated_code(run: Run, tmp_path: Path) -> None:
+    body = ''.join(f'x{i} = {{"key": [{i}, {i} + 1, "text"]}}\n' for i in range(150_000))
+    (tmp_path / 'big.py').write_text(NODE.read_text() + '\n' + body)
+    outcome = run('spec', 'big.py')
+    assert 'Traceback' not in outcome.err
+    assert 'callback_groups:' in outcome.out or 'big.py' in outcome.err
+
+
+@pytest.mark.parametrize(
+    ('text', 'parts'),
+    [
+        ('', ('model.xml',)),
+        ('<html><body/></html>', ('model.xml:1',)),
+        ('<nta><declaration>', ('model.xml:1',)),
+        ('no xml at all', ('model.xml:1',)),
+        (MODEL.replace('int[0,3] v;', 'clock x;'), ('model.xml:2', 'clock')),
+        (MODEL.replace('int[0,3] v;', 'double d;'), ('model.xml:2', 'double')),
+        (MODEL.replace('T();', 'T(3);'), ('model.xml:4',)),
+    ],
+)
+def test_model_that_cannot_be_used(
+    run: Run, tmp_path: Path, text: str, parts: tuple[str, ...]
+) -> None:
+    (tmp_path / 'model.xml').write_text(text)
+    (tmp_path / 'q.q').write_text('A[] not deadlock\n')
+    outcome = run('verify', 'model.xml', 'q.q')
+    assert_refused(outcome, *parts)
+    assert len(outcome.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ('query', 'part'),
+    [
+        ('E<> nobody.a', 'nobody'),
+        ('E<> p.b', 'b'),
+        ('E<> (p.a', 'q.q:1'),
+        ('A[] p.a == ', 'q.q:1'),
+    ],
+)
+def test_query_that_cannot_be_used(run: Run, tmp_path: Path, query: str, part: str) -> None:
+    (tmp_path / 'model.xml').write_text(MODEL)
+    (tmp_path / 'q.q').write_text(query + '\n')
+    assert_refused(run('verify', 'model.xml', 'q.q'), part)
+
+
+def test_model_without_queries(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'model.xml').write_text(MODEL)
+    assert_refused(run('verify', 'model.xml'), 'no query found', 'name a .q file')
+
+
+@pytest.mark.parametrize('command', ['model', 'check'])
+def test_output_folder_that_is_a_file(run: Run, tmp_path: Path, command: str) -> None:
+    (tmp_path / 'taken').write_text('mine')
+    assert_refused(run(command, NODE, '-o', 'taken'), 'taken')
+    assert (tmp_path / 'taken').read_text() == 'mine'
+
+
+@pytest.mark.parametrize(
+    'arguments',
+    [('verify', 'x.yaml', '--threads', '0'), ('check', '--nonsense'), ('verify',), ()],
+)
+def test_wrong_usage(run: Run, arguments: tuple[str, ...]) -> None:
+    assert run(*arguments).status == 2

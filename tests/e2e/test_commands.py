@@ -1,0 +1,105 @@
+"""The commands as a user types them, on real example nodes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+import yaml
+
+from ros2cc_extract.cli.main import COMMANDS
+from ros2cc_extract.spec.yaml_io import SPEC
+from tests.e2e.conftest import EXAMPLES, Run
+
+CASE_1 = EXAMPLES / 'paper_case1' / 'node.py'
+
+
+@pytest.mark.parametrize('command', [*COMMANDS, ''])
+def test_help_tells_the_arguments(run: Run, command: str) -> None:
+    outcome = run(*([command] if command else []), '--help')
+    assert outcome.status == 0
+    assert outcome.out.startswith('usage: ros2cc-extract')
+
+
+def test_spec_is_one_valid_document_per_unit(run: Run) -> None:
+    outcome = run('spec', CASE_1)
+    assert outcome.status == 0
+    (document,) = yaml.safe_load_all(outcome.out)
+    jsonschema.validate(document, SPEC.schema)
+    assert [c['type'] for c in document['node']['callbacks']] == ['TMR', 'TMR', 'SUB', 'SUB']
+
+
+def test_model_writes_what_uppaal_and_the_published_tool_need(run: Run, tmp_path: Path) -> None:
+    outcome = run('model', CASE_1, '-o', 'out')
+    assert outcome.status == 0
+    names = sorted(path.name for path in (tmp_path / 'out').iterdir())
+    unit = 'paper_case1'
+    assert names == [
+        f'{unit}.q',
+        f'{unit}.xml',
+        f'{unit}_declarations.c',
+        f'{unit}_query.q',
+        f'{unit}_system.c',
+    ]
+
+
+def test_verify_reads_the_model_that_model_wrote(run: Run) -> None:
+    run('model', CASE_1, '-o', 'out')
+    from_source = json.loads(run('verify', CASE_1, '--output-format', 'json').out)
+    outcome = run(
+        'verify',
+        'out/paper_case1.xml',
+        'out/paper_case1.q',
+        '--output-format',
+        'json',
+    )
+    from_model = json.loads(outcome.out)
+    assert outcome.status == 0
+    for key in ('states', 'transitions', 'complete'):
+        assert from_model[key] == from_source[key]
+    assert [q['verdict'] for q in from_model['queries']] == [
+        q['verdict'] for q in from_source['queries']
+    ]
+
+
+def test_check_prints_units_verdicts_and_runs(run: Run) -> None:
+    outcome = run(CASE_1)
+    assert outcome.status == 0
+    assert 'unit paper_case1: SingleThreadedExecutor, 1 thread' in outcome.out
+    assert 'on_timer_a' in outcome.out
+    assert 'counterexample' in outcome.out
+    assert '/paper_case1/node.py:' in outcome.out
+
+
+def test_check_keeps_what_it_made(run: Run, tmp_path: Path) -> None:
+    run(CASE_1, '-o', 'kept')
+    names = {path.name for path in (tmp_path / 'kept').iterdir()}
+    assert {'paper_case1.spec.yaml', 'paper_case1.xml', 'paper_case1.q'} <= names
+
+
+def test_a_limit_gives_undecided_and_status_3(run: Run) -> None:
+    outcome = run('verify', CASE_1, '--max-states', '50', '--output-format', 'json')
+    data = json.loads(outcome.out)
+    assert outcome.status == 3
+    assert data['complete'] is False
+    assert {q['verdict'] for q in data['queries']} <= {
+        'satisfied',
+        'not satisfied',
+        'undecided',
+    }
+    assert 'undecided' in {q['verdict'] for q in data['queries']}
+
+
+def test_json_of_check_holds_everything(run: Run) -> None:
+    outcome = run(CASE_1, '--output-format', 'json')
+    data = json.loads(outcome.out)
+    assert set(data) == {'units', 'verdicts', 'findings', 'summary'}
+    assert data['summary']['units'] == 1
+    assert len(data['verdicts'][0]['queries']) == 26
+
+
+def test_the_same_input_gives_the_same_output(run: Run) -> None:
+    first, second = (run('spec', EXAMPLES).out for _ in range(2))
+    assert first == second != ''
