@@ -18,11 +18,12 @@ UNREADABLE_CODE = 'CC500'
 
 def findings_of(units: Iterable[Spec], diagnostics: Iterable[Diagnostic]) -> tuple[Finding, ...]:
     """All findings, by place and then by code; the order of the units does not matter."""
-    found = {
+    found = [
         *(_of_diagnostic(diagnostic) for diagnostic in diagnostics),
         *(finding for unit in units for finding in _unresolved(unit)),
-    }
-    return tuple(sorted(found, key=lambda finding: (finding.place, finding.code, finding.message)))
+    ]
+    by_identity = {(f.place, f.code, f.message): f for f in found}
+    return tuple(by_identity[identity] for identity in sorted(by_identity))
 
 
 def _of_diagnostic(diagnostic: Diagnostic) -> Finding:
@@ -43,4 +44,6 @@ def _unresolved(unit: Spec) -> Iterator[Finding]:
             severity=Severity.NOTE,
             place=fact.source or Place(unit.sources[0] if unit.sources else unit.name),
             message=f'{fact.fact} of {fact.subject} not resolved: {fact.reason}',
+            unit=unit.name,
+            subjects=(fact.subject,),
         )

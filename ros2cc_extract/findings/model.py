@@ -1,11 +1,20 @@
-"""What we tell a developer about his node: one finding at one line."""
+"""What we tell a developer about his node: one finding at one line, with what shows it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.places import Place
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A place that belongs to a finding, with what happens there."""
+
+    place: Place
+    text: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,7 +24,13 @@ class Finding:
 
     :param code: of the rule, ``CC101``.
     :param severity: a note never changes the exit status.
-    :param evidence: lines of the shortest evidence, empty where the line itself is it.
+    :param unit: name of the verification unit it is about; ``None`` for a file as such.
+    :param subjects: names of the callbacks, groups or executors concerned; they identify the
+        finding across edits that move lines.
+    :param chain: calls that lead to ``place``, outermost first.
+    :param related: other places to look at, such as where a group was made.
+    :param run: a run of the model that shows it.
+    :param help: how to mend it, in one clause.
     """
 
     code: str
@@ -23,4 +38,8 @@ class Finding:
     place: Place
     message: str
     help: str = ''
-    evidence: tuple[str, ...] = ()
+    unit: str | None = None
+    subjects: tuple[str, ...] = ()
+    chain: tuple[Remark, ...] = ()
+    related: tuple[Remark, ...] = ()
+    run: Evidence | None = None

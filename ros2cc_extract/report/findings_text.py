@@ -24,8 +24,8 @@ def print_findings(findings: Sequence[Finding], root: Path, console: Console) ->
         console.print(head, soft_wrap=True)
         for line in source_excerpt(finding.place, root):
             console.print(line, soft_wrap=True)
-        for line in finding.evidence:
-            console.print(f'      {line}', soft_wrap=True)
+        for remark in (*finding.chain, *finding.related):
+            console.print(f'  {remark.place}: {remark.text}', soft_wrap=True)
         if finding.help:
             console.print(f'  help: {finding.help}', soft_wrap=True)
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ros2cc_extract.evidence import Evidence
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
 from ros2cc_extract.verify import QueryResult, Verification
@@ -89,5 +89,19 @@ def _finding_data(finding: Finding) -> Data:
         'column': finding.place.column,
         'message': finding.message,
         'help': finding.help,
-        'evidence': list(finding.evidence),
+        'unit': finding.unit,
+        'subjects': list(finding.subjects),
+        'evidence': _finding_evidence(finding),
     }
+
+
+def _finding_evidence(finding: Finding) -> Data:
+    return {
+        'chain': [_remark_data(remark) for remark in finding.chain],
+        'related': [_remark_data(remark) for remark in finding.related],
+        'run': evidence_data(finding.run) if finding.run else None,
+    }
+
+
+def _remark_data(remark: Remark) -> Data:
+    return {'place': str(remark.place), 'text': remark.text}
