@@ -4,11 +4,13 @@ Battery watch: a subscription, a timer and a service, none of which names a grou
 All three share the node's default group with the parameter services that every node carries.
 """
 import argparse
+import signal
 import threading
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -46,16 +48,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     try:
-        rclpy.spin(BatteryWatch())
+        node = BatteryWatch()
+        rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
 
 

@@ -5,12 +5,14 @@ The helper is no node: its timer and subscription belong to the node, in the gro
 chose. A second helper is given no group, so its entities go to the node's default group.
 """
 import argparse
+import signal
 import threading
 
 import rclpy
 from rclpy.callback_groups import CallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from std_msgs.msg import Empty
 
 
@@ -47,9 +49,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     try:
@@ -59,6 +62,7 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
 
 

@@ -5,12 +5,14 @@ Messages of two robots may be handled at the same time, two messages of one robo
 summary timer stays in the node's default group.
 """
 import argparse
+import signal
 import threading
 
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from std_msgs.msg import String
 
 ROBOTS = ('alpha', 'beta', 'gamma')
@@ -40,9 +42,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     try:
@@ -52,6 +55,7 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
 
 

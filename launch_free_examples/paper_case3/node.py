@@ -5,6 +5,7 @@ Two timers fire every second. The subscription to msg_C works for one second a m
 to msg_D for two. All four run side by side, also with themselves.
 """
 import argparse
+import signal
 import subprocess
 import sys
 import threading
@@ -15,6 +16,7 @@ import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from std_msgs.msg import String
 
 PUBLISHER = Path(__file__).resolve().parents[1] / 'paper_publisher' / 'node.py'
@@ -55,9 +57,10 @@ def main() -> None:
     parser.add_argument('--with-publisher', action='store_true',
                         help='start the publisher of msg_C and msg_D as a child process')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     publisher = None
@@ -70,6 +73,7 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
         if publisher is not None:
             publisher.terminate()

@@ -1,10 +1,12 @@
 """Publish msg_C every second and msg_D every two seconds: the environment of the paper cases."""
 import argparse
+import signal
 import threading
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from std_msgs.msg import String
 
 
@@ -30,16 +32,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     try:
-        rclpy.spin(PaperPublisher())
+        node = PaperPublisher()
+        rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
 
 

@@ -5,11 +5,13 @@ Server and client live in two nodes on one thread. The timer only sends the requ
 so the same thread is free to serve it and to take the answer.
 """
 import argparse
+import signal
 import threading
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from rclpy.task import Future
 from std_srvs.srv import SetBool
 
@@ -55,9 +57,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
     options, ros_arguments = parser.parse_known_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)
     if options.seconds is not None:
-        limit = threading.Timer(options.seconds, rclpy.try_shutdown)
+        limit = threading.Timer(options.seconds, signal.raise_signal, [signal.SIGINT])
         limit.daemon = True
         limit.start()
     try:
@@ -68,6 +71,7 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        uninstall_signal_handlers()
         rclpy.try_shutdown()
 
 

@@ -1,0 +1,76 @@
+"""Child processes of the live tests: isolated, watched, and cleaned up by process group."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import IO
+
+WATCHDOG_S = 60.0
+
+
+class Child:
+    """A process whose output, stdout and stderr together, is read line by line."""
+
+    def __init__(
+        self, command: Sequence[str], env: Mapping[str, str], pass_fds: Sequence[int] = ()
+    ) -> None:
+        self.lines: list[str] = []
+        self.process = subprocess.Popen(
+            command,
+            env={**env, 'PYTHONUNBUFFERED': '1'},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            pass_fds=pass_fds,
+            start_new_session=True,
+            text=True,
+        )
+        self._watchdog = threading.Timer(WATCHDOG_S, self._kill)
+        self._watchdog.daemon = True
+        self._watchdog.start()
+
+    def close(self) -> None:
+        """Kill what is left of the process and its children."""
+        self._kill()
+        self._watchdog.cancel()
+        self._stdout.close()
+        self.process.wait()
+
+    def read_until(self, satisfied: Callable[[list[str]], bool]) -> list[str]:
+        """
+        Read output until ``satisfied`` holds of all lines so far.
+
+        :raises AssertionError: when the process ends, or the watchdog ends it, before that.
+        """
+        while not satisfied(self.lines):
+            line = self._stdout.readline()
+            assert line, f'ended too early, having said:\n{"".join(self.lines)}'
+            self.lines.append(line)
+        return self.lines
+
+    def end(self, signal_number: signal.Signals | None = None) -> int:
+        """Send a signal if one is given, read the rest of the output, give the exit status."""
+        if signal_number is not None:
+            self.process.send_signal(signal_number)
+        self.lines.extend(self._stdout)
+        return self.process.wait()
+
+    @property
+    def text(self) -> str:
+        return ''.join(self.lines)
+
+    @property
+    def _stdout(self) -> IO[str]:
+        assert self.process.stdout is not None
+        return self.process.stdout
+
+    def _kill(self) -> None:
+        """Kill whatever is left of the session that this process leads."""
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            return

@@ -1,0 +1,44 @@
+"""The examples end by themselves, without a word, however it is asked to."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+
+import pytest
+from child import Child
+
+Start = Callable[..., Child]
+# What rclpy or the interpreter say when something went wrong at the end.
+COMPLAINTS = ('Traceback', 'Exception', 'InvalidHandle')
+
+# An example for each way of being run, with what it says while it runs: rclpy.spin, one thread,
+# several threads, blocked workers.
+ONE_OF_EACH_KIND = {
+    'paper_case1': 'timer A',
+    'service_and_client': 'gripper is',
+    'two_groups': 'planned',
+    'service_deadlock': 'asks for the map',
+}
+
+
+def is_clean(child: Child) -> bool:
+    return not any(complaint in child.text for complaint in COMPLAINTS)
+
+
+@pytest.mark.parametrize('name', ONE_OF_EACH_KIND)
+def test_example_ends_after_its_run_time(name: str, start_example: Start) -> None:
+    child = start_example(name, '--seconds', '0.6')
+    assert child.end() == 0, child.text
+    assert is_clean(child), child.text
+
+
+@pytest.mark.parametrize('asked', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(('name', 'said'), ONE_OF_EACH_KIND.items())
+def test_example_ends_by_signal(
+    name: str, said: str, asked: signal.Signals, start_example: Start
+) -> None:
+    child = start_example(name)
+    child.read_until(lambda lines: said in lines[-1] if lines else False)
+    assert child.end(asked) == 0, child.text
+    assert is_clean(child), child.text
