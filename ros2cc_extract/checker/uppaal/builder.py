@@ -114,8 +114,9 @@ class TreeBuilder(Transformer):  # type: ignore[type-arg,misc]
         return syntax.Declarator(_line(name), str(name), tuple(children[1:]), initial)
 
     def initial(self, children: Children) -> syntax.Initial:
-        if len(children) == 1 and isinstance(children[0], syntax.Expression):
-            return children[0]
+        return children[0]  # type: ignore[no-any-return]
+
+    def initial_list(self, children: Children) -> syntax.Initial:
         return tuple(children)
 
     def variables(self, children: Children) -> syntax.Variables:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import importlib.resources
+import re
 from enum import Enum
 from typing import Any
 
@@ -44,6 +45,10 @@ _OUTSIDE = {
     '.': 'floating-point numbers',
     "'": 'clock rates',
 }
+
+
+_WORD = re.compile(r'\w+|\S')
+_LAST_WORD = re.compile(r'(\w+|\S)\s*$')
 
 
 class Start(Enum):
@@ -99,34 +104,28 @@ def _nesting_error(error: NestingError, place: Place) -> ModelFormatError:
 
 
 def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelFormatError:
-    if isinstance(error, UnexpectedToken) and error.token.type != '$END':
-        found, line = str(error.token), error.line
-    elif isinstance(error, UnexpectedCharacters):
-        found, line = _word_at(text, error.line - place.line, error.column - 1), error.line
-    else:
+    if isinstance(error, UnexpectedToken) and error.token.type == '$END':
         last = place.line + text.rstrip().count('\n')
         what = 'syntax error: the text ends too early'
         return ModelFormatError(what, Place(place.file, last), 'complete it')
-    at = Place(place.file, line)
-    words = [found, *_neighbours(text, line - place.line, found)]
-    for word in words:
-        if word in _OUTSIDE:
-            what = f'{_OUTSIDE[word]} are outside the supported subset of UPPAAL'
+    assert isinstance(error, (UnexpectedToken, UnexpectedCharacters))
+    at = Place(place.file, error.line)
+    line = text.split('\n')[error.line - place.line]
+    before, rest = line[: error.column - 1], line[error.column - 1 :]
+    found = _WORD.match(rest)
+    word = found[0] if found else 'end of line'
+    previous = _LAST_WORD.search(before)
+    for suspect in (word, previous[0].strip() if previous else ''):
+        if suspect in _OUTSIDE:
+            what = f'{_OUTSIDE[suspect]} are outside the supported subset of UPPAAL'
             return ModelFormatError(what, at, MEND_SUBSET)
-    return ModelFormatError(f'syntax error at {found!r}', at, 'correct the text there')
+    return ModelFormatError(f'syntax error at {word!r}', at, _mend(word, line))
 
 
-def _word_at(text: str, line: int, column: int) -> str:
-    lines = text.split('\n')
-    rest = lines[line][column:] if line < len(lines) else ''
-    return rest[:1] or 'end of line'
-
-
-def _neighbours(text: str, line: int, found: str) -> list[str]:
-    """Return the word before ``found``: an unknown keyword is read as a name at first."""
-    lines = text.split('\n')
-    before = lines[line].partition(found)[0].split() if line < len(lines) else []
-    return before[-1:]
+def _mend(word: str, line: str) -> str:
+    if word == '<' and line.lstrip().startswith('system'):
+        return 'process priorities are outside the supported subset; separate by commas'
+    return 'correct the text there'
 
 
 def parse_query(text: str, place: Place) -> syntax.Query:

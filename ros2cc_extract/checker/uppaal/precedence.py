@@ -128,9 +128,7 @@ def _reduce_while(
 
 def _balanced(operator: Operator, terms: list[syntax.Expression]) -> syntax.Expression:
     while len(terms) > 1:
-        pairs = [
-            _infixed(operator, terms[i], terms[i + 1]) for i in range(0, len(terms) - 1, 2)
-        ]
+        pairs = [_infixed(operator, terms[i], terms[i + 1]) for i in range(0, len(terms) - 1, 2)]
         terms = pairs + terms[len(terms) - len(terms) % 2 :]
     return terms[0]
 

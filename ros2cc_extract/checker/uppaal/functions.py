@@ -1,0 +1,413 @@
+"""
+Elaborates functions and calls.
+
+A function becomes code once for each set of variables its reference parameters stand for. A body
+that is one ``return`` is put in place of the call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ros2cc_extract.checker.network import (
+    Assign,
+    Call,
+    Const,
+    Element,
+    Evaluate,
+    Expr,
+    ForRange,
+    Function,
+    If,
+    Return,
+    Site,
+    Stmt,
+    Var,
+    While,
+)
+from ros2cc_extract.checker.uppaal import syntax
+from ros2cc_extract.checker.uppaal.arithmetic import TRUE, const, has_effect, is_atomic, walk
+from ros2cc_extract.checker.uppaal.expressions import Expressions
+from ros2cc_extract.checker.uppaal.types import (
+    ArrayType,
+    FunctionSymbol,
+    IntType,
+    Reference,
+    Scope,
+    Storage,
+    Type,
+    TypeSymbol,
+    ValueSymbol,
+    default_value,
+    size_of,
+)
+from ros2cc_extract.errors import ModelFormatError
+
+_MAX_FRAME = 65536
+
+
+@dataclass(eq=False)
+class _Frame:
+    """Local slots of the function being elaborated, and what it returns."""
+
+    name: str
+    returns: IntType | None
+    slots: int = 0
+
+    def allocate(self, count: int, scope: Scope, line: int) -> int:
+        base = self.slots
+        self.slots += count
+        if self.slots > _MAX_FRAME:
+            raise ModelFormatError(
+                f'{self.name} has more than {_MAX_FRAME} local values',
+                scope.place(line),
+                'make the arrays smaller',
+            )
+        return base
+
+
+class FunctionCompiler:
+    """Calls and the functions they need; one instance per model."""
+
+    def __init__(self, expressions: Expressions) -> None:
+        self._expressions = expressions
+        self._tables = expressions.tables
+        self._known: dict[tuple[object, ...], tuple[int, IntType | None]] = {}
+        self._open: list[FunctionSymbol] = []
+
+    def call(self, node: syntax.Call, scope: Scope) -> Expr:
+        """Elaborate a call."""
+        place = scope.place(node.line)
+        symbol = scope.find(node.function.name) if isinstance(node.function, syntax.Name) else None
+        if not isinstance(symbol, FunctionSymbol):
+            name = getattr(node.function, 'name', 'the expression')
+            raise ModelFormatError(f'{name!r} is no function', place, 'declare it as one')
+        function = symbol.function
+        if len(node.arguments) != len(function.parameters):
+            what = f'{function.name} takes {len(function.parameters)} arguments'
+            raise ModelFormatError(what, place, f'{len(node.arguments)} are given')
+        if symbol in self._open:
+            raise ModelFormatError(
+                f'{function.name} calls itself', place, 'recursion is not allowed; use a loop'
+            )
+        references, values = self._arguments(node, symbol, scope)
+        self._open.append(symbol)
+        try:
+            inlined = self._inlined(symbol, references, values)
+            return inlined or self._real_call(symbol, references, values)
+        finally:
+            self._open.pop()
+
+    def _arguments(
+        self, node: syntax.Call, symbol: FunctionSymbol, scope: Scope
+    ) -> tuple[dict[str, Reference], dict[str, tuple[IntType, Expr]]]:
+        references: dict[str, Reference] = {}
+        values: dict[str, tuple[IntType, Expr]] = {}
+        for parameter, argument in zip(symbol.function.parameters, node.arguments, strict=True):
+            declared = self.parameter_type(parameter, symbol.scope)
+            if parameter.is_reference:
+                found = self._expressions.reference(argument, scope)
+                references[parameter.name] = self.bound(parameter, declared, found, scope, node)
+            elif isinstance(declared, IntType):
+                value = self._expressions.value(argument, scope)
+                name = f'parameter {parameter.name} of {symbol.function.name}'
+                coerced = self._expressions.coerced(value, declared, name, scope, node.line)
+                values[parameter.name] = declared, coerced
+            else:
+                raise ModelFormatError(
+                    f'parameter {parameter.name} takes a copy of an array or channel',
+                    symbol.scope.place(parameter.line),
+                    'write & before its name',
+                )
+        return references, values
+
+    def parameter_type(self, parameter: syntax.Parameter, scope: Scope) -> Type:
+        """Return the declared type of a parameter."""
+        base = self._expressions.type_of(parameter.type, scope)
+        return self._expressions.array_type(base, parameter.dimensions, scope)
+
+    def bound(
+        self,
+        parameter: syntax.Parameter,
+        declared: Type,
+        argument: Reference,
+        scope: Scope,
+        node: syntax.Call | syntax.Instantiation,
+    ) -> Reference:
+        """Return what a reference parameter stands for, its type checked."""
+        is_same = type(declared) is type(argument.type) and size_of(declared) == size_of(
+            argument.type
+        )
+        mend = None if is_same else 'its type differs from the parameter'
+        if argument.storage is Storage.LOCAL:
+            mend = 'local variables cannot be passed by reference'
+        if not isinstance(argument.offset, Const):
+            mend = 'its index is not constant'
+        if mend:
+            raise ModelFormatError(
+                f'{argument.name} cannot stand for parameter {parameter.name}',
+                scope.place(node.line),
+                mend,
+            )
+        is_const = 'const' in parameter.type.prefixes
+        return Reference(
+            parameter.name,
+            argument.storage,
+            argument.type,
+            argument.base,
+            argument.length,
+            argument.offset,
+            argument.values,
+            is_const or argument.is_read_only,
+        )
+
+    # -- calls ---------------------------------------------------------------------------
+    def _inlined(
+        self,
+        symbol: FunctionSymbol,
+        references: dict[str, Reference],
+        values: dict[str, tuple[IntType, Expr]],
+    ) -> Expr | None:
+        body = symbol.function.body
+        if body.declarations or len(body.statements) != 1:
+            return None
+        only = body.statements[0]
+        if not isinstance(only, syntax.Return) or only.value is None:
+            return None
+        if not all(is_atomic(value) for _, value in values.values()):
+            return None
+        scope = symbol.scope.inner()
+        scope.names.update(references)
+        for name, (declared, value) in values.items():
+            scope.names[name] = ValueSymbol(declared, value)
+        result = self._expressions.value(only.value, scope)
+        returns = self._return_type(symbol)
+        if returns is None or has_effect(result, self._tables.functions):
+            return None
+        return self._expressions.coerced(result, returns, symbol.function.name, scope, only.line)
+
+    def _real_call(
+        self,
+        symbol: FunctionSymbol,
+        references: dict[str, Reference],
+        values: dict[str, tuple[IntType, Expr]],
+    ) -> Expr:
+        key = (symbol, *((r.storage, r.base, r.offset) for r in references.values()))
+        if key not in self._known:
+            self._known[key] = self._compile(symbol, references)
+        index, returns = self._known[key]
+        arguments = tuple(value for _, value in values.values())
+        low, high = (returns.low, returns.high) if returns else (0, 0)
+        return Call(low, high, index, arguments)
+
+    def _return_type(self, symbol: FunctionSymbol) -> IntType | None:
+        if symbol.function.type.base == 'void':
+            return None
+        return self._expressions.int_type(symbol.function.type, symbol.scope)
+
+    def _compile(
+        self, symbol: FunctionSymbol, references: dict[str, Reference]
+    ) -> tuple[int, IntType | None]:
+        function, returns = symbol.function, self._return_type(symbol)
+        frame = _Frame(function.name, returns)
+        scope = symbol.scope.inner()
+        parameters = 0
+        for parameter in function.parameters:
+            if parameter.name in references:
+                symbol_of = references[parameter.name]
+            else:
+                declared = self.parameter_type(parameter, symbol.scope)
+                is_const = 'const' in parameter.type.prefixes
+                symbol_of = _local(
+                    frame, parameter.name, declared, scope, parameter.line, is_const
+                )
+                parameters += 1
+            scope.declare(parameter.name, symbol_of, parameter.line)
+        body = self._block(function.body, scope, frame)
+        place = scope.place(function.line)
+        if returns is not None and not _always_returns(body):
+            site = Site(place, f'{function.name} ended without return', 'return on every path')
+            body.append(Return(self._tables.failure(site)))
+        self._tables.functions.append(
+            Function(
+                function.name,
+                parameters,
+                frame.slots,
+                tuple(body),
+                self._writes_state(body),
+                place,
+            )
+        )
+        return len(self._tables.functions) - 1, returns
+
+    def _writes_state(self, body: Sequence[Stmt]) -> bool:
+        functions = self._tables.functions
+        for expr in _expressions_of(body):
+            for node in walk(expr):
+                if isinstance(node, Assign) and isinstance(node.target, (Var, Element)):
+                    return True
+                if isinstance(node, Call) and functions[node.function].writes:
+                    return True
+        return False
+
+    # -- statements ----------------------------------------------------------------------
+    def _block(self, block: syntax.Block, scope: Scope, frame: _Frame) -> list[Stmt]:
+        inner = scope.inner()
+        result: list[Stmt] = []
+        for declaration in block.declarations:
+            base = self._expressions.type_of(declaration.type, inner)
+            if isinstance(declaration, syntax.Typedef):
+                for alias in declaration.aliases:
+                    named = self._expressions.array_type(base, alias.dimensions, inner)
+                    inner.declare(alias.name, TypeSymbol(named), alias.line)
+                continue
+            is_const = 'const' in declaration.type.prefixes
+            for declarator in declaration.declarators:
+                result += self._local_variable(declarator, base, is_const, inner, frame)
+        for statement in block.statements:
+            result += self._statement(statement, inner, frame)
+        return result
+
+    def _local_variable(
+        self,
+        declarator: syntax.Declarator,
+        base: Type,
+        is_const: bool,
+        scope: Scope,
+        frame: _Frame,
+    ) -> list[Stmt]:
+        declared = self._expressions.array_type(base, declarator.dimensions, scope)
+        line = declarator.line
+        whole = _local(frame, declarator.name, declared, scope, line, False)
+        cells = self._expressions.elements(whole)
+        initials = self._initials(declarator.initial, declared, scope, line)
+        scope.declare(
+            declarator.name,
+            Reference(
+                whole.name,
+                whole.storage,
+                declared,
+                whole.base,
+                whole.length,
+                is_read_only=is_const,
+            ),
+            line,
+        )
+        return [
+            Evaluate(self._expressions.assignment(cell, value, scope, line))
+            for cell, value in zip(cells, initials, strict=True)
+        ]
+
+    def _initials(
+        self, initial: syntax.Initial | None, declared: Type, scope: Scope, line: int
+    ) -> list[Expr]:
+        if isinstance(declared, ArrayType):
+            if initial is None:
+                parts: Sequence[syntax.Initial | None] = [None] * declared.length
+            elif isinstance(initial, tuple) and len(initial) == declared.length:
+                parts = initial
+            else:
+                raise ModelFormatError(
+                    f'the array needs {declared.length} initial values',
+                    scope.place(line),
+                    'list them in braces',
+                )
+            return [
+                value
+                for part in parts
+                for value in self._initials(part, declared.element, scope, line)
+            ]
+        if isinstance(initial, tuple) or not isinstance(declared, IntType):
+            raise ModelFormatError(
+                'the initial value does not fit the type', scope.place(line), 'give one number'
+            )
+        if initial is None:
+            return [const(default_value(declared))]
+        return [self._expressions.value(initial, scope)]
+
+    def _statement(self, node: syntax.Statement, scope: Scope, frame: _Frame) -> list[Stmt]:
+        if isinstance(node, syntax.Block):
+            return self._block(node, scope, frame)
+        if isinstance(node, syntax.ExpressionStatement):
+            return [Evaluate(e) for e in self._expressions.update(node.expression, scope)]
+        if isinstance(node, syntax.Branch):
+            condition = self._expressions.condition(node.condition, scope)
+            then = tuple(self._statement(node.then, scope, frame))
+            other = self._statement(node.otherwise, scope, frame) if node.otherwise else []
+            return [If(condition, then, tuple(other))]
+        if isinstance(node, syntax.Iteration):
+            return self._iteration(node, scope, frame)
+        if isinstance(node, syntax.Loop):
+            return self._loop(node, scope, frame)
+        return [self._return(node, scope, frame)]
+
+    def _iteration(self, node: syntax.Iteration, scope: Scope, frame: _Frame) -> list[Stmt]:
+        over = self._expressions.int_type(node.type, scope)
+        inner = scope.inner()
+        line = node.type.line
+        variable = _local(frame, node.variable, over, scope, line, True)
+        inner.declare(node.variable, variable, line)
+        body = self._statement(node.body, inner, frame)
+        return [ForRange(variable.base, over.low, over.high, tuple(body))]
+
+    def _loop(self, node: syntax.Loop, scope: Scope, frame: _Frame) -> list[Stmt]:
+        condition = self._expressions.condition(node.condition, scope) if node.condition else TRUE
+        body = self._statement(node.body, scope, frame)
+        body += self._effects(node.steps, scope)
+        first = self._effects(node.start, scope)
+        if not node.tests_first:
+            first += self._statement(node.body, scope, frame)
+        return [*first, While(condition, tuple(body))]
+
+    def _effects(self, nodes: Sequence[syntax.Expression], scope: Scope) -> list[Stmt]:
+        return [Evaluate(e) for node in nodes for e in self._expressions.update(node, scope)]
+
+    def _return(self, node: syntax.Return, scope: Scope, frame: _Frame) -> Return:
+        if (node.value is None) != (frame.returns is None):
+            raise ModelFormatError(
+                f'{frame.name} returns a value on some paths only',
+                scope.place(node.line),
+                'return what the declared type says',
+            )
+        if node.value is None or frame.returns is None:
+            return Return(None)
+        value = self._expressions.value(node.value, scope)
+        name = f'the result of {frame.name}'
+        return Return(self._expressions.coerced(value, frame.returns, name, scope, node.line))
+
+
+def _local(
+    frame: _Frame, name: str, declared: Type, scope: Scope, line: int, is_read_only: bool
+) -> Reference:
+    count = size_of(declared)
+    base = frame.allocate(count, scope, line)
+    return Reference(name, Storage.LOCAL, declared, base, count, is_read_only=is_read_only)
+
+
+def _always_returns(body: Sequence[Stmt]) -> bool:
+    if not body:
+        return False
+    last = body[-1]
+    if isinstance(last, If):
+        return _always_returns(last.then) and _always_returns(last.otherwise)
+    if isinstance(last, While):
+        return last.condition == TRUE
+    return isinstance(last, Return)
+
+
+def _expressions_of(body: Sequence[Stmt]) -> list[Expr]:
+    found: list[Expr] = []
+    for statement in body:
+        if isinstance(statement, Evaluate):
+            found.append(statement.expr)
+        elif isinstance(statement, Return):
+            found += [statement.value] if statement.value else []
+        elif isinstance(statement, If):
+            found.append(statement.condition)
+            found += _expressions_of((*statement.then, *statement.otherwise))
+        elif isinstance(statement, While):
+            found += [statement.condition, *_expressions_of(statement.body)]
+        else:
+            found += _expressions_of(statement.body)
+    return found
