@@ -7,7 +7,8 @@ Knows neither syntax trees nor output formats; every run it hands on was replaye
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from enum import Enum
 from pathlib import Path
 
 from ros2cc_extract.checker.api import (
@@ -30,14 +31,30 @@ from ros2cc_extract.evidence import Evidence, Names, tell
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.verifyta import LicenceError, find_verifyta, run_verifyta
+from ros2cc_extract.verifyta import Runs as Runs
 
 OnProgress = Callable[[Progress], None]
 
 
+class Checker(Enum):
+    """Who answers."""
+
+    EMBEDDED = 'embedded'
+    VERIFYTA = 'verifyta'
+
+
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """How to verify; the defaults are those of the command line."""
+    """
+    How to verify; the defaults are those of the command line.
 
+    :param verifyta: the program, where it is not to be looked for.
+    """
+
+    checker: Checker = Checker.EMBEDDED
+    verifyta: Path | None = None
+    runs: Runs = Runs.TOGETHER
     profile: build.Profile = build.Profile.PAPER
     text: build.Text = build.Text.PLAIN
     max_cycle: int = 1
@@ -75,6 +92,7 @@ class Verification:
     :param peak_mb: largest resident memory of the process, in MB.
     :param complete: false when a limit ended the exploration.
     :param assumptions: what was decided about open facts of the unit, in words.
+    :param notes: what else the reader should know, such as a checker that could not be used.
     """
 
     model: str
@@ -88,6 +106,7 @@ class Verification:
     complete: bool
     results: tuple[QueryResult, ...]
     assumptions: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def is_undecided(self) -> bool:
@@ -102,6 +121,13 @@ def verify_unit(
     rendered = build.render(
         closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
     )
+    if options.checker is Checker.VERIFYTA:
+        try:
+            return _ask_verifyta(rendered, closed, options)
+        except LicenceError as error:
+            embedded = replace(options, checker=Checker.EMBEDDED)
+            note = f'{error}; the embedded checker was used'
+            return replace(verify_unit(closed, embedded, progress), notes=(note,))
     model = read_model(rendered.xml, f'{rendered.name}.xml')
     queries = [Query(q.formula, q.words, None) for q in rendered.queries]
     result = _check(model, queries, options, progress)
@@ -116,6 +142,45 @@ def verify_unit(
         results,
         profile=options.profile.value,
         text=options.text.value,
+        assumptions=closed.assumptions,
+    )
+
+
+def _ask_verifyta(
+    rendered: build.RenderedModel, closed: ClosedSpec, options: Options
+) -> Verification:
+    answers = run_verifyta(
+        find_verifyta(options.verifyta),
+        rendered.xml,
+        [query.formula for query in rendered.queries],
+        runs=options.runs,
+        seconds=options.limits.seconds,
+    )
+    results = tuple(
+        QueryResult(
+            family=query.family.value,
+            formula=query.formula,
+            words=query.words,
+            callbacks=query.callbacks,
+            verdict=answer.verdict,
+            reason=answer.reason,
+            seconds=answer.seconds,
+            evidence=None,
+        )
+        for query, answer in zip(rendered.queries, answers, strict=True)
+    )
+    together = options.runs is Runs.TOGETHER
+    return Verification(
+        model=rendered.name,
+        profile=options.profile.value,
+        text=options.text.value,
+        engine='verifyta',
+        states=max(answer.states for answer in answers),
+        transitions=0,
+        seconds=max(a.seconds for a in answers) if together else sum(a.seconds for a in answers),
+        peak_mb=max(answer.peak_mb for answer in answers),
+        complete=all(answer.verdict is not Verdict.UNDECIDED for answer in answers),
+        results=results,
         assumptions=closed.assumptions,
     )
 

@@ -51,6 +51,18 @@ def add_search_arguments(parser: argparse.ArgumentParser, *, seconds: float | No
         help='how often each callback becomes ready (default 1, as published)',
     )
     group.add_argument(
+        '--checker',
+        choices=['embedded', 'verifyta'],
+        default='embedded',
+        help="the embedded checker, or UPPAAL's own (default: embedded)",
+    )
+    group.add_argument(
+        '--verifyta', type=Path, metavar='PROGRAM', help='where verifyta is (default: looked for)'
+    )
+    group.add_argument(
+        '--one-by-one', action='store_true', help='give each query a verifyta run of its own'
+    )
+    group.add_argument(
         '--engine',
         choices=['auto', 'native', 'reference'],
         default='auto',
@@ -88,9 +100,12 @@ def options_of(args: argparse.Namespace) -> Options:
     """Collect what ``add_search_arguments`` declared."""
     from ros2cc_extract.checker.api import EngineKind, Fairness, Limits
     from ros2cc_extract.generator.build import Profile, Text
-    from ros2cc_extract.verify import Options
+    from ros2cc_extract.verify import Checker, Options, Runs
 
     return Options(
+        checker=Checker(args.checker),
+        verifyta=args.verifyta,
+        runs=Runs.ONE_BY_ONE if args.one_by_one else Runs.TOGETHER,
         profile=Profile(args.profile),
         text=Text(args.text),
         max_cycle=args.max_cycle,

@@ -38,12 +38,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='show the witnesses of satisfied queries too, and what changes in each step',
     )
     parser.add_argument('--output-format', choices=['text', 'json'], default='text')
+    parser.add_argument(
+        '--trace-format',
+        choices=['text', 'json', 'mermaid', 'perfetto'],
+        default='text',
+        help='how runs are written; mermaid and perfetto need -o',
+    )
+    parser.add_argument(
+        '-o', '--output', type=Path, metavar='DIR', help='folder for one trace file per run'
+    )
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=None)
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     verifications = list(_verifications(args, stderr))
+    if args.output is not None:
+        _write_traces(verifications, args, stderr)
     if args.output_format == 'json':
         _print_json(verifications, stdout)
     else:
@@ -91,6 +102,23 @@ def _print_text(
         console.print(f'model {verification.model}', style='bold')
         print_table(verification, console, formulas=True)
         print_evidence(_shown(verification, args.trace), console, changes=args.trace)
+
+
+def _write_traces(
+    verifications: list[Verification], args: argparse.Namespace, stderr: TextIO
+) -> None:
+    from ros2cc_extract.cli.output import write_atomically
+    from ros2cc_extract.report.trace_formats import SUFFIXES, write_trace
+
+    written = 0
+    for verification in verifications:
+        for number, result in _shown(verification, args.trace):
+            if result.evidence is not None:
+                name = f'{verification.model}_{number:03}{SUFFIXES[args.trace_format]}'
+                text = write_trace(result.evidence, result.words, args.trace_format)
+                write_atomically(args.output / name, text)
+                written += 1
+    print(f'wrote {written} traces to {args.output}', file=stderr)
 
 
 def _shown(verification: Verification, witnesses: bool) -> Iterator[tuple[int, QueryResult]]:

@@ -33,6 +33,7 @@ def verification_data(verification: Verification) -> Data:
         'peak_mb': verification.peak_mb,
         'complete': verification.complete,
         'assumptions': list(verification.assumptions),
+        'notes': list(verification.notes),
         'queries': [_query_data(result) for result in verification.results],
     }
 

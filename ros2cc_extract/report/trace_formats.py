@@ -11,9 +11,31 @@ from collections.abc import Iterator
 from typing import Any
 
 from ros2cc_extract.evidence import Evidence, Moment
+from ros2cc_extract.report.json_report import evidence_data, to_text
 
+SUFFIXES = {'text': '.txt', 'json': '.json', 'mermaid': '.mmd', 'perfetto': '.trace.json'}
 STEP_US = 1000
 """Drawn length of a step: the model has no time, so all steps are equally long."""
+
+
+def write_trace(evidence: Evidence, title: str, form: str) -> str:
+    """Write a run in one of the formats of ``SUFFIXES``."""
+    if form == 'mermaid':
+        return mermaid(evidence, title)
+    if form == 'perfetto':
+        return to_text(chrome_trace(evidence, title))
+    if form == 'json':
+        return to_text(evidence_data(evidence))
+    return f'{title}\n' + ''.join(_text_lines(evidence))
+
+
+def _text_lines(evidence: Evidence) -> Iterator[str]:
+    for moment in evidence.moments:
+        if moment.number == evidence.cycle_from:
+            yield 'and then for ever:\n'
+        said = '; '.join(sentence.text for sentence in moment.sentences)
+        places = ', '.join(str(place) for _, place in moment.places)
+        yield f'{moment.number:3} {said}' + (f' ({places})' if places else '') + '\n'
 
 
 def mermaid(evidence: Evidence, title: str) -> str:

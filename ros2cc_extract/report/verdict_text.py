@@ -26,6 +26,8 @@ def print_table(verification: Verification, console: Console, *, formulas: bool)
         )
     console.print(rows)
     console.print(f'  {_cost(verification)}')
+    for note in verification.notes:
+        console.print(f'  note: {note}')
     for assumption in verification.assumptions:
         console.print(f'  assumed: {assumption}')
 
