@@ -18,13 +18,14 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_unit_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what closes holes of a unit."""
+def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False) -> None:
+    """Add what closes holes of a unit; with ``ranges`` a sweep may be asked for."""
     parser.add_argument(
         '--threads',
-        type=_positive,
-        metavar='N',
-        help='number of executor threads, instead of what the source says',
+        type=_range if ranges else _single,
+        metavar='N|A..B' if ranges else 'N',
+        help='number of executor threads, instead of what the source says'
+        + ('; a range gives one table of all' if ranges else ''),
     )
     parser.add_argument(
         '--builtin',
@@ -33,9 +34,8 @@ def add_unit_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_search_arguments(parser: argparse.ArgumentParser, *, seconds: float | None) -> None:
-    """Add profile, limits and the choice of the engine; ``seconds`` is the default limit."""
-    group = parser.add_argument_group('verification')
+def add_model_arguments(group: argparse._ActionsContainer, *, ranges: bool = False) -> None:
+    """Add which model of a unit is meant."""
     group.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
     group.add_argument(
         '--text',
@@ -45,11 +45,19 @@ def add_search_arguments(parser: argparse.ArgumentParser, *, seconds: float | No
     )
     group.add_argument(
         '--max-cycle',
-        type=_positive,
-        default=1,
-        metavar='N',
+        type=_range if ranges else _single,
+        default=range(1, 2),
+        metavar='N|A..B' if ranges else 'N',
         help='how often each callback becomes ready (default 1, as published)',
     )
+
+
+def add_search_arguments(
+    parser: argparse.ArgumentParser, *, seconds: float | None, ranges: bool = False
+) -> None:
+    """Add profile, limits and the choice of the engine; ``seconds`` is the default limit."""
+    group = parser.add_argument_group('verification')
+    add_model_arguments(group, ranges=ranges)
     group.add_argument(
         '--checker',
         choices=['embedded', 'verifyta'],
@@ -93,7 +101,7 @@ def policy_of(args: argparse.Namespace) -> Policy:
     """Collect what ``add_unit_arguments`` declared."""
     from ros2cc_extract.spec.close import Policy
 
-    return Policy(builtin=args.builtin, threads=args.threads)
+    return Policy(builtin=args.builtin, threads=args.threads[0] if args.threads else None)
 
 
 def options_of(args: argparse.Namespace) -> Options:
@@ -108,7 +116,7 @@ def options_of(args: argparse.Namespace) -> Options:
         runs=Runs.ONE_BY_ONE if args.one_by_one else Runs.TOGETHER,
         profile=Profile(args.profile),
         text=Text(args.text),
-        max_cycle=args.max_cycle,
+        max_cycle=args.max_cycle[0],
         engine=EngineKind[args.engine.upper()],
         fairness=Fairness[args.fairness.upper()],
         reduction=not args.no_reduction,
@@ -121,6 +129,20 @@ def _positive(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
     return value
+
+
+def _single(text: str) -> range:
+    number = _positive(text)
+    return range(number, number + 1)
+
+
+def _range(text: str) -> range:
+    """Read ``4`` or ``1..8``, both ends included."""
+    first, dots, last = text.partition('..')
+    low, high = _positive(first), _positive(last if dots else first)
+    if low > high:
+        raise argparse.ArgumentTypeError(f'{text!r} is empty; write {high}..{low}')
+    return range(low, high + 1)
 
 
 def _seconds(text: str) -> float:

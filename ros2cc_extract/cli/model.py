@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ros2cc_extract.cli.arguments import add_unit_arguments, policy_of
+from ros2cc_extract.cli.arguments import add_model_arguments, add_unit_arguments, policy_of
 from ros2cc_extract.cli.main import EXIT_CLEAN
 
 if TYPE_CHECKING:
@@ -21,10 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder to write to'
     )
-    parser.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
-    parser.add_argument('--text', choices=['plain', 'compact'], default='plain')
-    parser.add_argument('--max-cycle', type=int, default=1, metavar='N')
     add_unit_arguments(parser)
+    add_model_arguments(parser.add_argument_group('model'))
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -37,7 +35,10 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     closed_units = [close(unit, policy) for unit in load_units(args.path, stderr)]
     for closed in closed_units:
         rendered = render(
-            closed, profile=Profile(args.profile), text=Text(args.text), max_cycle=args.max_cycle
+            closed,
+            profile=Profile(args.profile),
+            text=Text(args.text),
+            max_cycle=args.max_cycle[0],
         )
         for assumption in closed.assumptions:
             print(f'{rendered.name}: assumed: {assumption}', file=stderr)

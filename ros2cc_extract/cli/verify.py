@@ -47,11 +47,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-o', '--output', type=Path, metavar='DIR', help='folder for one trace file per run'
     )
-    add_unit_arguments(parser)
-    add_search_arguments(parser, seconds=None)
+    add_unit_arguments(parser, ranges=True)
+    add_search_arguments(parser, seconds=None, ranges=True)
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    if len(args.threads or ()) > 1 or len(args.max_cycle) > 1:
+        from ros2cc_extract.cli.sweep import run_sweeps
+
+        return run_sweeps(args, stdout, stderr)
     verifications = list(_verifications(args, stderr))
     if args.output is not None:
         _write_traces(verifications, args, stderr)

@@ -22,7 +22,7 @@ ALLOWED = {
     'extract.static': {'spec', 'extract'},
     'extract.live': {'spec', 'extract'},
 }
-ROOM_OF_MODULE = {'evidence': 'verify', 'verifyta': 'verify'}
+ROOM_OF_MODULE = {'evidence': 'verify', 'verifyta': 'verify', 'sweep': 'verify'}
 LONGEST_MODULE = 800
 LONGEST_FUNCTION = 60
 

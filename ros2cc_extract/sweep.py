@@ -1,0 +1,106 @@
+"""
+Verifies one unit for a range of thread counts and arrival bounds, on all cores.
+
+A sweep answers what one verification cannot: from how many threads on a verdict is another one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from ros2cc_extract.spec.close import Policy, close
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify import Options, Verdict, Verification, verify_unit
+
+
+@dataclass(frozen=True)
+class Point:
+    """One setting of a sweep; ``max_cycle`` bounds how often each callback becomes ready."""
+
+    threads: int
+    max_cycle: int
+
+
+@dataclass(frozen=True)
+class Turn:
+    """
+    A query whose verdict changes along the thread counts of a sweep.
+
+    :param threads: smallest thread count with the new verdict.
+    """
+
+    query: int
+    max_cycle: int
+    threads: int
+    before: Verdict
+    after: Verdict
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """All verifications of a unit, in the order of the points."""
+
+    unit: str
+    points: tuple[Point, ...]
+    verifications: tuple[Verification, ...]
+
+    def turns(self) -> tuple[Turn, ...]:
+        """List where a verdict changes from one thread count to the next."""
+        found: list[Turn] = []
+        pairs = list(zip(self.points, self.verifications, strict=True))
+        for (last, before), (point, after) in pairwise(pairs):
+            if last.max_cycle == point.max_cycle:
+                found.extend(_turns(point, before, after))
+        return tuple(found)
+
+
+def points(threads: Iterable[int], max_cycles: Iterable[int]) -> tuple[Point, ...]:
+    """All settings, thread counts ascending within each arrival bound."""
+    counts = sorted(set(threads))
+    return tuple(Point(t, cycle) for cycle in sorted(set(max_cycles)) for t in counts)
+
+
+def run_sweep(
+    unit: Spec,
+    policy: Policy,
+    options: Options,
+    settings: Sequence[Point],
+    workers: int,
+    on_done: Callable[[int], None] = lambda _done: None,
+) -> Sweep:
+    """
+    Verify ``unit`` at every point.
+
+    :param workers: processes at once; 1 stays in this process.
+    :param on_done: told how many points are done.
+    """
+    tasks = [(unit, replace(policy, threads=p.threads), _at(options, p)) for p in settings]
+    done: list[Verification] = []
+    if workers < 2 or len(tasks) < 2:
+        for task in tasks:
+            done.append(_verify(task))
+            on_done(len(done))
+        return Sweep(unit.name, tuple(settings), tuple(done))
+    with ProcessPoolExecutor(min(workers, len(tasks))) as pool:
+        for verification in pool.map(_verify, tasks):
+            done.append(verification)
+            on_done(len(done))
+    return Sweep(unit.name, tuple(settings), tuple(done))
+
+
+def _at(options: Options, point: Point) -> Options:
+    return replace(options, max_cycle=point.max_cycle)
+
+
+def _verify(task: tuple[Spec, Policy, Options]) -> Verification:
+    unit, policy, options = task
+    return verify_unit(close(unit, policy), options)
+
+
+def _turns(point: Point, before: Verification, after: Verification) -> Iterable[Turn]:
+    for number, (old, new) in enumerate(zip(before.results, after.results, strict=True), start=1):
+        if old.verdict is not new.verdict:
+            yield Turn(number, point.max_cycle, point.threads, old.verdict, new.verdict)
