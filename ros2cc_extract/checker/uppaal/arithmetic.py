@@ -6,19 +6,12 @@ from collections.abc import Callable, Sequence
 
 from ros2cc_extract.checker.network import (
     INT32,
-    Assign,
     Binary,
-    Call,
-    Check,
     Choice,
     Const,
-    Element,
     Expr,
-    Function,
     Local,
-    LocalElement,
     Op,
-    Table,
     Unary,
     Var,
 )
@@ -152,41 +145,6 @@ def folded(op: Op, terms: Sequence[Expr], empty: Expr) -> Expr:
 def fits_32_bits(expr: Expr) -> bool:
     """Whether no value of the expression leaves 32 bits."""
     return expr.low >= INT32[0] and expr.high <= INT32[1]
-
-
-def children(expr: Expr) -> tuple[Expr, ...]:
-    """Return the direct subexpressions."""
-    if isinstance(expr, (Element, Table, LocalElement)):
-        return (expr.index,)
-    if isinstance(expr, (Unary, Check)):
-        return (expr.operand,)
-    if isinstance(expr, Binary):
-        return expr.left, expr.right
-    if isinstance(expr, Choice):
-        return expr.condition, expr.then, expr.otherwise
-    if isinstance(expr, Call):
-        return expr.arguments
-    if isinstance(expr, Assign):
-        return expr.target, expr.value
-    return ()
-
-
-def walk(expr: Expr) -> list[Expr]:
-    """Return the expression and all below it."""
-    found, waiting = [], [expr]
-    while waiting:
-        node = waiting.pop()
-        found.append(node)
-        waiting.extend(children(node))
-    return found
-
-
-def has_effect(expr: Expr, functions: Sequence[Function]) -> bool:
-    """Whether evaluating assigns anything."""
-    return any(
-        isinstance(node, Assign) or (isinstance(node, Call) and functions[node.function].writes)
-        for node in walk(expr)
-    )
 
 
 def is_atomic(expr: Expr) -> bool:

@@ -25,7 +25,7 @@ from ros2cc_extract.checker.network import (
     Sync,
 )
 from ros2cc_extract.checker.uppaal import syntax
-from ros2cc_extract.checker.uppaal.arithmetic import const, has_effect, truth
+from ros2cc_extract.checker.uppaal.arithmetic import const, truth
 from ros2cc_extract.checker.uppaal.declarations import Declarations
 from ros2cc_extract.checker.uppaal.document import Document, EdgeNode, TemplateNode, Text
 from ros2cc_extract.checker.uppaal.expressions import Expressions
@@ -34,6 +34,7 @@ from ros2cc_extract.checker.uppaal.instances import Definition, Instance, Instan
 from ros2cc_extract.checker.uppaal.parsing import Start, parse, parse_query
 from ros2cc_extract.checker.uppaal.tables import Tables
 from ros2cc_extract.checker.uppaal.types import ChannelType, ProcessSymbol, Scope, ValueSymbol
+from ros2cc_extract.checker.walks import has_effect
 from ros2cc_extract.errors import ModelFormatError
 from ros2cc_extract.places import Place
 

@@ -31,7 +31,6 @@ from ros2cc_extract.checker.uppaal.arithmetic import (
     const,
     fits_32_bits,
     folded,
-    has_effect,
     minus,
     negation,
     truth,
@@ -53,6 +52,7 @@ from ros2cc_extract.checker.uppaal.types import (
     scalar_of,
     size_of,
 )
+from ros2cc_extract.checker.walks import has_effect
 from ros2cc_extract.errors import ModelFormatError
 
 if TYPE_CHECKING:

@@ -27,7 +27,7 @@ from ros2cc_extract.checker.network import (
     While,
 )
 from ros2cc_extract.checker.uppaal import syntax
-from ros2cc_extract.checker.uppaal.arithmetic import TRUE, const, has_effect, is_atomic, walk
+from ros2cc_extract.checker.uppaal.arithmetic import TRUE, const, is_atomic
 from ros2cc_extract.checker.uppaal.expressions import Expressions
 from ros2cc_extract.checker.uppaal.types import (
     ArrayType,
@@ -42,6 +42,7 @@ from ros2cc_extract.checker.uppaal.types import (
     default_value,
     size_of,
 )
+from ros2cc_extract.checker.walks import function_expressions, has_effect, walk
 from ros2cc_extract.errors import ModelFormatError
 
 _MAX_FRAME = 65536
@@ -243,7 +244,7 @@ class FunctionCompiler:
 
     def _writes_state(self, body: Sequence[Stmt]) -> bool:
         functions = self._tables.functions
-        for expr in _expressions_of(body):
+        for expr in function_expressions(body):
             for node in walk(expr):
                 if isinstance(node, Assign) and isinstance(node.target, (Var, Element)):
                     return True
@@ -394,20 +395,3 @@ def _always_returns(body: Sequence[Stmt]) -> bool:
     if isinstance(last, While):
         return last.condition == TRUE
     return isinstance(last, Return)
-
-
-def _expressions_of(body: Sequence[Stmt]) -> list[Expr]:
-    found: list[Expr] = []
-    for statement in body:
-        if isinstance(statement, Evaluate):
-            found.append(statement.expr)
-        elif isinstance(statement, Return):
-            found += [statement.value] if statement.value else []
-        elif isinstance(statement, If):
-            found.append(statement.condition)
-            found += _expressions_of((*statement.then, *statement.otherwise))
-        elif isinstance(statement, While):
-            found += [statement.condition, *_expressions_of(statement.body)]
-        else:
-            found += _expressions_of(statement.body)
-    return found

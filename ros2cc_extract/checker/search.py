@@ -1,0 +1,118 @@
+"""What an engine is asked and what it answers, the same for every engine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.checker.network import Property, QueryKind
+from ros2cc_extract.checker.semantics import State
+
+
+class Verdict(Enum):
+    """Answer to a query; undecided when a limit was hit before it was known."""
+
+    SATISFIED = 'satisfied'
+    NOT_SATISFIED = 'not satisfied'
+    UNDECIDED = 'undecided'
+
+
+class Fairness(Enum):
+    """
+    Which infinite paths count for ``-->``, ``A<>`` and ``E[]``.
+
+    NONE: all, as in UPPAAL. WEAK: those on which no process is enabled from some point on for
+    ever without ever moving.
+    """
+
+    NONE = 'none'
+    WEAK = 'weak'
+
+
+class End(Enum):
+    """How a maximal path ends that does not go round a cycle."""
+
+    DEADLOCK = 'deadlock'
+    IDLE = 'idle'
+
+
+INTERRUPTED = 'interrupted'
+
+
+@dataclass(frozen=True)
+class StatePath:
+    """
+    States of a witness or counterexample, the initial one first.
+
+    :param cycle_start: index of the state to which the last one leads back; None without cycle.
+    :param end: set on maximal paths without cycle.
+    """
+
+    states: tuple[State, ...]
+    cycle_start: int | None = None
+    end: End | None = None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Answer to one property; ``path`` is there where a state or path decided it."""
+
+    verdict: Verdict
+    seconds: float
+    path: StatePath | None = None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """
+    Answers to all properties of one exploration.
+
+    :param complete: whether every reachable state was explored.
+    """
+
+    states: int
+    transitions: int
+    complete: bool
+    outcomes: tuple[Outcome, ...]
+
+
+@dataclass(frozen=True)
+class Avoidance:
+    """
+    A liveness property as a search: a maximal path from ``start`` on which ``inside`` holds.
+
+    Indices are of predicates; ``start`` None is the initial state.
+    """
+
+    start: int | None
+    inside: int
+
+
+def refutes(kind: QueryKind) -> bool:
+    """Whether a path that is found makes the answer *not satisfied*."""
+    return kind in (QueryKind.INVARIANT, QueryKind.EVENTUALLY, QueryKind.LEADS_TO)
+
+
+def is_reachability(prop: Property) -> bool:
+    """Whether a single state decides the property."""
+    return prop.kind in (QueryKind.INVARIANT, QueryKind.REACHABLE)
+
+
+def found(prop: Property, seconds: float, path: StatePath) -> Outcome:
+    """Return the answer when a path was found."""
+    verdict = Verdict.NOT_SATISFIED if refutes(prop.kind) else Verdict.SATISFIED
+    return Outcome(verdict, seconds, path)
+
+
+def not_found(prop: Property, seconds: float, reason: str | None) -> Outcome:
+    """Return the answer when no path was found; ``reason`` says why the search was cut short."""
+    if reason:
+        return Outcome(Verdict.UNDECIDED, seconds, reason=reason)
+    return Outcome(Verdict.SATISFIED if refutes(prop.kind) else Verdict.NOT_SATISFIED, seconds)
+
+
+def positions(properties: Sequence[Property], reachability: bool) -> list[int]:
+    """Return the indices of the properties of one sort."""
+    return [i for i, prop in enumerate(properties) if is_reachability(prop) is reachability]
