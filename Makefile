@@ -6,6 +6,8 @@ PYTHON ?= python3
 VENV := .venv
 JAZZY := .venv-jazzy
 BIN := $(VENV)/bin
+# mypy does not know setuptools' package-dir: it is shown the installed layout by links.
+TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 
 .PHONY: demo test lint schema clean
@@ -19,7 +21,9 @@ test: $(VENV)/developed $(JAZZY)/installed
 lint: $(VENV)/developed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy
+	@rm -rf $(TYPES) && mkdir -p $(TYPES)/ros2cc_extract
+	@ln -s $(CURDIR)/ros2cc_extract/* $(CURDIR)/generator $(TYPES)/ros2cc_extract/
+	cd $(TYPES) && $(CURDIR)/$(BIN)/mypy --config-file $(CURDIR)/pyproject.toml
 
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \

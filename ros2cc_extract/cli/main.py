@@ -26,6 +26,8 @@ COMMANDS = {
     'spec': 'print the YAML specification of a node',
     'model': 'write the UPPAAL model and its queries',
     'verify': 'print the verdict table of a specification or a model',
+    'diff': 'compare two specifications of one program',
+    'merge': 'join a specification from source with one from a live run',
 }
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
 EXIT_INTERRUPTED = 130

@@ -5,9 +5,18 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path
+from typing import TextIO
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
+
+
+def write_text(text: str, path: Path | None, stdout: TextIO) -> None:
+    """Write to ``path`` whole or not at all; without a path to ``stdout``."""
+    if path is None:
+        stdout.write(text)
+    else:
+        write_atomically(path, text)
 
 
 def write_atomically(path: Path, text: str) -> None:

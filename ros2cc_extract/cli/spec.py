@@ -22,6 +22,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.schema:
         stdout.write(_schema())
         return EXIT_CLEAN
+    from ros2cc_extract.cli.output import write_text
     from ros2cc_extract.cli.sources import has_errors, print_diagnostics, scan_sources
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.spec.yaml_io import write_specs
@@ -31,22 +32,13 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     extraction = scan_sources(args.paths, stderr)
     print_diagnostics(extraction.diagnostics, stderr)
     if extraction.units:
-        _write(write_specs(extraction.units), args.output, stdout)
+        write_text(write_specs(extraction.units), args.output, stdout)
     else:
         print(f'no rclpy node found in {len(extraction.files_seen)} files', file=stderr)
     if has_errors(extraction.diagnostics):
         return EXIT_ERROR
     unresolved = any(unit.unresolved for unit in extraction.units)
     return EXIT_UNDECIDED if args.strict and unresolved else EXIT_CLEAN
-
-
-def _write(text: str, output: Path | None, stdout: TextIO) -> None:
-    if output is None:
-        stdout.write(text)
-        return
-    from ros2cc_extract.cli.output import write_atomically
-
-    write_atomically(output, text)
 
 
 def _schema() -> str:

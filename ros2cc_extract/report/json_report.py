@@ -8,6 +8,7 @@ from typing import Any
 
 from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.merge import Difference
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
 from ros2cc_extract.verify import QueryResult, Verification
@@ -51,6 +52,24 @@ def check_data(
         'findings': [_finding_data(finding) for finding in findings],
         'summary': dict(summary),
     }
+
+
+def differences_data(differences: Sequence[Difference]) -> list[Data]:
+    """One object per difference of two specifications."""
+    return [
+        {
+            'kind': difference.kind.value,
+            'unit': difference.unit,
+            'subject': difference.subject,
+            'fact': difference.fact,
+            'left': difference.left,
+            'right': difference.right,
+            'left_place': str(difference.left_place) if difference.left_place else None,
+            'right_place': str(difference.right_place) if difference.right_place else None,
+            'announced': difference.marked,
+        }
+        for difference in differences
+    ]
 
 
 def _query_data(result: QueryResult) -> Data:

@@ -11,7 +11,7 @@ PACKAGE = 'ros2cc_extract'
 LEAVES = {'errors', 'places', 'diagnostics', 'version'}
 ALLOWED = {
     'cli': {'*'},
-    'report': {'findings', 'verify', 'spec'},
+    'report': {'findings', 'verify', 'spec', 'merge'},
     'findings': {'verify', 'spec'},
     'verify': {'generator', 'checker', 'spec'},
     'generator': {'spec'},

@@ -1,0 +1,60 @@
+"""
+What `expected.spec.yaml` and `expected.verdicts.yaml` of an example hold, and how to renew them.
+
+    python -m tests.e2e.expected        # rewrites the files of every example; read the diff
+
+The specification is exactly what ``ros2cc-extract spec node.py`` prints in the example's folder.
+The verdicts are those of profile ``paper`` for every unit, in the order of the queries.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import yaml
+
+from ros2cc_extract.extract.static.api import scan
+from ros2cc_extract.spec.close import close
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.yaml_io import write_specs
+from ros2cc_extract.verify import verify_unit
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted(path.parent for path in (ROOT / 'launch_free_examples').glob('*/node.py'))
+SPEC_FILE = 'expected.spec.yaml'
+VERDICT_FILE = 'expected.verdicts.yaml'
+
+
+def scan_example(folder: Path) -> tuple[Spec, ...]:
+    """Scan ``node.py`` with places relative to its folder."""
+    return scan([folder / 'node.py'], root=folder).units
+
+
+def spec_text(units: tuple[Spec, ...]) -> str:
+    return write_specs(units)
+
+
+def verdict_text(units: tuple[Spec, ...]) -> str:
+    documents = [
+        {
+            'unit': unit.name,
+            'profile': 'paper',
+            'verdicts': [
+                {'family': result.family, 'query': result.words, 'verdict': result.verdict.value}
+                for result in verify_unit(close(unit)).results
+            ],
+        }
+        for unit in units
+    ]
+    return yaml.safe_dump_all(documents, sort_keys=False, width=200)
+
+
+def renew() -> None:
+    for folder in EXAMPLES:
+        units = scan_example(folder)
+        (folder / SPEC_FILE).write_text(spec_text(units), encoding='utf-8')
+        (folder / VERDICT_FILE).write_text(verdict_text(units), encoding='utf-8')
+
+
+if __name__ == '__main__':
+    renew()
