@@ -15,11 +15,10 @@ from typing import Any
 
 from ros2cc_extract.checker.interpret import endless_error, site_error
 from ros2cc_extract.checker.layout import Layout
-from ros2cc_extract.checker.network import Check, Direction, Edge, Expr, Network, Sync
+from ros2cc_extract.checker.network import Check, Direction, Edge, Expr, Network, Op, Sync
 from ros2cc_extract.checker.pysource import INDENT, SourceWriter
 from ros2cc_extract.checker.semantics import EdgeRef
 from ros2cc_extract.checker.uppaal.arithmetic import OPERATIONS
-from ros2cc_extract.checker.network import Op
 from ros2cc_extract.checker.walks import walk
 
 Edges = tuple[EdgeRef, ...]

@@ -41,11 +41,13 @@ def search(
     *,
     limits: Limits,
     fairness: Fairness,
+    reduction: bool,
     progress: Callable[[Progress], None] | None,
 ) -> SearchResult:
     """
     Answer all properties by one exploration.
 
+    :param reduction: has no effect here: this engine always explores all states.
     :raises ModelFormatError: a reachable state breaks a range, an index or a loop bound.
     """
     exploration = _Exploration(network, properties, Watch(limits, progress), fairness)
@@ -120,7 +122,7 @@ class _Exploration:
             prop = self._properties[i]
             is_kept = prop.kind is QueryKind.POSSIBLY_ALWAYS
             exprs.append(prop.formula if is_kept else negation(prop.formula))
-            exprs.append(prop.premise or negation(negation(exprs[-1])))
+            exprs.append(prop.premise or exprs[-1])
         return exprs
 
     # -- exploration ---------------------------------------------------------------------
@@ -210,6 +212,7 @@ class _Exploration:
         return SearchResult(
             len(self._order),
             self._transitions,
+            self._watch.seconds(),
             self._is_complete(),
             tuple(self._outcomes[i] for i in range(len(self._properties))),
         )

@@ -74,20 +74,9 @@ class SearchResult:
 
     states: int
     transitions: int
+    seconds: float
     complete: bool
     outcomes: tuple[Outcome, ...]
-
-
-@dataclass(frozen=True)
-class Avoidance:
-    """
-    A liveness property as a search: a maximal path from ``start`` on which ``inside`` holds.
-
-    Indices are of predicates; ``start`` None is the initial state.
-    """
-
-    start: int | None
-    inside: int
 
 
 def refutes(kind: QueryKind) -> bool:

@@ -10,16 +10,16 @@ import functools
 import importlib.resources
 import re
 from enum import Enum
-from typing import Any
-
-from lark import Lark
-from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken, VisitError
+from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.uppaal import syntax
-from ros2cc_extract.checker.uppaal.builder import TreeBuilder
 from ros2cc_extract.checker.uppaal.precedence import MAX_DEPTH, NestingError
 from ros2cc_extract.errors import ModelFormatError
 from ros2cc_extract.places import Place
+
+if TYPE_CHECKING:
+    from lark import Lark
+    from lark.exceptions import UnexpectedInput
 
 MEND_SUBSET = 'docs/checker.md lists the supported subset'
 _OUTSIDE = {
@@ -65,6 +65,11 @@ class Start(Enum):
 
 @functools.cache
 def _parser() -> Lark:
+    # Imported late: commands that read no model start faster without.
+    from lark import Lark
+
+    from ros2cc_extract.checker.uppaal.builder import TreeBuilder
+
     grammar = importlib.resources.files(__package__).joinpath('grammar.lark').read_text('utf-8')
     return Lark(
         grammar,
@@ -83,6 +88,8 @@ def parse(text: str, start: Start, place: Place) -> Any:
     :return: what the ``TreeBuilder`` method named like ``start`` returns.
     :raises ModelFormatError: a syntax error, or too deep nesting.
     """
+    from lark.exceptions import UnexpectedInput, VisitError
+
     try:
         return _parser().parse('\n' * (place.line - 1) + text, start=start.value)
     except UnexpectedInput as error:
@@ -104,11 +111,12 @@ def _nesting_error(error: NestingError, place: Place) -> ModelFormatError:
 
 
 def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelFormatError:
+    from lark.exceptions import UnexpectedToken
+
     if isinstance(error, UnexpectedToken) and error.token.type == '$END':
         last = place.line + text.rstrip().count('\n')
         what = 'syntax error: the text ends too early'
         return ModelFormatError(what, Place(place.file, last), 'complete it')
-    assert isinstance(error, (UnexpectedToken, UnexpectedCharacters))
     at = Place(place.file, error.line)
     line = text.split('\n')[error.line - place.line]
     before, rest = line[: error.column - 1], line[error.column - 1 :]

@@ -1,0 +1,224 @@
+"""The public door of the checker: read a model, read queries, check."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from ros2cc_extract.checker import engines
+from ros2cc_extract.checker.limits import Limits, Progress, peak_mb
+from ros2cc_extract.checker.network import Network
+from ros2cc_extract.checker.replay import Replayer
+from ros2cc_extract.checker.run import EdgeRef, Run, StateView, Step
+from ros2cc_extract.checker.search import Fairness, Verdict
+from ros2cc_extract.checker.uppaal.document import read_document
+from ros2cc_extract.checker.uppaal.elaborate import Elaboration, elaborate
+from ros2cc_extract.checker.uppaal.queryfile import Query, clean, first_line, read_query_file
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.places import Place
+
+__all__ = [
+    'Answer',
+    'CheckResult',
+    'EdgeRef',
+    'EngineKind',
+    'Fairness',
+    'Limits',
+    'Model',
+    'Progress',
+    'Query',
+    'Run',
+    'StateView',
+    'Step',
+    'Verdict',
+    'check',
+    'load_model',
+    'read_model',
+    'read_queries',
+]
+
+
+class EngineKind(Enum):
+    """Who searches; AUTO is the native core where it is built."""
+
+    AUTO = 'auto'
+    REFERENCE = 'reference'
+    NATIVE = 'native'
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """
+    An elaborated model.
+
+    :param queries: those stored in the XML.
+    """
+
+    name: str
+    elaboration: Elaboration
+    queries: tuple[Query, ...]
+
+    @property
+    def network(self) -> Network:
+        """The network that engines see."""
+        return self.elaboration.network()
+
+    @property
+    def processes(self) -> tuple[str, ...]:
+        """Names of the processes in system order."""
+        return tuple(process.name for process in self.network.processes)
+
+    def process_index(self, name: str) -> int:
+        """
+        Return the position of a process in the system line.
+
+        :raises InputError: there is no process of that name.
+        """
+        if name not in self.processes:
+            known = ', '.join(self.processes[:8])
+            raise InputError(f'there is no process {name!r}', Place(self.name), f'known are {known}')
+        return self.processes.index(name)
+
+    def template_of(self, name: str) -> str:
+        """Return the template of a process."""
+        return self.network.processes[self.process_index(name)].template
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """
+    The verdict of one query.
+
+    :param reason: why the verdict is undecided.
+    :param seconds: when it was known, from the start of the search.
+    :param path: witness or counterexample, replayed; None where none exists or was found.
+    """
+
+    query: Query
+    verdict: Verdict
+    reason: str | None
+    seconds: float
+    path: Run | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckResult:
+    """
+    Answers to all queries.
+
+    :param engine: name of the engine that searched.
+    :param note: what the user should know about the choice of the engine; often empty.
+    :param complete: whether all reachable states were explored.
+    """
+
+    engine: str
+    note: str
+    states: int
+    transitions: int
+    seconds: float
+    peak_mb: float
+    complete: bool
+    answers: tuple[Answer, ...]
+
+
+def load_model(path: Path) -> Model:
+    """
+    Read a model file.
+
+    :raises InputError: the file cannot be read.
+    :raises ModelFormatError: it is no model of the supported subset.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(
+            f'cannot be read: {error.strerror}', Place(path.as_posix()), 'give a readable file'
+        ) from None
+    return _model(data, path.as_posix(), None)
+
+
+def read_model(text: str, name: str) -> Model:
+    """
+    Read a model from text.
+
+    :param name: file name for messages.
+    :raises ModelFormatError: it is no model of the supported subset.
+    """
+    return _model(text.encode(), name, 'utf-8')
+
+
+def _model(data: bytes, name: str, encoding: str | None) -> Model:
+    document = read_document(data, name, encoding)
+    queries = tuple(
+        Query(
+            clean(node.formula.value),
+            node.comment,
+            Place(name, first_line(node.formula.value, node.formula.line)),
+        )
+        for node in document.queries
+    )
+    return Model(name, elaborate(document), queries)
+
+
+def read_queries(text: str, name: str) -> tuple[Query, ...]:
+    """
+    Read a query file.
+
+    :raises ModelFormatError: a comment or query that is not complete, or no query.
+    """
+    return read_query_file(text, name)
+
+
+def check(
+    model: Model,
+    queries: Sequence[Query],
+    *,
+    limits: Limits = Limits(),  # noqa: B008 - frozen value
+    engine: EngineKind = EngineKind.AUTO,
+    fairness: Fairness = Fairness.NONE,
+    reduction: bool = True,
+    progress: Callable[[Progress], None] | None = None,
+) -> CheckResult:
+    """
+    Answer all queries by one exploration.
+
+    :param reduction: explore fewer states where that keeps all verdicts; the reference explores all.
+    :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
+    :raises ToolNotFoundError: the native core was asked for and is not built.
+    :raises CoreMismatchError: a path could not be replayed (a defect).
+    """
+    unnamed = Place('query', 1)
+    properties = [model.elaboration.query(q.formula, q.place or unnamed) for q in queries]
+    network = model.network
+    chosen = engines.choose(engine.value)
+    result = chosen.search(
+        network,
+        properties,
+        limits=limits,
+        fairness=fairness,
+        reduction=reduction,
+        progress=progress,
+    )
+    replayer = Replayer(model.elaboration, network, fairness)
+    answers = tuple(
+        Answer(
+            query=query,
+            verdict=outcome.verdict,
+            reason=outcome.reason,
+            seconds=outcome.seconds,
+            path=replayer.run(prop, outcome.path) if outcome.path else None,
+        )
+        for query, prop, outcome in zip(queries, properties, result.outcomes, strict=True)
+    )
+    return CheckResult(
+        engine=chosen.name,
+        note=chosen.note,
+        states=result.states,
+        transitions=result.transitions,
+        seconds=result.seconds,
+        peak_mb=peak_mb(),
+        complete=result.complete,
+        answers=answers,
+    )
