@@ -78,7 +78,8 @@ class Model:
         """
         if name not in self.processes:
             known = ', '.join(self.processes[:8])
-            raise InputError(f'there is no process {name!r}', Place(self.name), f'known are {known}')
+            what = f'there is no process {name!r}'
+            raise InputError(what, Place(self.name), f'known are {known}')
         return self.processes.index(name)
 
     def template_of(self, name: str) -> str:
@@ -184,7 +185,7 @@ def check(
     """
     Answer all queries by one exploration.
 
-    :param reduction: explore fewer states where that keeps all verdicts; the reference explores all.
+    :param reduction: explore fewer states where that keeps all verdicts; the reference does not.
     :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
     :raises ToolNotFoundError: the native core was asked for and is not built.
     :raises CoreMismatchError: a path could not be replayed (a defect).

@@ -138,4 +138,5 @@ class Replayer:
 
 
 def _mismatch(what: str) -> CoreMismatchError:
-    return CoreMismatchError(f'the path that the search found cannot be replayed: {what}', None, _MEND)
+    text = f'the path that the search found cannot be replayed: {what}'
+    return CoreMismatchError(text, None, _MEND)

@@ -78,7 +78,7 @@ class Semantics:
                             yield Transition(edges, self._target(state, edges))
 
     def may_idle(self, state: State) -> bool:
-        """Whether time may diverge here: nothing urgent or committed, no urgent channel enabled."""
+        """Whether time may diverge: nothing urgent or committed, no urgent channel enabled."""
         processes = self._network.processes
         for process, at in zip(processes, state.locations, strict=True):
             if process.locations[at].is_urgent or process.locations[at].is_committed:

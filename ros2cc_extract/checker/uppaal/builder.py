@@ -25,7 +25,7 @@ def _line(token: Token) -> int:
     return token.line or 0
 
 
-class TreeBuilder(Transformer):  # type: ignore[type-arg,misc]
+class TreeBuilder(Transformer):  # type: ignore[type-arg]
     """One method per rule of ``grammar.lark``; tokens that carry nothing are skipped."""
 
     # -- expressions ---------------------------------------------------------------------

@@ -80,7 +80,7 @@ def elaborate(document: Document) -> Elaboration:
     """
     Elaborate a whole model.
 
-    :raises ModelFormatError: undeclared names, wrong types or ranges, constructs outside the subset.
+    :raises ModelFormatError: undeclared names, wrong types or ranges, unsupported constructs.
     """
     tables = Tables()
     expressions = Expressions(tables)
@@ -109,7 +109,7 @@ class _ModelBuilder:
             self._expressions,
             self._expressions.functions,
             self._scope,
-            {name: node for name, node in self._templates()},
+            dict(self._templates()),
         )
         result = Elaboration(self._tables, self._expressions, self._scope.inner())
         for instance, line in self._system(instances):

@@ -322,7 +322,7 @@ class Expressions:
             )
         if target.storage is Storage.CONSTANT or target.is_read_only:
             raise self._read_only(target.name, scope, node.line)
-        result = []
+        result: list[Expr] = []
         for to, of in zip(self.elements(target), self.elements(source), strict=True):
             value = self.load(of, scope, node.line)
             result.append(self.assignment(to, value, scope, node.line))

@@ -7,6 +7,7 @@ Order of the operators: UPPAAL documentation, page "Expressions", section on pre
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -87,7 +88,7 @@ def combine(items: Sequence[syntax.Expression | Operator]) -> syntax.Expression:
         elif item.is_prefix:
             waiting.append(item)
         else:
-            _reduce_while(operands, waiting, lambda top, new=item: _binds_first(top, new))
+            _reduce_while(operands, waiting, functools.partial(_binds_first, new=item))
             waiting.append(item)
     _reduce_while(operands, waiting, lambda top: True)
     return operands[0]
@@ -99,7 +100,7 @@ def _level(operator: Operator) -> int:
     return _INFIX[operator.text]
 
 
-def _binds_first(top: Operator, new: Operator) -> bool:
+def _binds_first(top: Operator, *, new: Operator) -> bool:
     if _level(top) == _level(new):
         is_chain = top.text == new.text and new.text in _CHAINED
         return not is_chain and _level(new) not in _RIGHT_ASSOCIATIVE

@@ -12,9 +12,13 @@ from ros2cc_extract.places import Place
 
 #: Range of a plain ``int``. Source: UPPAAL documentation, page "Types".
 INT16 = (-32768, 32767)
-_RESERVED = frozenset(
-    ['chan', 'clock', 'bool', 'int', 'commit', 'const', 'urgent', 'broadcast', 'init', 'process', 'state', 'guard', 'sync', 'assign', 'system', 'trans', 'deadlock', 'and', 'or', 'not', 'imply', 'true', 'false', 'for', 'while', 'do', 'if', 'else', 'return', 'typedef', 'struct', 'rate', 'before_update', 'after_update', 'meta', 'priority', 'progress', 'scalar', 'select', 'void', 'default', 'forall', 'exists', 'sum', 'hybrid', 'double', 'string']
+_KEYWORDS = (
+    'chan clock bool int commit const urgent broadcast init process state guard sync assign '
+    'system trans deadlock and or not imply true false for while do if else return typedef '
+    'struct rate before_update after_update meta priority progress scalar select void '
+    'default forall exists sum hybrid double string'
 )
+_RESERVED = frozenset(_KEYWORDS.split())
 
 
 @dataclass(frozen=True)
