@@ -20,6 +20,10 @@ from ros2cc_extract.generator.queries import Family, Query, build_queries, write
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 
+#: What the compact text lets move; docs/model.md shows that more would change no verdict.
+CALLBACKS_IN_PLAY = 2
+THREADS_IN_PLAY = 2
+
 __all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
 
 
@@ -30,7 +34,12 @@ class Profile(Enum):
 
 
 class Text(Enum):
-    """Which of the texts of a profile, equal in verdicts: as published, or with few states."""
+    """
+    Which text of a profile: as published, or one with few states and the same verdicts.
+
+    The compact text answers the queries it is rendered with, no others: it lets only so many
+    callbacks move as one of these queries names.
+    """
 
     PLAIN = 'plain'
     COMPACT = 'compact'
@@ -71,42 +80,66 @@ def render(
     if max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
-    queries = build_queries(unit, _PREMISE[text])
+    queries = build_queries(unit)
     return RenderedModel(
         name=unit.name,
-        xml=_write_xml(unit, queries, f'{profile.value}/{_FOLDER[text]}'),
+        xml=_write_xml(unit, queries, _SOURCES[profile, text]),
         queries=queries,
         q=write_query_file(queries),
-        published=_write_published_files(unit),
+        published=_write_published_files(unit, queries),
     )
 
 
-# Source of the plain premise: query family 7 of the published generator.
-_PREMISE = {
-    Text.PLAIN: '{executor}.schedule_start and {executor}.ready_set_copy[{c}]',
-    Text.COMPACT: '{executor}.schedule_start and {executor}.ready_set_copy[{c}]',
+@dataclass(frozen=True, kw_only=True)
+class _Sources:
+    """The template files of one text."""
+
+    declarations: str
+    system: str
+    automata: tuple[str, ...]
+
+
+_SOURCES = {
+    (Profile.PAPER, Text.PLAIN): _Sources(
+        declarations='paper/declarations.c.j2',
+        system='paper/system.c.j2',
+        automata=(
+            'paper/plain/callback.xml.j2',
+            'paper/callback_group.xml.j2',
+            'paper/plain/thread.xml.j2',
+            'paper/plain/executor.xml.j2',
+        ),
+    ),
+    (Profile.PAPER, Text.COMPACT): _Sources(
+        declarations='paper/compact/declarations.c.j2',
+        system='paper/compact/system.c.j2',
+        automata=(
+            'paper/callback_group.xml.j2',
+            'paper/compact/thread.xml.j2',
+            'paper/compact/executor.xml.j2',
+        ),
+    ),
 }
 
-# The compact text is the plain one as long as it has no templates of its own.
-_FOLDER = {Text.PLAIN: 'plain', Text.COMPACT: 'plain'}
 
-
-def _write_xml(unit: Unit, queries: tuple[Query, ...], folder: str) -> str:
+def _write_xml(unit: Unit, queries: tuple[Query, ...], sources: _Sources) -> str:
     return _fill(
-        f'{folder}/model.xml.j2',
+        'paper/model.xml.j2',
         unit=unit,
         queries=queries,
-        declarations=_fill(f'{folder}/declarations.c.j2', unit=unit),
-        system=_fill(f'{folder}/system.c.j2', unit=unit),
+        automata=sources.automata,
+        declarations=_fill(sources.declarations, unit=unit),
+        system=_fill(sources.system, unit=unit),
+        callbacks_in_play=CALLBACKS_IN_PLAY,
+        threads_in_play=THREADS_IN_PLAY,
     )
 
 
-def _write_published_files(unit: Unit) -> Mapping[str, str]:
-    queries = build_queries(unit, _PREMISE[Text.PLAIN])
+def _write_published_files(unit: Unit, queries: tuple[Query, ...]) -> Mapping[str, str]:
     return MappingProxyType(
         {
-            f'{unit.name}_declarations.c': _fill('paper/plain/declarations.c.j2', unit=unit),
-            f'{unit.name}_system.c': _fill('paper/plain/system.c.j2', unit=unit),
+            f'{unit.name}_declarations.c': _fill('paper/declarations.c.j2', unit=unit),
+            f'{unit.name}_system.c': _fill('paper/system.c.j2', unit=unit),
             f'{unit.name}_query.q': write_query_file(queries),
         }
     )

@@ -43,13 +43,8 @@ class Query:
     groups: tuple[str, ...] = ()
 
 
-def build_queries(unit: Unit, premise: str) -> tuple[Query, ...]:
-    """
-    List all queries on ``unit`` in the order of the published generator.
-
-    :param premise: when a callback counts as seen ready, for the starvation family; a format
-        string of ``executor`` (its name) and ``c`` (number of the callback).
-    """
+def build_queries(unit: Unit) -> tuple[Query, ...]:
+    """List all queries on ``unit`` in the order of the published generator."""
     return (
         Query(
             family=Family.DEADLOCK,
@@ -61,7 +56,7 @@ def build_queries(unit: Unit, premise: str) -> tuple[Query, ...]:
         *(_group_closed(callback, unit.group_of(callback)) for callback in unit.callbacks),
         *(_can_overlap(a, b) for a, b in combinations(unit.callbacks, 2)),
         *(_group_open(group) for group in unit.groups),
-        *(_starvation(callback, unit, premise) for callback in unit.callbacks),
+        *(_starvation(callback, unit.executor) for callback in unit.callbacks),
     )
 
 
@@ -121,12 +116,12 @@ def _group_open(group: UnitGroup) -> Query:
     )
 
 
-def _starvation(callback: UnitCallback, unit: Unit, premise: str) -> Query:
-    seen_ready = premise.format(executor=unit.executor, c=callback.index)
-    running = f'cb_running({callback.index})'
+def _starvation(callback: UnitCallback, executor: str) -> Query:
+    c = callback.index
+    seen_ready = f'{executor}.schedule_start and {executor}.ready_set_copy[{c}]'
     return Query(
         family=Family.STARVATION,
-        formula=f'({seen_ready} and !{running}) --> {running}',
+        formula=f'({seen_ready} and !cb_running({c})) --> cb_running({c})',
         words=f'{callback.words} never starves: once a poll has seen it ready, it runs',
         callbacks=(callback.name,),
     )

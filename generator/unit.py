@@ -52,11 +52,14 @@ class Unit:
     max_cycle: int
 
     @property
+    def servers(self) -> tuple[str, ...]:
+        """The instances that serve callbacks, in system order: executor, threads, groups."""
+        return (self.executor, *self.threads, *(group.name for group in self.groups))
+
+    @property
     def processes(self) -> tuple[str, ...]:
-        """The instances in system order: executor, threads, groups, callbacks."""
-        groups = tuple(group.name for group in self.groups)
-        callbacks = tuple(callback.name for callback in self.callbacks)
-        return (self.executor, *self.threads, *groups, *callbacks)
+        """All instances in system order: executor, threads, groups, callbacks."""
+        return (*self.servers, *(callback.name for callback in self.callbacks))
 
     def group_of(self, callback: UnitCallback) -> UnitGroup:
         """The group of a callback of this unit."""

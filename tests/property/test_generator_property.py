@@ -14,13 +14,15 @@ INSTANCE = re.compile(r'^(\w+) = (\w+)\(', re.M)
 
 @settings(max_examples=60, deadline=None)
 @given(closed_specs(), sampled_from(Text), integers(1, 3))
-def test_every_name_of_the_unit_becomes_one_instance(unit: ClosedSpec, text: Text, cycles: int):
+def test_instances_carry_the_names_of_the_unit(unit: ClosedSpec, text: Text, cycles: int):
     root = ElementTree.fromstring(render(unit, text=text, max_cycle=cycles).xml.encode())
     templates = {template.findtext('name') for template in root.iter('template')}
     instances, _, order = root.findtext('system', '').rpartition('system')
     pairs = dict(INSTANCE.findall(instances))
-    names = [*unit.spec.names()][1:]
-    assert sorted(pairs) == sorted(names)
+    names = set(unit.spec.names()) - {unit.spec.name}
+    if text is Text.COMPACT:  # nobody but the executor sees readiness, so callbacks do not move
+        names -= {callback.name for callback in unit.spec.callbacks}
+    assert set(pairs) == names
     assert set(pairs.values()) <= templates
     assert sorted(re.findall(r'\w+', order)) == sorted(names)
 

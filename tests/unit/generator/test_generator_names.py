@@ -28,7 +28,7 @@ def global_names(xml: str) -> set[str]:
 @pytest.mark.parametrize('text', Text)
 def test_no_unit_may_use_a_name_that_the_model_declares(text: Text):
     names = global_names(render(ARM, text=text).xml)
-    assert {'NUM_CB', 'CbId', 'cb_running', 'thread_free', 'Executor'} <= names
+    assert {'NUM_CB', 'CbId', 'cb_running', 'thread_running', 'Executor'} <= names
     assert names <= MODEL_NAMES
 
 

@@ -7,7 +7,7 @@ from generator_units import closed_unit
 from ros2cc_extract.generator.build import Text, render
 
 ARM = closed_unit('tick:TMR:a scan:SUB:b', 'a:EXCLUSIVE b:REENTRANT', 2)
-REFERENCE = re.compile(r'\{(?:(?:callback|thread|group) [a-z_\[\]]+|executor)\}')
+REFERENCE = re.compile(r'\{(?:(?:callback|thread|group) [a-z_\[\]() 1-]+|executor)\}')
 
 
 def narration(xml: str, template: str) -> list[str]:
@@ -48,6 +48,16 @@ def test_executor_tells_its_decisions():
         '{executor} goes on: {thread cur_thread_id} is idle',
         '{executor} assigns {callback cur_cb_id} to {thread cur_thread_id}',
         '{executor} passes over {callback cur_cb_id}: not ready, or its group is closed',
+    ]
+
+
+def test_the_compact_executor_says_why_it_passes_over_a_callback():
+    assert narration(render(ARM, text=Text.COMPACT).xml, 'Executor') == [
+        '{executor} assigns {callback cur_cb_id - 1} to {thread lowest_idle_thread()}',
+        '{executor} passes over {callback cur_cb_id - 1}: it is not ready',
+        '{executor} passes over {callback cur_cb_id - 1}: its group is closed',
+        '{executor} polls which callbacks are ready',
+        '{executor} polls and sees {callback watched_cb_id} ready',
     ]
 
 
