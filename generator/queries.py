@@ -73,7 +73,7 @@ def _executable(callback: UnitCallback) -> Query:
     return Query(
         family=Family.EXECUTABLE,
         formula=f'E<> cb_running({callback.index})',
-        words=f'{callback.words} can run',
+        words=f'{callback.name} can run',
         callbacks=(callback.name,),
     )
 
@@ -82,7 +82,7 @@ def _never_together(a: UnitCallback, b: UnitCallback) -> Query:
     return Query(
         family=Family.NEVER_TOGETHER,
         formula=f'A[] not (cb_running({a.index}) and cb_running({b.index}))',
-        words=f'{a.words} and {b.words} never run at the same time',
+        words=f'{a.name} and {b.name} never run at the same time',
         callbacks=(a.name, b.name),
     )
 
@@ -92,7 +92,7 @@ def _group_closed(callback: UnitCallback, group: UnitGroup) -> Query:
     return Query(
         family=Family.GROUP_CLOSED,
         formula=f'A[] cb_running({c}) imply group_closed[cb_group_table[{c}]]',
-        words=f'group {group.name} is closed while {callback.words} runs',
+        words=f'group {group.name} is closed while {callback.name} runs',
         callbacks=(callback.name,),
         groups=(group.name,),
     )
@@ -102,7 +102,7 @@ def _can_overlap(a: UnitCallback, b: UnitCallback) -> Query:
     return Query(
         family=Family.CAN_OVERLAP,
         formula=f'E<> (cb_running({a.index}) and cb_running({b.index}))',
-        words=f'{a.words} and {b.words} can run at the same time',
+        words=f'{a.name} and {b.name} can run at the same time',
         callbacks=(a.name, b.name),
     )
 
@@ -122,6 +122,6 @@ def _starvation(callback: UnitCallback, executor: str) -> Query:
     return Query(
         family=Family.STARVATION,
         formula=f'({seen_ready} and !cb_running({c})) --> cb_running({c})',
-        words=f'{callback.words} never starves: once a poll has seen it ready, it runs',
+        words=f'{callback.name} never starves: once a poll has seen it ready, it runs',
         callbacks=(callback.name,),
     )

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,14 +13,11 @@ class UnitCallback:
     A callback of the model.
 
     :param index: its place in the model's tables, from 0.
-    :param words: how it is called in text for people: its function, unless that is ambiguous or
-        has no name of its own (a lambda).
     :param group: place of its group.
     """
 
     index: int
     name: str
-    words: str
     type: str
     group: int
 
@@ -70,11 +65,15 @@ def number_unit(closed: ClosedSpec, max_cycle: int) -> Unit:
     """Give every callback and group of ``closed`` its place, in the order of the spec."""
     spec = closed.spec
     places = {group.name: index for index, group in enumerate(spec.groups)}
-    shown = Counter(callback.display_name for callback in spec.callbacks)
     return Unit(
         name=spec.name,
         callbacks=tuple(
-            _number_callback(index, callback, places[callback.group], shown)
+            UnitCallback(
+                index=index,
+                name=callback.name,
+                type=callback.type.value,
+                group=places[callback.group],
+            )
             for index, callback in enumerate(spec.callbacks)
         ),
         groups=tuple(
@@ -84,18 +83,4 @@ def number_unit(closed: ClosedSpec, max_cycle: int) -> Unit:
         threads=spec.executor.threads,
         executor=spec.executor.name,
         max_cycle=max_cycle,
-    )
-
-
-def _number_callback(
-    index: int, callback: Callback, group: int, shown: Counter[str]
-) -> UnitCallback:
-    function = callback.display_name
-    tells = function.isidentifier() and shown[function] == 1
-    return UnitCallback(
-        index=index,
-        name=callback.name,
-        words=function if tells else callback.name,
-        type=callback.type.value,
-        group=group,
     )

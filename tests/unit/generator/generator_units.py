@@ -13,22 +13,13 @@ from ros2cc_extract.spec.model import (
 )
 
 
-def closed_unit(
-    callbacks: str, groups: str, threads: int, functions: dict[str, str] | None = None
-) -> ClosedSpec:
-    """
-    Build a unit from text: ``'scan:SUB:g tick:TMR:g'``, ``'g:EXCLUSIVE'``.
-
-    :param functions: qualified function names by callback name.
-    """
-    functions = functions or {}
+def closed_unit(callbacks: str, groups: str, threads: int) -> ClosedSpec:
+    """Build a unit from text: ``'scan:SUB:g tick:TMR:g'``, ``'g:EXCLUSIVE'``."""
     return close(
         Spec(
             name='arm',
             callbacks=tuple(
-                Callback(
-                    name=name, type=CallbackType(kind), group=group, function=functions.get(name)
-                )
+                Callback(name=name, type=CallbackType(kind), group=group)
                 for name, kind, group in _rows(callbacks)
             ),
             groups=tuple(

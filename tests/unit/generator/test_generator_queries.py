@@ -40,13 +40,6 @@ def test_a_query_names_its_callbacks_and_groups():
     )
 
 
-def test_words_use_the_function_name_while_it_is_unambiguous():
-    functions = {'a': 'm.A.run', 'b': 'm.B.run', 'c': 'm.C.on_scan', 'd': 'm.<lambda>'}
-    unit = closed_unit('a:SUB:g b:SUB:g c:SUB:g d:TMR:g', 'g:REENTRANT', 2, functions)
-    words = [query.words for query in render(unit).queries if query.family is Family.EXECUTABLE]
-    assert words == ['a can run', 'b can run', 'on_scan can run', 'd can run']
-
-
 def test_query_file_pairs_each_formula_with_its_words():
     one = closed_unit('tick:TMR:g', 'g:REENTRANT', 1)
     assert render(one).q == (
