@@ -1,0 +1,197 @@
+"""
+One record for each executor, node, group, entity and task seen.
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours. Objects of the program are held by weak references, so that nothing lives longer
+than without us.
+"""
+
+from __future__ import annotations
+
+import weakref
+from typing import Any
+
+from .frames import Creation, FunctionName, RawPlace, class_name, name_function
+from .timings import Timings
+
+_KINDS = {
+    'Timer': 'timer',
+    'Subscription': 'subscription',
+    'GuardCondition': 'guard_condition',
+    'Client': 'client',
+    'Service': 'service',
+    'EventHandler': 'qos_event',
+    'ActionServer': 'action_server',
+    'ActionClient': 'action_client',
+}
+WAITABLE_KINDS = frozenset({'qos_event', 'action_server', 'action_client', 'waitable'})
+# rclpy's modules whose entities nobody wrote, with the kind they are of.
+_BUILTIN_MODULES = {
+    'parameter_service': 'parameter_service',
+    'type_description_service': 'service',
+    'logging_service': 'service',
+    'time_source': 'subscription',
+    'lifecycle.node': 'lifecycle_service',
+}
+# rclpy's modules whose entities somebody asked for indirectly.
+_LIBRARY_MODULES = ('parameter_client', 'parameter_event_handler')
+
+
+class ExecutorRecord:
+    """An executor; ``default_threads`` when its program left the number to rclpy."""
+
+    def __init__(self, number: int, executor: Any, created: RawPlace | None) -> None:
+        self.number = number
+        self.ref = weakref.ref(executor)
+        self.cls = class_name(executor)
+        self.bases = [base.__name__ for base in type(executor).__mro__]
+        self.own_class = not type(executor).__module__.startswith('rclpy')
+        self.created = created
+        self.default_threads = False
+        self.threads: int | None = None
+        self.spun: str | None = None
+        self.in_thread: bool | None = None
+
+
+class NodeRecord:
+    """A node and the executors it was in, one after the other."""
+
+    def __init__(self, number: int, node: Any) -> None:
+        self.number = number
+        self.ref = weakref.ref(node)
+        self.cls = class_name(node)
+        self.name: str | None = None
+        self.namespace: str | None = None
+        self.stays: list[dict[str, Any]] = []
+
+
+class GroupRecord:
+    """A callback group; ``kind`` is ``exclusive``, ``reentrant`` or ``own``."""
+
+    def __init__(self, number: int, group: Any, creation: Creation | None) -> None:
+        self.number = number
+        self.ref = weakref.ref(group)
+        self.cls = class_name(group)
+        self.kind = _GROUP_KINDS.get(self.cls, 'own')
+        if not type(group).__module__.startswith('rclpy'):
+            self.kind = 'own'
+        self.creation = creation
+        self.node: int | None = None
+        self.default = False
+        self.rate = False
+
+
+_GROUP_KINDS = {
+    'MutuallyExclusiveCallbackGroup': 'exclusive',
+    'ReentrantCallbackGroup': 'reentrant',
+}
+
+
+class EntityRecord:
+    """An entity; what it is gets filled in once, as soon as the object is complete."""
+
+    def __init__(self, number: int, entity: Any, group: int) -> None:
+        self.number = number
+        self.ref = weakref.ref(entity)
+        self.group = group
+        self.node: int | None = None
+        self.creation: Creation | None = None
+        self.late = False
+        self.complete = False
+        self.kind = _KINDS.get(class_name(entity), 'waitable')
+        self.cls = class_name(entity)
+        self.key: str | None = None
+        self.resolved_key: str | None = None
+        self.period_ns: int | None = None
+        self.function: FunctionName | None = None
+        # What an action server runs as a task, in no group.
+        self.execute: FunctionName | None = None
+        self.builtin = False
+        self.library: str | None = None
+        self.gone = False
+        self.made = 1
+        self.timings = Timings()
+
+    def signature(self) -> tuple[Any, ...]:
+        """Equal for entities that one line of the program makes again and again."""
+        place = self.creation.place if self.creation else None
+        name = self.function.name if self.function else None
+        return self.kind, self.node, self.group, place, self.key, self.period_ns, name
+
+
+class TaskRecord:
+    """Work outside every group: created tasks, done-callbacks."""
+
+    def __init__(self, kind: str, function: FunctionName, executor: int) -> None:
+        self.kind = kind
+        self.function = function
+        self.executor = executor
+        self.node: int | None = None
+        self.count = 0
+
+
+def has_waited(executor: Any) -> bool:
+    """Whether an executor has ever waited for work (``executors.py``: it keeps its arguments)."""
+    try:
+        return executor._last_args is not None
+    except AttributeError:
+        return True
+
+
+def thread_count(executor: Any) -> int | None:
+    """
+    Give the number of threads that run callbacks; ``None`` for classes we do not know.
+
+    ``MultiThreadedExecutor`` has no public way to tell (rclpy 3.3 to 9.1, ``executors.py``).
+    """
+    workers = getattr(getattr(executor, '_executor', None), '_max_workers', None)
+    if isinstance(workers, int):
+        return workers
+    return 1 if type(executor).__module__.startswith('rclpy') else None
+
+
+def fill_node(record: NodeRecord, node: Any) -> None:
+    """Note the names while they can be had: a destroyed node raises when asked."""
+    if record.name is None:
+        try:
+            record.name = node.get_name()
+            record.namespace = node.get_namespace()
+        except Exception:  # InvalidHandle cannot be imported here
+            return
+
+
+def fill_entity(record: EntityRecord, entity: Any) -> None:
+    creation = record.creation or Creation()
+    _fill_key(record, entity, creation)
+    record.function = name_function(getattr(entity, 'callback', None))
+    record.execute = name_function(creation.execute_callback)
+    creation.execute_callback = None
+    record.library = creation.library
+    for module in creation.through:
+        if module in _BUILTIN_MODULES:
+            record.builtin = True
+            if record.kind != 'qos_event':
+                record.kind = _BUILTIN_MODULES[module]
+        elif module in _LIBRARY_MODULES:
+            record.library = record.library or f'rclpy.{module}'
+    if 'create_rate' in creation.functions:
+        record.library = 'rclpy.create_rate'
+    if record.function is not None and record.function.module.startswith('rclpy.'):
+        record.builtin = record.builtin or record.library is None
+    record.complete = True
+
+
+def _fill_key(record: EntityRecord, entity: Any, creation: Creation) -> None:
+    for name in ('topic', 'srv_name', '_action_name'):
+        value = getattr(entity, name, None)
+        if isinstance(value, str):
+            record.key = value
+            break
+    else:
+        record.key = creation.action_name
+    for name in ('topic_name', 'service_name'):
+        value = getattr(entity, name, None)
+        if isinstance(value, str):
+            record.resolved_key = value
+    if record.kind == 'timer':
+        record.period_ns = entity.timer_period_ns

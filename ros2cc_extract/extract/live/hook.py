@@ -1,0 +1,250 @@
+"""
+What is wrapped in rclpy so that a running process tells what its executors hold.
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours. Executors and groups are wrapped, callbacks never. Each wrapper calls the original
+first, gives back what that gave, and swallows and counts its own failures.
+"""
+
+from __future__ import annotations
+
+import atexit
+import functools
+import os
+import sys
+import time
+from collections.abc import Callable
+from threading import get_ident
+from typing import Any
+
+from .frames import is_node, trace_creation
+from .record import BEGIN, END, REFUSED, EntityRecord, Recorder
+from .writer import Writer
+
+OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
+WATCHED_MODULE = 'rclpy.executors'
+
+
+class Hook:
+    """The recorder of this process, its writer, and what is wrapped."""
+
+    def __init__(self, directory: str) -> None:
+        self.recorder = Recorder()
+        self.writer = Writer(self.recorder, lambda: _file_of_process(directory))
+        self._wrapped: list[tuple[type, str, Any]] = []
+
+    def install(self) -> None:
+        """Wrap rclpy now if it is loaded, else as soon as it will be."""
+        os.register_at_fork(after_in_child=self._after_fork)
+        atexit.register(self._at_exit)
+        loaded = sys.modules.get(WATCHED_MODULE)
+        if loaded is not None:
+            self.wrap(loaded)
+        else:
+            sys.meta_path.insert(0, _Finder(self.wrap, self.recorder.lose))  # type: ignore[arg-type]
+
+    def wrap(self, executors: Any) -> None:
+        """Wrap the classes of ``rclpy.executors`` and ``rclpy.callback_groups``."""
+        groups = sys.modules['rclpy.callback_groups']
+        base = executors.Executor
+        self._replace(base, '__init__', self._executor_made)
+        self._replace(base, 'add_node', self._node_added)
+        self._replace(base, 'remove_node', self._node_removed)
+        self._replace(base, 'wake', self._woken)
+        self._replace(base, 'create_task', self._task_created)
+        self._replace(groups.CallbackGroup, '__init__', self._group_made)
+        self._replace(groups.CallbackGroup, 'add_entity', self._entity_added)
+        for group in _subclasses(groups.CallbackGroup):
+            self._wrap_group(group)
+        self._watch_new_groups(groups.CallbackGroup)
+
+    def unwrap(self) -> None:
+        """Put everything back."""
+        for owner, name, original in reversed(self._wrapped):
+            if original is None:
+                delattr(owner, name)
+            else:
+                setattr(owner, name, original)
+        self._wrapped.clear()
+
+    def _replace(self, owner: type, name: str, note: Callable[..., None]) -> None:
+        """Call ``note(result, self, …)`` after each call of a method."""
+        original = owner.__dict__[name]
+        lose = self.recorder.lose
+
+        @functools.wraps(original)
+        def method(instance: Any, *args: Any, **kwargs: Any) -> Any:
+            result = original(instance, *args, **kwargs)
+            try:
+                note(result, instance, *args, **kwargs)
+            except Exception as error:
+                lose(error)
+            return result
+
+        self._set(owner, name, method)
+
+    def _set(self, owner: type, name: str, value: Any) -> None:
+        self._wrapped.append((owner, name, owner.__dict__.get(name)))
+        setattr(owner, name, value)
+
+    def _executor_made(self, _result: None, executor: Any, *_: Any, **__: Any) -> None:
+        # This method, the wrapper and so on outwards to the class's own __init__.
+        frame = sys._getframe(2)
+        record = self.recorder.note_executor(executor, trace_creation(frame).place)
+        record.default_threads = frame.f_locals.get('num_threads', ...) is None
+        self.writer.start()
+
+    def _node_added(self, added: bool | None, executor: Any, node: Any) -> None:
+        if added is not False:
+            self.recorder.note_added(executor, node)
+            self.writer.start()
+
+    def _node_removed(self, _result: None, executor: Any, node: Any) -> None:
+        self.recorder.note_removed(executor, node)
+
+    def _woken(self, _result: None, _executor: Any) -> None:
+        self.recorder.changes += 1
+
+    def _task_created(
+        self, _result: Any, executor: Any, callback: Any, *_: Any, **__: Any
+    ) -> None:
+        asked_by = sys._getframe(2).f_globals.get('__name__')
+        kind = 'done_callback' if asked_by == 'rclpy.task' else 'task'
+        self.recorder.note_task(executor, kind, callback)
+
+    def _group_made(self, _result: None, group: Any) -> None:
+        creation = trace_creation(sys._getframe(2))
+        node, creation.node = creation.node, None
+        self.recorder.note_group(group, creation)
+        if is_node(node):
+            self.recorder.note_node(node)
+
+    def _entity_added(self, _result: None, group: Any, entity: Any) -> None:
+        self.recorder.note_entity(group, entity, trace_creation(sys._getframe(2)))
+
+    def _watch_new_groups(self, base: Any) -> None:
+        """Wrap group classes that are defined later, when they are defined."""
+        original = base.__init_subclass__
+        wrap_group, lose = self._wrap_group, self.recorder.lose
+
+        def init_subclass(cls: type, **kwargs: Any) -> None:
+            original(**kwargs)
+            try:
+                wrap_group(cls)
+            except Exception as error:
+                lose(error)
+
+        self._set(base, '__init_subclass__', classmethod(init_subclass))
+
+    def _wrap_group(self, group: type) -> None:
+        if 'beginning_execution' in group.__dict__:
+            self._set(group, 'beginning_execution', self._beginning(group))
+        if 'ending_execution' in group.__dict__:
+            self._set(group, 'ending_execution', self._ending(group))
+
+    def _beginning(self, group: type) -> Any:
+        original = group.__dict__['beginning_execution']
+        entities, append, lose = self.recorder.entities, self.recorder.events.append, self.recorder.lose
+        clock, find = time.monotonic_ns, self._find
+
+        @functools.wraps(original)
+        def beginning_execution(self: Any, entity: Any) -> Any:
+            allowed = original(self, entity)
+            try:
+                # A subclass that calls its base is counted once, by its own wrapper.
+                if type(self).beginning_execution is beginning_execution:
+                    record = entities.get(id(entity)) or find(self, entity)
+                    append((clock(), get_ident(), BEGIN if allowed else REFUSED, record))
+            except Exception as error:
+                lose(error)
+            return allowed
+
+        return beginning_execution
+
+    def _ending(self, group: type) -> Any:
+        original = group.__dict__['ending_execution']
+        entities, append, lose = self.recorder.entities, self.recorder.events.append, self.recorder.lose
+        clock, find = time.monotonic_ns, self._find
+
+        @functools.wraps(original)
+        def ending_execution(self: Any, entity: Any) -> Any:
+            result = original(self, entity)
+            try:
+                if type(self).ending_execution is ending_execution:
+                    record = entities.get(id(entity)) or find(self, entity)
+                    append((clock(), get_ident(), END, record))
+            except Exception as error:
+                lose(error)
+            return result
+
+        return ending_execution
+
+    def _find(self, group: Any, entity: Any) -> EntityRecord:
+        """Note an entity that was there before us."""
+        return self.recorder.note_entity(group, entity)
+
+    def _after_fork(self) -> None:
+        self.recorder.forget()
+        self.writer.forget()
+
+    def _at_exit(self) -> None:
+        try:
+            self.writer.finish()
+        except Exception as error:
+            self.recorder.lose(error)
+
+
+class _Finder:
+    """Lets the other finders find rclpy's executors, and wraps them once they are loaded."""
+
+    def __init__(
+        self, wrap: Callable[[Any], None], lose: Callable[[BaseException], None]
+    ) -> None:
+        self._wrap = wrap
+        self._lose = lose
+
+    def find_spec(self, name: str, path: Any = None, target: Any = None) -> Any:
+        if name != WATCHED_MODULE:
+            return None
+        sys.meta_path.remove(self)  # type: ignore[arg-type]
+        for finder in sys.meta_path:
+            spec = finder.find_spec(name, path, target)
+            if spec is not None:
+                self._follow(spec.loader)
+                return spec
+        return None
+
+    def _follow(self, loader: Any) -> None:
+        execute = loader.exec_module
+
+        def exec_module(module: Any) -> None:
+            execute(module)
+            try:
+                self._wrap(module)
+            except Exception as error:
+                self._lose(error)
+
+        loader.exec_module = exec_module
+
+
+def install(directory: str) -> Hook:
+    """Install the hook; recordings go into ``directory``, one file for each process."""
+    hook = Hook(directory)
+    hook.install()
+    return hook
+
+
+def install_from_environment() -> Hook | None:
+    """Install the hook if the environment asks for it."""
+    directory = os.environ.get(OUTPUT_VARIABLE)
+    return install(directory) if directory else None
+
+
+def _file_of_process(directory: str) -> str:
+    """Give a name that no other process uses, not even one that gets the same number later."""
+    return f'{directory}/{os.getpid()}-{time.time_ns():x}.json'
+
+
+def _subclasses(cls: type) -> list[type]:
+    found = cls.__subclasses__()
+    return found + [deeper for sub in found for deeper in _subclasses(sub)]

@@ -1,0 +1,267 @@
+"""
+What was seen of executors, nodes, groups and entities of this process.
+
+Only records; all judgement comes later, in ``collect.py``. Runs inside the user's process: the
+standard library only, nothing else of ours but its neighbours.
+
+What may be called from any thread and at any time, also from a signal handler or the garbage
+collector: ``events.append``, ``note_…`` (under a re-entrant lock).
+"""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+from .entries import (
+    WAITABLE_KINDS,
+    EntityRecord,
+    ExecutorRecord,
+    GroupRecord,
+    NodeRecord,
+    TaskRecord,
+    fill_entity,
+    fill_node,
+    has_waited,
+    thread_count,
+)
+from .frames import Creation, RawPlace, is_node, name_function
+
+BEGIN, REFUSED, END = 0, 1, 2
+Event = tuple[int, int, int, 'EntityRecord | None']
+
+# Half a minute of 4 kHz, should the writer not get the processor for that long.
+EVENTS_KEPT = 120_000
+
+ENTITY_LISTS = {
+    'timer': 'timers',
+    'subscription': 'subscriptions',
+    'guard_condition': 'guards',
+    'client': 'clients',
+    'service': 'services',
+    'waitable': 'waitables',
+}
+
+class Recorder:
+    """All that was seen in this process."""
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.events: deque[Event] = deque(maxlen=EVENTS_KEPT)
+        self.entities: dict[int, EntityRecord] = {}
+        self.losses: deque[str] = deque(maxlen=5)
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew, as a forked child must: what the parent made is not the child's."""
+        self.lock = threading.RLock()
+        self.changes = 0
+        self.loss_count = 0
+        self.executors: dict[int, ExecutorRecord] = {}
+        self.nodes: dict[int, NodeRecord] = {}
+        self.groups: dict[int, GroupRecord] = {}
+        self.tasks: dict[tuple[Any, ...], TaskRecord] = {}
+        self.all_executors: list[ExecutorRecord] = []
+        self.all_nodes: list[NodeRecord] = []
+        self.all_groups: list[GroupRecord] = []
+        self.all_entities: list[EntityRecord] = []
+        self._numbers = itertools.count(1)
+        # The hot path holds these two, so they are emptied and not replaced.
+        self.entities.clear()
+        self.events.clear()
+        self.losses.clear()
+
+    def lose(self, error: BaseException) -> None:
+        """Count a failure of our own that was swallowed."""
+        self.loss_count += 1
+        self.losses.append(repr(error))
+
+    def note_executor(self, executor: Any, created: RawPlace | None = None) -> ExecutorRecord:
+        with self.lock:
+            record = self.executors.get(id(executor))
+            if record is None or record.ref() is not executor:
+                record = ExecutorRecord(next(self._numbers), executor, created)
+                self.executors[id(executor)] = record
+                self.all_executors.append(record)
+                self.changes += 1
+            return record
+
+    def note_added(self, executor: Any, node: Any) -> None:
+        with self.lock:
+            home, record = self.note_executor(executor), self.note_node(node)
+            if any(stay['until'] is None and stay['executor'] == home.number
+                   for stay in record.stays):
+                return
+            for group in self._groups_of(node):
+                self.note_group(group)
+            record.stays.append(
+                {'executor': home.number, 'since': time.monotonic_ns(), 'until': None,
+                 'waited': False}
+            )
+            self.changes += 1
+
+    def note_removed(self, executor: Any, node: Any) -> None:
+        with self.lock:
+            home, record = self.note_executor(executor), self.note_node(node)
+            for stay in record.stays:
+                if stay['until'] is None and stay['executor'] == home.number:
+                    stay['until'] = time.monotonic_ns()
+                    stay['waited'] = has_waited(executor)
+                    self.changes += 1
+
+    def note_node(self, node: Any) -> NodeRecord:
+        with self.lock:
+            record = self.nodes.get(id(node))
+            if record is None or record.ref() is not node:
+                record = NodeRecord(next(self._numbers), node)
+                self.nodes[id(node)] = record
+                self.all_nodes.append(record)
+                self.changes += 1
+            fill_node(record, node)
+            return record
+
+    def note_group(self, group: Any, creation: Creation | None = None) -> GroupRecord:
+        with self.lock:
+            record = self.groups.get(id(group))
+            if record is None or record.ref() is not group:
+                record = GroupRecord(next(self._numbers), group, creation)
+                self.groups[id(group)] = record
+                self.all_groups.append(record)
+                self.changes += 1
+            return record
+
+    def note_entity(
+        self, group: Any, entity: Any, creation: Creation | None = None
+    ) -> EntityRecord:
+        """Record an entity of ``group``; called again, fill in what was not known before."""
+        with self.lock:
+            record = self.entities.get(id(entity))
+            if record is None or record.ref() is not entity:
+                record = EntityRecord(
+                    next(self._numbers), entity, self.note_group(group).number
+                )
+                self.entities[id(entity)] = record
+                self.all_entities.append(record)
+            if creation is not None:
+                node, creation.node = creation.node, None
+                record.creation = creation
+                if node is not None:
+                    self._join(record, group, node)
+            # A waitable joins its group before its own class has set it up.
+            if not record.complete and record.kind not in WAITABLE_KINDS:
+                fill_entity(record, entity)
+            self.changes += 1
+            return record
+
+    def note_task(self, executor: Any, kind: str, callback: Any) -> None:
+        function = name_function(callback)
+        if function is None or function.module.partition('.')[0] == 'rclpy':
+            return
+        with self.lock:
+            home = self.note_executor(executor).number
+            key = kind, function.name, function.defined, home
+            record = self.tasks.get(key)
+            if record is None:
+                record = self.tasks[key] = TaskRecord(kind, function, home)
+                owner = getattr(callback, '__self__', None)
+                record.node = self.note_node(owner).number if is_node(owner) else None
+            record.count += 1
+            self.changes += 1
+
+    def look_around(self) -> None:
+        """Read the live lists of all nodes that are in an executor, and note what is new."""
+        with self.lock:
+            for record in list(self.all_nodes):
+                node = record.ref()
+                if node is not None:
+                    fill_node(record, node)
+                    self._look_at(record, node)
+
+    def settle(self) -> None:
+        """Bring timings up to date; fold away entities that are gone and were made again."""
+        self._drain()
+        with self.lock:
+            for record in self.all_executors:
+                self._look_at_executor(record)
+            folded: dict[tuple[Any, ...], EntityRecord] = {}
+            kept = []
+            for entity in self.all_entities:
+                self._settle_entity(entity)
+                first = folded.get(entity.signature())
+                if entity.gone and first is not None and first.gone:
+                    first.made += 1
+                    continue
+                folded.setdefault(entity.signature(), entity)
+                kept.append(entity)
+            self.all_entities = kept
+
+    def _settle_entity(self, record: EntityRecord) -> None:
+        entity = record.ref()
+        if entity is None:
+            record.gone = True
+        elif not record.complete:
+            fill_entity(record, entity)
+
+    def _drain(self) -> None:
+        for clock, thread, what, record in self._taken_events():
+            if record is None:
+                continue
+            if what == BEGIN:
+                record.timings.begin(clock, thread)
+            elif what == END:
+                record.timings.end(clock, thread)
+            else:
+                record.timings.refused += 1
+            self.changes += 1
+
+    def _taken_events(self) -> Iterator[Event]:
+        while True:
+            try:
+                yield self.events.popleft()
+            except IndexError:
+                return
+
+    def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
+        owner = self.note_node(node)
+        record.node = owner.number
+        record.late = record.late or any(stay['waited'] for stay in owner.stays)
+        self._claim(group, node, owner)
+
+    def _claim(self, group: Any, node: Any, owner: NodeRecord) -> None:
+        """Mark a group that belongs to a node: its default group, the private one of rates."""
+        record = self.note_group(group)
+        if getattr(node, 'default_callback_group', None) is group:
+            record.default, record.node = True, owner.number
+        elif getattr(node, '_rate_group', None) is group:
+            record.rate, record.node = True, owner.number
+
+    def _groups_of(self, node: Any) -> Iterator[Any]:
+        default = getattr(node, 'default_callback_group', None)
+        if default is not None:
+            yield default
+
+    def _look_at(self, owner: NodeRecord, node: Any) -> None:
+        for name in ENTITY_LISTS.values():
+            for entity in list(getattr(node, name)):
+                known = self.entities.get(id(entity))
+                if known is None or known.ref() is not entity:
+                    known = self.note_entity(entity.callback_group, entity)
+                if known.node is None:
+                    self._join(known, entity.callback_group, node)
+                if not known.complete:
+                    fill_entity(known, entity)
+
+    def _look_at_executor(self, record: ExecutorRecord) -> None:
+        executor = record.ref()
+        if executor is None:
+            return
+        record.threads = thread_count(executor)
+        waited = has_waited(executor)
+        for node in self.all_nodes:
+            for stay in node.stays:
+                if stay['until'] is None and stay['executor'] == record.number:
+                    stay['waited'] = stay['waited'] or waited

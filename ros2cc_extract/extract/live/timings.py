@@ -1,0 +1,93 @@
+"""
+Counts, periods and durations of one callback, in bounded memory.
+
+Runs inside the user's process: the standard library only, nothing else of ours.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from typing import Any
+
+# Enough for a median within a few per cent; extremes and counts are exact.
+SAMPLES = 512
+
+
+class Distribution:
+    """Exact count, minimum and maximum; median and p99 of the last ``SAMPLES`` values."""
+
+    __slots__ = ('count', 'largest', 'last', 'smallest')
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.smallest = 0
+        self.largest = 0
+        self.last: deque[int] = deque(maxlen=SAMPLES)
+
+    def add(self, value: int) -> None:
+        if not self.count or value < self.smallest:
+            self.smallest = value
+        if value > self.largest:
+            self.largest = value
+        self.count += 1
+        self.last.append(value)
+
+    def describe(self) -> dict[str, float] | None:
+        """Seconds; ``None`` before the first value."""
+        if not self.count:
+            return None
+        ordered = sorted(self.last)
+        return {
+            'min_s': self.smallest / 1e9,
+            'median_s': _quantile(ordered, 0.5) / 1e9,
+            'p99_s': _quantile(ordered, 0.99) / 1e9,
+            'max_s': self.largest / 1e9,
+        }
+
+
+class Timings:
+    """What was measured of one entity; fed with begins and ends in the order they happened."""
+
+    __slots__ = ('_begun', '_last_begin', 'durations', 'periods', 'refused', 'runs', 'threads')
+
+    def __init__(self) -> None:
+        self.runs = 0
+        self.refused = 0
+        self.periods = Distribution()
+        self.durations = Distribution()
+        self.threads: set[int] = set()
+        self._begun: list[tuple[int, int]] = []
+        self._last_begin = 0
+
+    def begin(self, clock_ns: int, thread: int) -> None:
+        if self.runs:
+            self.periods.add(clock_ns - self._last_begin)
+        self.runs += 1
+        self._last_begin = clock_ns
+        self.threads.add(thread)
+        self._begun.append((clock_ns, thread))
+
+    def end(self, clock_ns: int, thread: int) -> None:
+        """Close the last run begun by this thread; a coroutine may end in another one."""
+        for index in range(len(self._begun) - 1, -1, -1):
+            if self._begun[index][1] == thread:
+                break
+        else:
+            index = 0
+        if self._begun:
+            self.durations.add(clock_ns - self._begun.pop(index)[0])
+
+    def describe(self) -> dict[str, Any]:
+        return {
+            'count': self.runs,
+            'refused': self.refused,
+            'running': len(self._begun),
+            'threads': len(self.threads),
+            'period': self.periods.describe(),
+            'duration': self.durations.describe(),
+        }
+
+
+def _quantile(ordered: Sequence[int], share: float) -> int:
+    return ordered[min(len(ordered) - 1, int(share * len(ordered)))]

@@ -1,0 +1,111 @@
+"""
+The thread that keeps the file of this process up to date.
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+from .record import Recorder
+from .snapshot import snapshot
+from .spinning import look_for_spinning_threads
+
+# The file is at most this old, twice: once to notice a change, once for a slow write.
+INTERVAL_S = 0.2
+# Writing takes at most this share of one processor, however much there is to write.
+LARGEST_SHARE = 0.02
+RETRY_S = 5.0
+
+
+class Writer:
+    """Rewrites one file, by way of a temporary one, whenever the recorder has changed."""
+
+    def __init__(self, recorder: Recorder, path: Callable[[], str]) -> None:
+        self._recorder = recorder
+        self._path_of_process = path
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew, as a forked child must: its parent's thread does not exist there."""
+        self._path: str | None = None
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._written_changes = 0
+        self._not_before = 0.0
+        self._complained = False
+
+    def start(self) -> None:
+        """Start the thread, unless it runs."""
+        if self._thread is None:
+            self._thread = threading.Thread(
+                target=self._run, name='ros2cc-extract', daemon=True
+            )
+            self._thread.start()
+
+    def finish(self) -> None:
+        """Write what there is, for the last time."""
+        self._stop.set()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join(timeout=2.0)
+        if self._recorder.all_executors:
+            self._recorder.settle()
+            self._write(ended=True)
+
+    def _run(self) -> None:
+        # No signal is to be delivered here that the program awaits in a thread of its own.
+        signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+        while not self._stop.wait(INTERVAL_S):
+            try:
+                self.update()
+            except Exception as error:
+                self._recorder.lose(error)
+
+    def update(self) -> None:
+        """Write the file if anything has changed since it was written."""
+        recorder = self._recorder
+        recorder.look_around()
+        recorder.settle()
+        look_for_spinning_threads(recorder)
+        if recorder.changes == self._written_changes or time.monotonic() < self._not_before:
+            return
+        self._written_changes = recorder.changes
+        started = time.thread_time()
+        done = self._write(ended=False)
+        spent = time.thread_time() - started
+        wait = spent / LARGEST_SHARE if done else RETRY_S
+        self._not_before = time.monotonic() + max(0.0, wait - INTERVAL_S)
+
+    def _write(self, *, ended: bool) -> bool:
+        with self._recorder.lock:
+            text = snapshot(self._recorder, ended=ended)
+        path = self._path or self._path_of_process()
+        self._path = path
+        temporary = f'{path}.new'
+        try:
+            with open(temporary, 'w', encoding='utf-8') as stream:  # noqa: PTH123
+                stream.write(text)
+            os.replace(temporary, path)  # noqa: PTH105
+        except OSError as error:
+            self._complain(path, error)
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)  # noqa: PTH108
+            return False
+        return True
+
+    def _complain(self, path: str, error: OSError) -> None:
+        if not self._complained:
+            self._complained = True
+            print(
+                f'ros2cc-extract: cannot write {path}: {error.strerror}; the node runs on, '
+                'its recording is tried again every 5 s',
+                file=sys.stderr,
+            )
