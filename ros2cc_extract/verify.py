@@ -127,7 +127,8 @@ def verify_unit(
         except LicenceError as error:
             embedded = replace(options, checker=Checker.EMBEDDED)
             note = f'{error}; the embedded checker was used'
-            return replace(verify_unit(closed, embedded, progress), notes=(note,))
+            found = verify_unit(closed, embedded, progress)
+            return replace(found, notes=(note, *found.notes))
     model = read_model(rendered.xml, f'{rendered.name}.xml')
     queries = [Query(q.formula, q.words, None) for q in rendered.queries]
     result = _check(model, queries, options, progress)
@@ -245,7 +246,7 @@ def _result(
         verdict=answer.verdict,
         reason=answer.reason,
         seconds=answer.seconds,
-        evidence=tell(answer.run, names) if answer.run else None,
+        evidence=tell(answer.path, names) if answer.path else None,
     )
 
 
@@ -270,4 +271,5 @@ def _verification(
         complete=result.complete,
         results=results,
         assumptions=assumptions,
+        notes=(result.note,) if result.note else (),
     )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TextIO
+import re
+from typing import TextIO, cast
 
 from rich.console import Console
 from rich.table import Table
@@ -12,6 +13,7 @@ from rich.text import Text
 from ros2cc_extract.verify import Verdict
 
 LOG_WIDTH = 120
+_LINE_END_BLANKS = re.compile(r'[ \t]+(?=\n)')
 
 _COLOURS = {
     Verdict.SATISFIED: 'green',
@@ -22,9 +24,33 @@ _COLOURS = {
 
 def console_for(stream: TextIO) -> Console:
     """Make a console; where the stream is no terminal the width does not depend on the machine."""
-    is_terminal = stream.isatty()
-    width = None if is_terminal or 'COLUMNS' in os.environ else LOG_WIDTH
-    return Console(file=stream, width=width, highlight=False, markup=False, emoji=False)
+    width = None if stream.isatty() or 'COLUMNS' in os.environ else LOG_WIDTH
+    target = cast(TextIO, Unpadded(stream))
+    return Console(file=target, width=width, highlight=False, markup=False, emoji=False)
+
+
+class Unpadded:
+    """Takes the blanks off line ends with which a table fills its last column."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        self._stream.write(_LINE_END_BLANKS.sub('', text))
+        return len(text)
+
+    def flush(self) -> None:
+        self._stream.flush()
+
+    def isatty(self) -> bool:
+        return self._stream.isatty()
+
+    def fileno(self) -> int:
+        return self._stream.fileno()
+
+    @property
+    def encoding(self) -> str:
+        return self._stream.encoding
 
 
 def table(*headers: str) -> Table:
