@@ -1,0 +1,151 @@
+"""Looking attributes up: instances, classes, modules, libraries, constants."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static import builtin_methods
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import (
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Function,
+    Instance,
+    Library,
+    Mapping,
+    Module,
+    Mystery,
+    Native,
+    Partial,
+    Sequence,
+    Super,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Place, Unknown
+
+
+class Attributes(Machine):
+    """What stands behind a dot."""
+
+    def attribute(self, value: Value, name: str, place: Place, text: str = '') -> Value:
+        """``value.name``."""
+        found = self._find(value, name, place)
+        if isinstance(found, Choice):
+            return choice(list(options_of(found)))
+        if found is not None:
+            return found
+        if isinstance(value, Mystery):
+            label = text or (f'{value.text}.{name}' if value.text else name)
+            return Mystery(value.unknown, label)
+        return self.mystery(f'attribute {name!r} could not be followed', place, text or name)
+
+    def has_attribute(self, value: Value, name: str) -> bool | None:
+        """Whether ``value.name`` exists; ``None`` when that depends."""
+        if isinstance(value, (Mystery, Choice)):
+            return None
+        found = self._find(value, name, Place(''))
+        if found is not None:
+            return True
+        if isinstance(value, Instance) and any(not isinstance(cls, Class) for cls in value.mro):
+            return None
+        return False
+
+    def _find(self, value: Value, name: str, place: Place) -> Value | None:
+        if isinstance(value, Instance):
+            return self._of_instance(value, name, place)
+        if isinstance(value, Class):
+            return self._of_class(value, name, place)
+        if isinstance(value, Module):
+            return self._of_module(value, name, place)
+        if isinstance(value, Library):
+            return self.library(f'{value.name}.{name}')
+        if isinstance(value, Super):
+            return self._of_super(value, name, place)
+        if isinstance(value, (Sequence, Mapping, Const)):
+            return builtin_methods.method(value, name)
+        if isinstance(value, Mystery):
+            return self.member_of_mystery(value, name, place)
+        return self._of_callable(value, name)
+
+    def _of_instance(self, value: Instance, name: str, place: Place) -> Value | None:
+        if name in value.slots and isinstance(value.slots[name], Value):
+            found: Value = value.slots[name]
+            return found
+        if name == '__class__':
+            return value.cls
+        return self._in_order(value.mro, value, name, place)
+
+    def _in_order(
+        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
+    ) -> Value | None:
+        for cls in order:
+            if isinstance(cls, Class):
+                if name in cls.slots:
+                    return self._bind(cls.slots[name], receiver, place)
+            elif isinstance(cls, Library):
+                native = self.library_member(cls, receiver, name, place)
+                if native is not None:
+                    return native
+        return self.member_of_unknown_base(order, receiver, name, place)
+
+    def _bind(self, member: Value, receiver: Value, place: Place) -> Value:
+        if not isinstance(member, Function):
+            return member
+        if member.binding == 'static':
+            return member
+        if member.binding == 'class':
+            cls = receiver.cls if isinstance(receiver, Instance) else receiver
+            return Bound(cls, member)
+        if not isinstance(receiver, Instance):
+            return member
+        if member.binding == 'property':
+            return self.call(Bound(receiver, member), Call(place))
+        return Bound(receiver, member)
+
+    def _of_class(self, value: Class, name: str, place: Place) -> Value | None:
+        if name in ('__name__', '__qualname__'):
+            return Const(value.name)
+        for cls in value.mro:
+            if isinstance(cls, Class) and name in cls.slots:
+                return self._bind(cls.slots[name], value, place)
+            if isinstance(cls, Library):
+                found = self.library_member(cls, None, name, place)
+                if found is not None:
+                    return found
+        return None
+
+    def _of_module(self, value: Module, name: str, place: Place) -> Value | None:
+        if name in value.slots:
+            found: Value = value.slots[name]
+            return found
+        if name == '__name__':
+            return Const(value.name)
+        if name == '__file__':
+            return Mystery(Unknown('path of the file at run time', place), '__file__')
+        return self.submodule(value, name, place)
+
+    def _of_super(self, value: Super, name: str, place: Place) -> Value | None:
+        receiver = value.receiver
+        order = receiver.mro if isinstance(receiver, (Instance, Class)) else value.owner.mro
+        behind = order[order.index(value.owner) + 1 :] if value.owner in order else ()
+        return self._in_order(behind, receiver, name, place)
+
+    def _of_callable(self, value: Value, name: str) -> Value | None:
+        if name in ('__name__', '__qualname__') and isinstance(value, (Function, Bound)):
+            function = value if isinstance(value, Function) else value.function
+            return Const(function.name)
+        if name == '__self__' and isinstance(value, Bound):
+            return value.receiver
+        if name == '__func__' and isinstance(value, Bound):
+            return value.function
+        if name == 'func' and isinstance(value, Partial):
+            return value.function
+        if isinstance(value, Function) and name in value.slots:
+            found: Value = value.slots[name]
+            return found
+        if isinstance(value, Native) and name == '__name__':
+            return Const(value.name)
+        return None

@@ -1,0 +1,241 @@
+"""Methods of Python's own lists, dictionaries and strings."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Mapping,
+    Mystery,
+    Native,
+    Sequence,
+    Value,
+)
+from ros2cc_extract.places import Unknown
+
+_TEXT_METHODS = frozenset(
+    [
+        'lower',
+        'upper',
+        'strip',
+        'lstrip',
+        'rstrip',
+        'title',
+        'capitalize',
+        'replace',
+        'removeprefix',
+        'removesuffix',
+        'format',
+        'startswith',
+        'endswith',
+        'zfill',
+    ]
+)
+
+
+def method(value: Sequence | Mapping | Const, name: str) -> Value | None:
+    """The method ``name`` of a built-in value, ``None`` when it is not followed."""
+    if isinstance(value, Const):
+        known = isinstance(value.value, str) and name in (*_TEXT_METHODS, 'split', 'join')
+        return Native(f'str.{name}', _text_method(name), value) if known else None
+    table = _SEQUENCE if isinstance(value, Sequence) else _MAPPING
+    handler = table.get(name)
+    return Native(name, handler, value) if handler else None
+
+
+def _text_method(name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Const)
+        if name == 'join':
+            return _joined(machine, receiver, call)
+        if all(isinstance(arg, Const) for arg in (*call.args, *call.keywords.values())):
+            if call.more is None:
+                return _applied(machine, receiver, name, call)
+        return machine.mystery(f'text from str.{name}', call.place, f'str.{name}')
+
+    return handler
+
+
+def _applied(machine: Machine, receiver: Const, name: str, call: Call) -> Value:
+    args = [arg.value for arg in call.args if isinstance(arg, Const)]
+    keywords = {k: arg.value for k, arg in call.keywords.items() if isinstance(arg, Const)}
+    too_wide = name in ('format', 'zfill') and any(
+        isinstance(arg, int) and abs(arg) > 10_000 for arg in args
+    )
+    try:
+        result = None if too_wide else getattr(receiver.value, name)(*args, **keywords)
+    except (TypeError, ValueError, LookupError, AttributeError, MemoryError):
+        result = None
+    if isinstance(result, list):
+        return Sequence(tuple(Const(part) for part in result))
+    if isinstance(result, (str, bool)):
+        return Const(result)
+    return machine.mystery(f'text from str.{name}', call.place, f'str.{name}')
+
+
+def _joined(machine: Machine, receiver: Const, call: Call) -> Value:
+    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    texts = [item.value for item in items if isinstance(item, Const)]
+    if rest is None and len(texts) == len(items) and all(isinstance(t, str) for t in texts):
+        return Const(receiver.value.join(texts))
+    return machine.mystery('text from str.join', call.place, 'str.join')
+
+
+def _append(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Sequence)
+    if call.args:
+        item = call.args[-1]
+        machine.store.write(receiver, 'items', (*receiver.items, item))
+        if isinstance(machine.world.count, Unknown) and receiver.rest is None:
+            machine.store.write(receiver, 'open', machine.world.count)
+    return NONE
+
+
+def _extend(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Sequence)
+    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    machine.store.write(receiver, 'items', (*receiver.items, *items))
+    machine.store.write(receiver, 'open', receiver.rest or rest)
+    return NONE
+
+
+def _insert(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Sequence)
+    if len(call.args) == 2:
+        index = loops.index_of(call.args[0], len(receiver.items) + 1)
+        at = len(receiver.items) if index is None else index
+        items = receiver.items
+        machine.store.write(receiver, 'items', (*items[:at], call.args[1], *items[at:]))
+    return NONE
+
+
+def _pop(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Sequence)
+    position = call.argument(0) or Const(-1)
+    index = loops.index_of(position, len(receiver.items))
+    if index is None or receiver.rest is not None:
+        return machine.mystery('item popped from a list', call.place, 'pop()')
+    items = receiver.items
+    machine.store.write(receiver, 'items', (*items[:index], *items[index + 1 :]))
+    return items[index]
+
+
+def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Sequence):
+        machine.store.write(receiver, 'items', ())
+    else:
+        machine.store.write(receiver, 'entries', {})  # type: ignore[arg-type]
+    machine.store.write(receiver, 'open', None)  # type: ignore[arg-type]
+    return NONE
+
+
+def _copy(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Sequence):
+        return Sequence(receiver.items, receiver.kind, receiver.rest)
+    assert isinstance(receiver, Mapping)
+    return Mapping(dict(receiver.entries), receiver.rest)
+
+
+def _unordered(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``remove`` and the like: what is left is not followed item by item."""
+    if isinstance(receiver, Sequence) and call.args and call.args[0] in receiver.items:
+        index = receiver.items.index(call.args[0])
+        items = receiver.items
+        machine.store.write(receiver, 'items', (*items[:index], *items[index + 1 :]))
+    return NONE
+
+
+def _get(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Mapping)
+    key = call.args[0] if call.args else NONE
+    if loops.is_key(key) and key in receiver.entries:
+        return receiver.entries[key]
+    if receiver.rest is None and loops.is_key(key):
+        return call.argument(1, 'default') or NONE
+    reason = receiver.rest.reason if receiver.rest else 'key that could not be followed'
+    label = f'get({key.value!r})' if isinstance(key, Const) else 'get(…)'
+    return Mystery(Unknown(reason, call.place), label)
+
+
+def _setdefault(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Mapping)
+    found = _get(machine, receiver, call)
+    if found is NONE or isinstance(found, Mystery) or found is call.argument(1, 'default'):
+        value = call.argument(1, 'default') or NONE
+        if loops.is_key(call.args[0]):
+            machine.store.write(receiver, 'entries', {**receiver.entries, call.args[0]: value})
+            return value
+    return found
+
+
+def _update(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Mapping)
+    entries, rest = dict(receiver.entries), receiver.rest
+    for argument in call.args:
+        if isinstance(argument, Mapping):
+            entries.update(argument.entries)
+            rest = rest or argument.rest
+        else:
+            rest = rest or Unknown('updated from an unknown dictionary', call.place)
+    entries.update({Const(name): value for name, value in call.keywords.items()})
+    machine.store.write(receiver, 'entries', entries)
+    machine.store.write(receiver, 'open', rest or call.more)
+    return NONE
+
+
+def _pop_entry(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Mapping)
+    found = _get(machine, receiver, call)
+    if call.args and loops.is_key(call.args[0]) and call.args[0] in receiver.entries:
+        entries = {k: v for k, v in receiver.entries.items() if k != call.args[0]}
+        machine.store.write(receiver, 'entries', entries)
+    return found
+
+
+def _view(kind: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Mapping)
+        entries = receiver.entries
+        items: tuple[Value, ...] = tuple(entries)
+        if kind == 'values':
+            items = tuple(entries.values())
+        elif kind == 'items':
+            items = tuple(Sequence((key, value), 'tuple') for key, value in entries.items())
+        return Sequence(items, 'list', receiver.rest)
+
+    return handler
+
+
+_SEQUENCE: dict[str, Handler] = {
+    'append': _append,
+    'add': _append,
+    'appendleft': _append,
+    'put': _append,
+    'put_nowait': _append,
+    'extend': _extend,
+    'update': _extend,
+    'insert': _insert,
+    'pop': _pop,
+    'clear': _clear,
+    'copy': _copy,
+    'remove': _unordered,
+    'discard': _unordered,
+    'sort': lambda machine, receiver, call: NONE,
+    'reverse': lambda machine, receiver, call: NONE,
+}
+
+_MAPPING: dict[str, Handler] = {
+    'get': _get,
+    'setdefault': _setdefault,
+    'update': _update,
+    'pop': _pop_entry,
+    'keys': _view('keys'),
+    'values': _view('values'),
+    'items': _view('items'),
+    'clear': _clear,
+    'copy': _copy,
+}

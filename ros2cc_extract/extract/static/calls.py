@@ -1,0 +1,351 @@
+"""Following calls: functions, methods, classes, partials, library functions."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from functools import partial
+
+from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
+from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Instance,
+    Library,
+    Mapping,
+    Mystery,
+    Native,
+    Partial,
+    Scope,
+    Sequence,
+    Super,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.extract.static.world import PlainState
+from ros2cc_extract.places import Place, Unknown
+
+_CALL_DEPTH = 40
+_SAME_FUNCTION = 3
+
+
+class Calls(Machine):
+    """How values are called."""
+
+    stack: list[Function]
+
+    def call(self, function: Value, call: Call) -> Value:
+        """The result of a call, after its effects."""
+        if isinstance(function, Choice):
+            acts = [partial(self.call, option, call) for option in options_of(function)]
+            return self.branch(acts, call.place) if len(acts) > 1 else acts[0]()
+        handler = _CALLABLE.get(type(function))
+        if handler is not None:
+            return handler(self, function, call)
+        return self.unknown_call(function, call)
+
+    def unknown_call(self, function: Value, call: Call) -> Value:
+        """The result of calling something that cannot be followed."""
+        self.library_call(function, call)
+        if isinstance(function, Mystery):
+            return Mystery(function.unknown, call.text or f'{function.text}(…)')
+        name = function.name if isinstance(function, Library) else 'this value'
+        return self.mystery(f'result of {name}, which is not followed', call.place, name)
+
+    def call_function(self, function: Function, call: Call) -> Value:
+        """Run a scanned function; a coroutine function only makes its coroutine."""
+        if function.is_coroutine:
+            return Coroutine(function, call)
+        return self.run_function(function, call)
+
+    def run_function(self, function: Function, call: Call) -> Value:
+        """Run the body of a scanned function with the arguments of ``call``."""
+        self.world.called.add(id(function.node))
+        if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
+            return self.mystery(f'recursion in {function.name}', call.place)
+        scope = Scope(function.module, function.scope)
+        frame = Frame(scope, function, qualname=f'{function.qualname}.<locals>')
+        for name, value in self.bind(function, call).items():
+            scope.slots[name] = value
+        chain, count = self.world.chain, self.world.count
+        path = self.world.path
+        self.world.chain = (*chain, call.place)
+        self.stack.append(function)
+        try:
+            return self._run_body(function, frame, call)
+        finally:
+            self.stack.pop()
+            self.world.chain, self.world.count, self.world.path = chain, count, path
+
+    def _run_body(self, function: Function, frame: Frame, call: Call) -> Value:
+        if isinstance(function.node, ast.Lambda):
+            return self.evaluate(function.node.body, frame)
+        flow = self.execute_block(function.node.body, frame)
+        if frame.yields:
+            return Sequence(tuple(frame.yields), 'generator', Unknown('a generator', call.place))
+        if not flow & (NEXT | RETURN) and flow & DEAD:
+            self.stop_program()
+            return NONE
+        results = [*frame.results, NONE] if flow & NEXT else frame.results
+        return choice(results) if results else NONE
+
+    def bind(self, function: Function, call: Call) -> dict[str, Value]:
+        """The parameters of ``function`` as ``call`` fills them."""
+        arguments = function.node.args
+        names = [parameter.arg for parameter in (*arguments.posonlyargs, *arguments.args)]
+        bound = dict(zip(names, call.args, strict=False))
+        keywords = dict(call.keywords)
+        for name in (*names, *(parameter.arg for parameter in arguments.kwonlyargs)):
+            if name in keywords and name not in bound:
+                bound[name] = keywords.pop(name)
+        if arguments.vararg:
+            bound[arguments.vararg.arg] = Sequence(
+                tuple(call.args[len(names) :]), 'tuple', call.more
+            )
+        if arguments.kwarg:
+            rest: dict[Value, Value] = {Const(name): keywords[name] for name in keywords}
+            bound[arguments.kwarg.arg] = Mapping(rest, call.more)
+        self._bind_defaults(function, call, names, bound)
+        return bound
+
+    def _bind_defaults(
+        self, function: Function, call: Call, names: list[str], bound: dict[str, Value]
+    ) -> None:
+        first = len(names) - len(function.defaults)
+        defaults = dict(zip(names[first:], function.defaults, strict=False))
+        defaults.update(function.keyword_defaults)
+        wanted = [*names, *(parameter.arg for parameter in function.node.args.kwonlyargs)]
+        for name in wanted:
+            if name in bound:
+                continue
+            default = defaults.get(name)
+            if call.more is None and default is not None:
+                bound[name] = default
+            else:
+                reason = call.more.reason if call.more else f'argument {name!r} is not passed'
+                at = (call.more.at if call.more else None) or call.place
+                bound[name] = Mystery(Unknown(reason, at), name, default)
+
+    def instantiate(self, cls: Class, call: Call) -> Value:
+        """Make an instance of a scanned class and run its ``__init__``."""
+        instance = Instance(cls, call.place)
+        instance.path = self.world.path
+        self.prepare(instance)
+        self.world.instances.append(instance)
+        init = self.attribute(instance, '__init__', call.place)
+        if isinstance(init, (Bound, Native)):
+            self.call(init, call)
+        elif self._is_dataclass(cls):
+            self._fill_fields(cls, instance, call)
+        return instance
+
+    def _is_dataclass(self, cls: Class) -> bool:
+        return any(
+            'dataclass' in ast.dump(decorator) or 'attr' in ast.dump(decorator)
+            for decorator in cls.node.decorator_list
+        )
+
+    def _fill_fields(self, cls: Class, instance: Instance, call: Call) -> None:
+        names = [
+            item.target.id
+            for item in cls.node.body
+            if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name)
+        ]
+        for index, name in enumerate(names):
+            value = call.argument(index, name)
+            if value is not None:
+                self.store.write(instance, name, value)
+        post = self.attribute(instance, '__post_init__', call.place)
+        if isinstance(post, Bound):
+            self.call(post, Call(call.place))
+
+    def zero_argument_super(self, frame: Frame) -> Value:
+        """``super()`` in the method that is running."""
+        scope: Scope | None = frame.scope
+        function = frame.function
+        while function is not None and function.owner is None and scope is not None:
+            scope = scope.parent
+            function = next((f for f in reversed(self.stack) if f.owner is not None), None)
+        if function is None or function.owner is None:
+            return self.mystery('super() outside a method', None)
+        arguments = function.node.args
+        first = next(iter((*arguments.posonlyargs, *arguments.args)), None)
+        receiver = self._find_receiver(first.arg if first else 'self', frame.scope)
+        return Super(function.owner, receiver)
+
+    def _find_receiver(self, name: str, scope: Scope | None) -> Value:
+        while scope is not None:
+            if name in scope.slots:
+                value = scope.slots[name]
+                return value if isinstance(value, Value) else NONE
+            scope = scope.parent
+        return NONE
+
+    def make_function(self, node: ast.AST, frame: Frame) -> Value:
+        """A function from its definition, its decorators applied."""
+        assert isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda))
+        name = '<lambda>' if isinstance(node, ast.Lambda) else node.name
+        qualname = f'{frame.qualname}.{name}' if frame.qualname else name
+        in_class = self._class_body_owner(frame)
+        scope: Scope | None = frame.scope
+        if in_class is not None:
+            scope = frame.scope.parent
+        elif not frame.qualname:
+            scope = None
+        function = Function(node, frame.module, qualname, scope)
+        function.owner = in_class
+        function.defaults = tuple(self.evaluate(d, frame) for d in node.args.defaults)
+        for parameter, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
+            if default is not None:
+                function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)
+        self.world.functions.append(function)
+        if isinstance(node, ast.Lambda):
+            return function
+        return self._decorate(function, node, frame)
+
+    def _class_body_owner(self, frame: Frame) -> Class | None:
+        owner = frame.scope.slots.get('__class_body__')
+        return owner if isinstance(owner, Class) else None
+
+    def _decorate(
+        self, function: Function, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame
+    ) -> Value:
+        value: Value = function
+        for decorator in reversed(node.decorator_list):
+            binding = _BINDINGS.get(_last_name(decorator))
+            if binding is not None and isinstance(value, Function):
+                value.binding = binding
+                continue
+            if isinstance(decorator, ast.Attribute) and decorator.attr in ('setter', 'deleter'):
+                self.store.write(function, 'accessor', Const(decorator.attr))
+                old = frame.scope.slots.get(node.name)
+                return old if isinstance(old, Value) else value
+            wrapper = self.evaluate(decorator, frame)
+            if isinstance(wrapper, (Function, Bound, Partial, Class, Native)):
+                result = self.call(wrapper, Call(frame.place(decorator), [value]))
+                value = result if not isinstance(result, Mystery) else value
+        return value
+
+    def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
+        """A class from its statement, its body run."""
+        qualname = f'{frame.qualname}.{node.name}' if frame.qualname else node.name
+        cls = Class(node.name, qualname, frame.module, node)
+        bases = [self.evaluate(base, frame) for base in node.bases]
+        cls.bases = tuple(
+            choice(list(options_of(base))) if isinstance(base, Choice) else base for base in bases
+        )
+        cls.mro = resolution_order(cls)
+        scope = Scope(frame.module, frame.scope if frame.qualname else None)
+        scope.slots['__class_body__'] = cls
+        body = Frame(scope, None, qualname=qualname)
+        self.execute_block(node.body, body)
+        for name, value in scope.slots.items():
+            if name != '__class_body__':
+                self.store.write(cls, name, value)
+        return cls
+
+    def await_value(self, value: Value, place: Place) -> Value:
+        """``await value``: coroutines run, everything else gives a mystery."""
+        self.note_await(value, place)
+        if isinstance(value, Coroutine):
+            return self.run_function(value.function, value.call)
+        if isinstance(value, Instance) and isinstance(value.state, PlainState):
+            return self.mystery(f'result of awaiting a {value.state.kind}', place)
+        return self.mystery('result of an await', place)
+
+    def run_if_coroutine(self, value: Value, place: Place) -> Value:
+        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+        if isinstance(value, Coroutine):
+            return self.run_function(value.function, value.call)
+        return value
+
+
+_BINDINGS = {
+    'staticmethod': 'static',
+    'classmethod': 'class',
+    'property': 'property',
+    'cached_property': 'property',
+    'abstractmethod': 'method',
+    'override': 'method',
+}
+
+
+def _last_name(node: ast.expr) -> str:
+    if isinstance(node, ast.Name):
+        return node.id
+    return node.attr if isinstance(node, ast.Attribute) else ''
+
+
+def resolution_order(cls: Class) -> tuple[Value, ...]:
+    """C3 order of ``cls``; depth first where the classes do not allow it."""
+    sequences = [list(base.mro) if isinstance(base, Class) else [base] for base in cls.bases]
+    sequences.append(list(cls.bases))
+    order: list[Value] = [cls]
+    while any(sequences):
+        sequences = [sequence for sequence in sequences if sequence]
+        head = _next_head(sequences)
+        if head not in order:
+            order.append(head)
+        sequences = [[entry for entry in sequence if entry != head] for sequence in sequences]
+    return tuple(order)
+
+
+def _next_head(sequences: list[list[Value]]) -> Value:
+    for sequence in sequences:
+        if not any(sequence[0] in other[1:] for other in sequences):
+            return sequence[0]
+    return sequences[0][0]
+
+
+def _call_bound(machine: Calls, function: Bound, call: Call) -> Value:
+    return machine.call_function(function.function, call.bound_to(function.receiver))
+
+
+def _call_partial(machine: Calls, function: Partial, call: Call) -> Value:
+    keywords = {**function.keywords, **call.keywords}
+    args = [*function.args, *call.args]
+    return machine.call(function.function, Call(call.place, args, keywords, call.more, call.text))
+
+
+def _call_native(machine: Calls, function: Native, call: Call) -> Value:
+    return function.handler(machine, function.receiver, call)
+
+
+def _call_library(machine: Calls, function: Library, call: Call) -> Value:
+    return machine.call_library(function, call)
+
+
+def _call_instance(machine: Calls, function: Instance, call: Call) -> Value:
+    method = machine.attribute(function, '__call__', call.place)
+    if isinstance(method, (Bound, Native)):
+        return machine.call(method, call)
+    return machine.unknown_call(function, call)
+
+
+def _call_class(machine: Calls, function: Class, call: Call) -> Value:
+    return machine.instantiate(function, call)
+
+
+def _call_function(machine: Calls, function: Function, call: Call) -> Value:
+    return machine.call_function(function, call)
+
+
+_CALLABLE: dict[type[Value], Callable[..., Value]] = {
+    Function: _call_function,
+    Bound: _call_bound,
+    Class: _call_class,
+    Partial: _call_partial,
+    Native: _call_native,
+    Library: _call_library,
+    Instance: _call_instance,
+}
+
+__all__ = ['BudgetError', 'Calls', 'resolution_order']

@@ -1,0 +1,202 @@
+"""What a callback does while it is followed: it blocks, locks, reads, writes, publishes."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Instance,
+    Module,
+    Mystery,
+    Native,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.world import EntityRef, EntityState, ExecutorState, PlainState
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import Access, Act, Blocking
+
+_LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
+
+
+class Effects(Machine):
+    """Notes for the callback that is being followed; nothing while there is none."""
+
+    def note_attribute(self, owner: Value, name: str, is_write: bool, place: Place) -> None:
+        """An attribute is read or written."""
+        deeds = self.world.deeds
+        if deeds is None or not isinstance(owner, (Instance, Class)):
+            return
+        if not isinstance(owner.slots.get(name, NONE), Value) or self._is_behaviour(owner, name):
+            return
+        class_name = owner.class_name if isinstance(owner, Instance) else owner.name
+        if isinstance(owner, Instance) and not isinstance(owner.cls, Class):
+            return
+        access = Access(
+            name=f'{class_name}.{name}',
+            source=place,
+            locks=self.world.held,
+            chain=self.world.chain[1:],
+        )
+        (deeds.writes if is_write else deeds.reads).append(access)
+
+    def _is_behaviour(self, owner: Instance | Class, name: str) -> bool:
+        """Methods, entities and locks are no shared data."""
+        value = owner.slots.get(name)
+        if value is None:
+            cls = owner.cls if isinstance(owner, Instance) else owner
+            held = [
+                c.slots[name]
+                for c in getattr(cls, 'mro', ())
+                if isinstance(c, Class) and name in c.slots
+            ]
+            return not held or isinstance(held[0], (Function, Native, Class))
+        return any(
+            isinstance(option, (Bound, Function, Native, Class))
+            or (isinstance(option, Instance) and option.state is not None)
+            for option in options_of(value)
+        )
+
+    def note_global(self, module: Module, name: str, is_write: bool, place: Place) -> None:
+        """A global is read or written."""
+        deeds = self.world.deeds
+        if deeds is None:
+            return
+        value = module.slots.get(name)
+        if not is_write and not self._is_written_global(module, name, value):
+            return
+        access = Access(
+            name=f'{module.name}.{name}',
+            source=place,
+            locks=self.world.held,
+            chain=self.world.chain[1:],
+        )
+        (deeds.writes if is_write else deeds.reads).append(access)
+
+    def _is_written_global(self, module: Module, name: str, value: object) -> bool:
+        return name in self.world.written_globals.get(module.name, ())
+
+    def note_loop(self, node: ast.While, frame: Frame) -> None:
+        """A ``while`` loop begins; one that only waits for a future is a busy wait."""
+        deeds = self.world.deeds
+        if deeds is None:
+            return
+        for part in ast.walk(node.test):
+            if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
+                if part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready'):
+                    owner = self.evaluate(part.func.value, frame)
+                    if part.func.attr in ('done', 'is_set'):
+                        self.note_blocking('busy wait', owner, None, frame.place(node))
+
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+        deeds = self.world.deeds
+        if deeds is None:
+            return
+        deeds.blocking.append(
+            Blocking(
+                call=name,
+                source=place,
+                on=self._waited_for(on),
+                seconds=_seconds(seconds, place),
+                chain=self.world.chain[1:],
+            )
+        )
+
+    def _waited_for(self, value: Value | None) -> str | Unknown | None:
+        if value is None or value == NONE:
+            return None
+        if isinstance(value, Mystery):
+            return value.unknown
+        if isinstance(value, Instance):
+            state = value.state
+            source = state.of if isinstance(state, PlainState) and state.of else value
+            if isinstance(source, Instance) and isinstance(source.state, EntityState):
+                return EntityRef.to(source.state)
+            return value.hint or value.class_name
+        return None
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """A callback awaits ``value``; awaiting its own coroutine is only a call."""
+        if not isinstance(value, Coroutine):
+            self.note_blocking('await', value, None, place)
+
+    def note_acquire(self, lock: Value, place: Place) -> None:
+        """A lock is taken."""
+        for option in options_of(lock):
+            if isinstance(option, Instance) and isinstance(option.state, PlainState):
+                if option.state.kind in _LOCKS:
+                    name = option.hint or option.state.kind
+                    self.world.held = (*self.world.held, name)
+                    if self.world.deeds is not None:
+                        act = Act(name=name, source=place, chain=self.world.chain[1:])
+                        self.world.deeds.locks.append(act)
+
+    def note_release(self, lock: Value) -> None:
+        """A lock is given back."""
+        for option in options_of(lock):
+            if isinstance(option, Instance):
+                held = [name for name in self.world.held if name != option.hint]
+                self.world.held = tuple(held)
+
+    def note_publish(self, publisher: Value, place: Place) -> None:
+        """A message is published."""
+        deeds = self.world.deeds
+        if deeds is None or not isinstance(publisher, Instance):
+            return
+        key = publisher.state.key if isinstance(publisher.state, PlainState) else None
+        name: str | Unknown = Unknown('topic that could not be followed', place)
+        if isinstance(key, Const):
+            name = str(key.value)
+        elif isinstance(key, Mystery):
+            name = key.unknown
+        deeds.publishes.append(Act(name=name, source=place, chain=self.world.chain[1:]))
+
+    def note_nested_spin(
+        self, how: str, node: Instance | None, executor: Value, place: Place
+    ) -> bool:
+        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
+        if self.world.deeds is None:
+            return False
+        self.note_blocking(how, None, None, place)
+        if node is not None:
+            self.note_change(how, node, place)
+        return True
+
+    def note_change(self, what: str, node: Instance, place: Place) -> None:
+        """A callback changes which executor serves ``node``."""
+        if self.world.deeds is not None:
+            act = Act(name=what, source=place, chain=self.world.chain[1:])
+            self.world.deeds.changes.append(act)
+
+    def enter_context(self, value: Value, place: Place) -> Value:
+        """What ``with value as x`` binds to ``x``; locks are held inside."""
+        if isinstance(value, Instance):
+            if isinstance(value.state, (PlainState, ExecutorState)):
+                self.note_acquire(value, place)
+                return value
+            method = self.attribute(value, '__enter__', place)
+            if isinstance(method, Bound):
+                return self.call(method, Call(place))
+            return value
+        return value
+
+
+def _seconds(value: Value | None, place: Place) -> float | Unknown | None:
+    if value is None or value == NONE:
+        return None
+    if isinstance(value, Const) and isinstance(value.value, (int, float)):
+        return float(value.value)
+    if isinstance(value, Mystery):
+        return value.unknown
+    return Unknown('a duration that could not be followed', place)

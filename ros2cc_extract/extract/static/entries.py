@@ -1,0 +1,119 @@
+"""Where programs start: ``__main__`` guards, console scripts, ``main`` functions, scripts."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from ros2cc_extract.extract.static.source import SourceFile
+
+_SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
+_SPINS = frozenset({'spin', 'spin_once', 'spin_until_future_complete'})
+
+
+@dataclass(frozen=True)
+class Entry:
+    """
+    A start of a program.
+
+    :param function: module-level function to call; ``None`` to run the file as ``__main__``.
+    :param label: as shown to the user, ``arm.py:main``.
+    """
+
+    source: SourceFile
+    function: str | None
+    label: str
+
+
+def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[Entry]:
+    """The entries of one file, scripts first; none for a mere library."""
+    tree = source.tree
+    if tree is None:
+        return []
+    functions = {node.name: node for node in tree.body if isinstance(node, _FUNCTIONS)}
+    found = [
+        Entry(source, name, f'{source.shown}:{name}')
+        for module, name in sorted(scripts)
+        if module == source.module_name and name in functions
+    ]
+    if _is_script(tree):
+        found.append(Entry(source, None, f'{source.shown}:{_script_label(tree)}'))
+    elif not found and 'main' in functions:
+        found.append(Entry(source, 'main', f'{source.shown}:main'))
+    elif not found:
+        found.extend(
+            Entry(source, name, f'{source.shown}:{name}')
+            for name, node in functions.items()
+            if _spins(node)
+        )
+    return found
+
+
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+def _is_script(tree: ast.Module) -> bool:
+    """Whether running the file does more than define names."""
+    return any(_is_guard(node) or _runs(node) for node in tree.body)
+
+
+def _is_guard(node: ast.stmt) -> bool:
+    return isinstance(node, ast.If) and any(
+        isinstance(part, ast.Name) and part.id == '__name__' for part in ast.walk(node.test)
+    )
+
+
+def _runs(node: ast.stmt) -> bool:
+    if isinstance(node, (*_FUNCTIONS, ast.ClassDef, ast.Import, ast.ImportFrom)):
+        return False
+    return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in ast.walk(node))
+
+
+def _script_label(tree: ast.Module) -> str:
+    for node in tree.body:
+        if _is_guard(node) and isinstance(node, ast.If) and len(node.body) == 1:
+            called = _only_call(node.body[0])
+            if called:
+                return called
+    return '__main__'
+
+
+def _only_call(node: ast.stmt) -> str | None:
+    value = getattr(node, 'value', None)
+    if (
+        isinstance(value, ast.Call)
+        and len(value.args) == 1
+        and isinstance(value.args[0], ast.Call)
+    ):
+        value = value.args[0]
+    if isinstance(value, ast.Call) and isinstance(value.func, ast.Name):
+        return value.func.id
+    return None
+
+
+def _spins(node: ast.AST) -> bool:
+    return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in ast.walk(node))
+
+
+def console_scripts(folders: set[Path]) -> frozenset[tuple[str, str]]:
+    """Module and function of every script that ``setup.py`` and the like declare."""
+    found: set[tuple[str, str]] = set()
+    for folder in folders:
+        for name in ('setup.py', 'setup.cfg', 'pyproject.toml'):
+            path = folder / name
+            if path.is_file():
+                found.update(_scripts_in(path))
+    return frozenset(found)
+
+
+def _scripts_in(path: Path) -> set[tuple[str, str]]:
+    try:
+        text = path.read_text(encoding='utf-8', errors='replace')
+    except OSError:
+        return set()
+    pieces = re.findall(r'["\']([^"\'\n]+)["\']', text) if path.suffix == '.py' else []
+    lines = pieces or text.splitlines()
+    matches = (_SCRIPT.match(line) for line in lines)
+    return {(match.group(1), match.group(2)) for match in matches if match}

@@ -1,0 +1,477 @@
+"""Evaluating expressions."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from ros2cc_extract.extract.static import folding, loops
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.values import (
+    ABSENT,
+    NONE,
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Instance,
+    Library,
+    Mapping,
+    Module,
+    Mystery,
+    Native,
+    Partial,
+    Scope,
+    Sequence,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+
+_DEPTH_LIMIT = 120
+
+
+class Expressions(Machine):
+    """The expressions of the language."""
+
+    depth = 0
+
+    def evaluate(self, node: ast.expr, frame: Frame) -> Value:
+        """The value of an expression."""
+        self.steps += 1
+        handler = _EXPRESSIONS.get(type(node))
+        if handler is None:
+            return self.mystery('expression that is not followed', frame.place(node))
+        if self.depth > _DEPTH_LIMIT:
+            return self.mystery('expression nested too deeply', frame.place(node))
+        self.depth += 1
+        try:
+            value: Value = handler(self, node, frame)
+        finally:
+            self.depth -= 1
+        return value
+
+    def look_up(self, name: str, scope: Scope) -> Value | None:
+        """The value of a name, from the inside out; ``None`` when nothing defines it."""
+        inner: Scope | None = None if name in scope.global_names else scope
+        while inner is not None:
+            if name in inner.slots:
+                found: Value = inner.slots[name]
+                return found
+            inner = inner.parent
+        value = scope.module.slots.get(name)
+        return value if isinstance(value, Value) else None
+
+    def items_of(self, value: Value, place: Any) -> tuple[tuple[Value, ...], Unknown | None]:
+        """What iterating over ``value`` gives, and why there may be more."""
+        if isinstance(value, Sequence):
+            return value.items, value.rest
+        if isinstance(value, Mapping):
+            return tuple(value.entries), value.rest
+        if isinstance(value, Const) and isinstance(value.value, str):
+            return tuple(Const(letter) for letter in value.value), None
+        if isinstance(value, Choice):
+            return (), Unknown('one of several sequences, depending on a branch', place)
+        if isinstance(value, Mystery):
+            return (), Unknown(value.unknown.reason, value.unknown.at or place)
+        return (), Unknown('a sequence that could not be followed', place)
+
+    def truth(self, value: Value) -> bool | None:
+        """``bool(value)``; ``None`` when that depends."""
+        if isinstance(value, Const):
+            return bool(value.value)
+        if isinstance(value, (Sequence, Mapping)):
+            known = value.items if isinstance(value, Sequence) else tuple(value.entries)
+            if any(item is not ABSENT and not _may_be_absent(item) for item in known):
+                return True
+            return None if value.rest or known else False
+        if isinstance(value, Choice):
+            truths = {self.truth(option) for option in options_of(value)}
+            return truths.pop() if len(truths) == 1 else None
+        if isinstance(value, Instance):
+            return None if value.state is None and self._has_truth_method(value) else True
+        if isinstance(value, (Mystery, Library)):
+            return None
+        return True
+
+    def _has_truth_method(self, value: Instance) -> bool:
+        return isinstance(value.cls, Class) and any(
+            name in cls.slots
+            for cls in value.mro
+            if isinstance(cls, Class)
+            for name in ('__bool__', '__len__')
+        )
+
+
+def _may_be_absent(value: Value) -> bool:
+    return isinstance(value, Choice) and ABSENT in value.options
+
+
+def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
+    value = machine.look_up(node.id, frame.scope)
+    if value is not None:
+        if isinstance(value, Choice):
+            return choice(list(options_of(value)))
+        if machine.world.deeds is not None and node.id not in frame.scope.slots:
+            _note_free_name(machine, node, frame)
+        return value
+    builtin = machine.library(f'builtins.{node.id}')
+    if isinstance(builtin, (Native, Const)) or folding.is_builtin(node.id):
+        return builtin
+    for star in frame.module.stars:
+        if isinstance(star, Library):
+            known = machine.library(f'{star.name}.{node.id}')
+            if not isinstance(known, Mystery):
+                return known
+    return machine.mystery(f'name {node.id!r} is not defined here', frame.place(node), node.id)
+
+
+def _note_free_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
+    inner: Scope | None = frame.scope
+    while inner is not None:
+        if node.id in inner.slots:
+            return
+        inner = inner.parent
+    machine.note_global(frame.module, node.id, False, frame.place(node))
+
+
+def _constant(machine: Expressions, node: ast.Constant, frame: Frame) -> Value:
+    return Const(node.value)
+
+
+def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value:
+    owner = machine.evaluate(node.value, frame)
+    place = frame.place(node)
+    if machine.world.deeds is not None:
+        for option in options_of(owner):
+            machine.note_attribute(option, node.attr, False, place)
+    text = _text(node) if isinstance(owner, Mystery) else ''
+    if isinstance(owner, Choice):
+        options = options_of(owner)
+        able = [o for o in options if machine.has_attribute(o, node.attr) is not False]
+        return choice([machine.attribute(o, node.attr, place) for o in able or options])
+    return machine.attribute(owner, node.attr, place, text)
+
+
+def _text(node: ast.expr) -> str:
+    """Short source of an expression, for messages and to tell mysteries apart."""
+    try:
+        text = ast.unparse(node)
+    except RecursionError:
+        return '…'
+    return text if len(text) <= 60 else f'{text[:57]}…'
+
+
+def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
+    if isinstance(node.func, ast.Name) and node.func.id == 'super' and not node.args:
+        return machine.zero_argument_super(frame)
+    function = machine.evaluate(node.func, frame)
+    call = arguments(machine, node, frame)
+    if isinstance(function, Mystery):
+        call.text = _text(node)
+    if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
+        return machine.mystery(f'{function.name}()', call.place)
+    return machine.call(function, call)
+
+
+def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
+    """Evaluate the arguments of a call, starred ones spread out."""
+    call = Call(frame.place(node))
+    for argument in node.args:
+        if isinstance(argument, ast.Starred):
+            value = machine.evaluate(argument.value, frame)
+            items, rest = machine.items_of(value, frame.place(argument))
+            call.args.extend(items)
+            call.more = call.more or rest
+        else:
+            call.args.append(machine.evaluate(argument, frame))
+    for keyword in node.keywords:
+        value = machine.evaluate(keyword.value, frame)
+        if keyword.arg is not None:
+            call.keywords[keyword.arg] = value
+        else:
+            _spread(machine, value, call, frame.place(keyword.value))
+    return call
+
+
+def _spread(machine: Expressions, value: Value, call: Call, place: Any) -> None:
+    if isinstance(value, Mapping):
+        for key, item in value.entries.items():
+            if isinstance(key, Const) and isinstance(key.value, str):
+                call.keywords[key.value] = item
+        call.more = call.more or value.rest
+    else:
+        call.more = call.more or machine.items_of(value, place)[1]
+
+
+def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:
+    def handler(machine: Expressions, node: ast.List | ast.Tuple | ast.Set, frame: Frame) -> Value:
+        items: list[Value] = []
+        rest: Unknown | None = None
+        for element in node.elts:
+            if isinstance(element, ast.Starred):
+                value = machine.evaluate(element.value, frame)
+                more, unknown = machine.items_of(value, frame.place(element))
+                items.extend(more)
+                rest = rest or unknown
+            else:
+                items.append(machine.evaluate(element, frame))
+        return Sequence(tuple(items), kind, rest)
+
+    return handler
+
+
+def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
+    entries: dict[Value, Value] = {}
+    rest: Unknown | None = None
+    for key_node, value_node in zip(node.keys, node.values, strict=True):
+        value = machine.evaluate(value_node, frame)
+        if key_node is None:
+            if isinstance(value, Mapping):
+                entries.update(value.entries)
+                rest = rest or value.rest
+            else:
+                rest = Unknown('spread dictionary that could not be followed', frame.place(node))
+            continue
+        key = machine.evaluate(key_node, frame)
+        entries[key] = value
+        if loops.is_key(key):
+            machine.name_value(value, loops.key_text(key))
+        else:
+            rest = Unknown('a key could not be followed', frame.place(key_node))
+    return Mapping(entries, rest)
+
+
+def _subscript(machine: Expressions, node: ast.Subscript, frame: Frame) -> Value:
+    owner = machine.evaluate(node.value, frame)
+    key = machine.evaluate(node.slice, frame)
+    place = frame.place(node)
+    found = choice(
+        [_item(machine, option, key, node, frame) for option in options_of(owner)]
+        or [machine.mystery('item that could not be followed', place, _text(node))]
+    )
+    return choice(list(options_of(found))) if isinstance(found, Choice) else found
+
+
+def _item(
+    machine: Expressions, owner: Value, key: Value, node: ast.Subscript, frame: Frame
+) -> Value:
+    place = frame.place(node)
+    if isinstance(owner, Mapping):
+        if key in owner.entries if loops.is_key(key) else False:
+            return owner.entries[key]
+        reason = owner.rest.reason if owner.rest else 'key that could not be followed'
+        return machine.mystery(f'{_text(node)}: {reason}', place, _text(node))
+    if isinstance(owner, Sequence):
+        if isinstance(node.slice, ast.Slice):
+            return _slice(machine, owner, node.slice, frame)
+        index = loops.index_of(key, len(owner.items))
+        if index is not None and owner.rest is None:
+            return owner.items[index]
+        return machine.mystery(
+            f'{_text(node)}: index that could not be followed', place, _text(node)
+        )
+    if isinstance(owner, Const) and isinstance(key, Const):
+        return folding.subscript(owner, key) or machine.mystery('bad subscript', place)
+    if isinstance(owner, (Class, Library)):
+        return owner
+    if isinstance(owner, Instance) and isinstance(owner.cls, Class):
+        method = machine.attribute(owner, '__getitem__', place)
+        if isinstance(method, Bound):
+            return machine.call(method, Call(place, [key]))
+    reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
+    return machine.mystery(reason, place, _text(node))
+
+
+def _slice(machine: Expressions, owner: Sequence, node: ast.Slice, frame: Frame) -> Value:
+    bounds: list[int | None] = []
+    for part in (node.lower, node.upper, node.step):
+        value = machine.evaluate(part, frame) if part is not None else NONE
+        if not isinstance(value, Const) or not isinstance(value.value, (int, type(None))):
+            rest = Unknown('slice that could not be followed', frame.place(node))
+            return Sequence((), owner.kind, rest)
+        bounds.append(value.value)
+    if bounds[2] == 0:
+        return machine.mystery('slice step zero', frame.place(node))
+    return Sequence(owner.items[slice(*bounds)], owner.kind, owner.rest)
+
+
+def _slice_alone(machine: Expressions, node: ast.Slice, frame: Frame) -> Value:
+    return machine.mystery('slice', frame.place(node))
+
+
+def _if_expression(machine: Expressions, node: ast.IfExp, frame: Frame) -> Value:
+    holds = machine.truth(machine.evaluate(node.test, frame))
+    if holds is not None:
+        return machine.evaluate(node.body if holds else node.orelse, frame)
+    arms = (node.body, node.orelse)
+    return machine.branch(
+        [partial(machine.evaluate, arm, frame) for arm in arms], frame.place(node)
+    )
+
+
+def _boolean(machine: Expressions, node: ast.BoolOp, frame: Frame) -> Value:
+    stops_on = isinstance(node.op, ast.Or)
+    found: list[Value] = []
+    for index, part in enumerate(node.values):
+        value = machine.evaluate(part, frame)
+        last = index == len(node.values) - 1
+        for option in options_of(value):
+            truth = machine.truth(option)
+            if truth is None or truth is stops_on or last:
+                found.append(option)
+        if machine.truth(value) is stops_on:
+            break
+    return choice(found) if found else machine.mystery('condition', frame.place(node))
+
+
+def _unary(machine: Expressions, node: ast.UnaryOp, frame: Frame) -> Value:
+    value = machine.evaluate(node.operand, frame)
+    if isinstance(node.op, ast.Not):
+        truth = machine.truth(value)
+        if truth is not None:
+            return Const(not truth)
+        return machine.mystery('a condition', frame.place(node))
+    folded = folding.unary(node.op, value)
+    return folded or machine.mystery('arithmetic on an unknown value', frame.place(node))
+
+
+def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
+    left = machine.evaluate(node.left, frame)
+    right = machine.evaluate(node.right, frame)
+    if isinstance(left, Sequence) and isinstance(right, Sequence) and isinstance(node.op, ast.Add):
+        return Sequence((*left.items, *right.items), left.kind, left.rest or right.rest)
+    if isinstance(left, Sequence) and isinstance(node.op, ast.Mult):
+        return _repeated(left, right, frame, node)
+    folded = folding.binary(node.op, left, right)
+    if folded is not None:
+        return folded
+    for side in (left, right):
+        if isinstance(side, Mystery):
+            return Mystery(side.unknown, _text(node))
+    return machine.mystery('an expression that could not be folded', frame.place(node))
+
+
+def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.BinOp) -> Value:
+    if isinstance(right, Const) and isinstance(right.value, int) and right.value <= 1000:
+        return Sequence(left.items * right.value, left.kind, left.rest)
+    return Sequence(left.items, left.kind, Unknown('unknown length', frame.place(node)))
+
+
+def _compare(machine: Expressions, node: ast.Compare, frame: Frame) -> Value:
+    left = machine.evaluate(node.left, frame)
+    verdict: bool | None = True
+    for operator, right_node in zip(node.ops, node.comparators, strict=True):
+        right = machine.evaluate(right_node, frame)
+        holds = folding.compare(operator, left, right)
+        verdict = False if holds is False else (verdict if holds else None)
+        if verdict is False:
+            break
+        left = right
+    if verdict is None:
+        return machine.mystery('a condition', frame.place(node))
+    return Const(verdict)
+
+
+def _formatted(machine: Expressions, node: ast.JoinedStr, frame: Frame) -> Value:
+    parts: list[str] = []
+    mystery: Mystery | None = None
+    for part in node.values:
+        if isinstance(part, ast.Constant):
+            parts.append(str(part.value))
+            continue
+        value = machine.evaluate(part, frame)
+        if isinstance(value, Const):
+            parts.append(str(value.value))
+        elif mystery is None:
+            mystery = value if isinstance(value, Mystery) else None
+            mystery = mystery or machine.mystery('f-string part not followed', frame.place(part))
+    if mystery is not None:
+        return Mystery(mystery.unknown, _text(node), mystery.default and None)
+    return Const(''.join(parts))
+
+
+def _formatted_part(machine: Expressions, node: ast.FormattedValue, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    if node.conversion == -1 and node.format_spec is None:
+        return value
+    if isinstance(value, Const) and node.conversion == -1 and node.format_spec is not None:
+        spec = machine.evaluate(node.format_spec, frame)
+        if isinstance(spec, Const):
+            return folding.formatted(value, str(spec.value)) or value
+    if isinstance(value, Const) and node.conversion == ord('r'):
+        return Const(repr(value.value))
+    return value if not isinstance(value, Const) else Const(str(value.value))
+
+
+def _lambda(machine: Expressions, node: ast.Lambda, frame: Frame) -> Value:
+    return machine.make_function(node, frame)
+
+
+def _named(machine: Expressions, node: ast.NamedExpr, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    machine.assign(node.target, value, frame)
+    return value
+
+
+def _await(machine: Expressions, node: ast.Await, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    return machine.await_value(value, frame.place(node))
+
+
+def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:
+    frame.yields.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    return machine.mystery('value sent to a generator', frame.place(node))
+
+
+def _yield_from(machine: Expressions, node: ast.YieldFrom, frame: Frame) -> Value:
+    value = machine.evaluate(node.value, frame)
+    frame.yields.extend(machine.items_of(value, frame.place(node))[0])
+    return machine.mystery('result of a generator', frame.place(node))
+
+
+def _comprehension(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
+    return machine.comprehend(node, frame)
+
+
+def _starred(machine: Expressions, node: ast.Starred, frame: Frame) -> Value:
+    return machine.evaluate(node.value, frame)
+
+
+_EXPRESSIONS: dict[type[ast.expr], Callable[..., Value]] = {
+    ast.Name: _name,
+    ast.Constant: _constant,
+    ast.Attribute: _attribute,
+    ast.Call: _call,
+    ast.List: _collection('list'),
+    ast.Tuple: _collection('tuple'),
+    ast.Set: _collection('set'),
+    ast.Dict: _dictionary,
+    ast.Subscript: _subscript,
+    ast.Slice: _slice_alone,
+    ast.IfExp: _if_expression,
+    ast.BoolOp: _boolean,
+    ast.UnaryOp: _unary,
+    ast.BinOp: _binary,
+    ast.Compare: _compare,
+    ast.JoinedStr: _formatted,
+    ast.FormattedValue: _formatted_part,
+    ast.Lambda: _lambda,
+    ast.NamedExpr: _named,
+    ast.Await: _await,
+    ast.Yield: _yield,
+    ast.YieldFrom: _yield_from,
+    ast.ListComp: _comprehension,
+    ast.SetComp: _comprehension,
+    ast.GeneratorExp: _comprehension,
+    ast.DictComp: _comprehension,
+    ast.Starred: _starred,
+}
+
+__all__ = ['Coroutine', 'Expressions', 'Function', 'Module', 'Partial', 'arguments']

@@ -1,0 +1,195 @@
+"""How the machine uses the library tables: names, instances, members, unknown bases."""
+
+from __future__ import annotations
+
+import sys
+
+from ros2cc_extract.extract.static import rclpy_api
+from ros2cc_extract.extract.static.library_table import LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR
+from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Class,
+    Instance,
+    Library,
+    Mystery,
+    Native,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.world import NodeState, PlainState
+from ros2cc_extract.places import Place, Unknown
+
+_NODE_ONLY = frozenset((*CREATE_CALLS, 'create_publisher', 'create_rate'))
+
+# Helpers of the ROS libraries that take a node and add nothing its executor would serve.
+_HARMLESS = (
+    'tf2_ros.',
+    'rclpy.',
+    'builtins.',
+    'rosidl',
+    'cv_bridge',
+    'diagnostic_updater.',
+    'launch',
+)
+
+
+class Libraries(Machine):
+    """What is known of code that is not scanned."""
+
+    def library(self, name: str) -> Value:
+        """What a dotted name of a library stands for."""
+        known = rclpy_api.canonical(name)
+        handler = rclpy_api.table().functions.get(known)
+        return Native(known, handler) if handler else Library(known)
+
+    def prepare(self, instance: Instance) -> None:
+        """Give a new instance the state that its library bases add."""
+        for cls in instance.mro:
+            if isinstance(cls, Library):
+                for row in _with_bases(cls.name):
+                    if row.state is not None and instance.state is None:
+                        instance.state = row.state(self, instance)
+
+    def call_library(self, function: Library, call: Call) -> Value:
+        """Call a name of a library: make an instance, or give a mystery."""
+        rows = _with_bases(function.name)
+        if not rows:
+            return self.unknown_result(function, call)
+        instance = Instance(function, call.place)
+        instance.path = self.world.path
+        self.prepare(instance)
+        init = next((row.init for row in rows if row.init is not None), None)
+        if init is not None:
+            init(self, instance, call)
+        self.world.instances.append(instance)
+        return instance
+
+    def unknown_result(self, function: Value, call: Call) -> Value:
+        """The result of a library call that nothing is known of."""
+        self.library_call(function, call)
+        name = function.name if isinstance(function, Library) else 'an unknown function'
+        return Mystery(
+            Unknown(f'result of {name}, which is not scanned', call.place), f'{name}(…)'
+        )
+
+    def library_call(self, function: Value, call: Call) -> None:
+        """Something unknown is called, perhaps with a node among its arguments."""
+        if isinstance(function, Library) and function.name.startswith(_HARMLESS):
+            return
+        name = function.name if isinstance(function, Library) else ''
+        if isinstance(function, Mystery):
+            name = function.text
+        if not name or self._is_standard(name):
+            return
+        for argument in (*call.args, *call.keywords.values()):
+            for option in options_of(argument):
+                if isinstance(option, Instance) and isinstance(option.state, NodeState):
+                    reason = f'the node is passed to {name}, which is not scanned'
+                    option.state.more.append((reason, call.place))
+
+    def _is_standard(self, name: str) -> bool:
+        return name.partition('.')[0] in sys.stdlib_module_names
+
+    def library_member(
+        self, cls: Library, receiver: Value | None, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` that a library class gives to ``receiver``."""
+        rows = _with_bases(cls.name)
+        for row in rows:
+            if receiver is None or not isinstance(receiver, Instance):
+                return self._unbound(row, name)
+            if name in row.properties:
+                return row.properties[name](self, receiver, place)
+            if name == '__init__' and row.init is not None:
+                return Native('__init__', row.init, receiver)
+            if name in row.methods:
+                return Native(name, row.methods[name], receiver)
+        if rows and cls.name.startswith('rclpy.') and name == 'executor':
+            if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
+                return NODE_EXECUTOR[1](self, receiver, place)
+        return None
+
+    def _unbound(self, row: LibraryClass, name: str) -> Value | None:
+        """``Node.__init__(self, …)``: the receiver is the first argument."""
+        handler = row.init if name == '__init__' else row.methods.get(name)
+        if handler is None:
+            return None
+
+        def call_unbound(machine: Machine, receiver: Value, call: Call) -> Value:
+            if not call.args:
+                return NONE
+            inner = Call(call.place, call.args[1:], call.keywords, call.more, call.text)
+            return handler(machine, call.args[0], inner)
+
+        return Native(name, call_unbound)
+
+    def member_of_unknown_base(
+        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
+    ) -> Value | None:
+        """A node's method on a class whose base is not in sight makes it a node."""
+        if name not in _NODE_ONLY or not isinstance(receiver, Instance):
+            return None
+        if isinstance(receiver.state, NodeState) or receiver.state is not None:
+            return None
+        if self._unknown_base(receiver) is None:
+            return None
+        self.become_node(receiver)
+        return self.library_member(Library(NODE), receiver, name, place)
+
+    def become_node(self, instance: Instance) -> Instance | None:
+        """Treat an instance of a class with an unknown base as the node it is used as."""
+        if isinstance(instance.state, NodeState):
+            return instance
+        base = self._unknown_base(instance)
+        if base is None or instance.state is not None:
+            return None
+        instance.state = make_node(self, instance)
+        name = base.name if isinstance(base, Library) else 'which could not be followed'
+        at = instance.cls.place if isinstance(instance.cls, Class) else instance.place
+        instance.state.more.append((f'its base class {name} is not scanned and may add more', at))
+        return instance
+
+    def _unknown_base(self, instance: Instance) -> Value | None:
+        for cls in instance.mro:
+            if isinstance(cls, Class):
+                continue
+            if not isinstance(cls, Library):
+                return cls
+            if not self._is_standard(cls.name) and not cls.name.startswith('builtins.'):
+                return cls if not _with_bases(cls.name) else None
+        return None
+
+    def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
+        """Attribute ``name`` of a value that must be a node."""
+        if name in CREATE_CALLS and value.text and not _is_no_node(value):
+            return self.library_member(Library(NODE), ghost_node(self, value), name, place)
+        return None
+
+    def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
+        """A new future of ``kind``."""
+        made = Instance(Library('rclpy.task.Future'), place)
+        made.state = PlainState(kind, of=of, place=place)
+        return made
+
+
+def _is_no_node(value: Mystery) -> bool:
+    """Mocks of tests and clients of other frameworks have methods of the same names."""
+    text = f'{value.text} {value.unknown.reason}'.lower()
+    return any(word in text for word in ('mock', 'boto', 'session', 'requests'))
+
+
+def _with_bases(name: str) -> list[LibraryClass]:
+    """The rows of a library class and of its bases, nearest first."""
+    classes = rclpy_api.table().classes
+    rows: list[LibraryClass] = []
+    waiting = [rclpy_api.canonical(name)]
+    while waiting:
+        row = classes.get(waiting.pop(0))
+        if row is not None:
+            rows.append(row)
+            waiting.extend(row.bases)
+    return rows

@@ -1,0 +1,283 @@
+"""
+What the parts of the interpreter and the library tables may ask of each other.
+
+``interpreter.py`` puts the parts together; none of them imports another.
+"""
+
+from __future__ import annotations
+
+import ast
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+
+from ros2cc_extract.extract.static.store import Store, Writes
+from ros2cc_extract.extract.static.values import (
+    Call,
+    Choice,
+    Class,
+    Function,
+    FunctionNode,
+    Instance,
+    Library,
+    Module,
+    Mystery,
+    Path,
+    Scope,
+    Value,
+    choice,
+)
+from ros2cc_extract.extract.static.world import World
+from ros2cc_extract.places import Place, Unknown
+
+
+class BudgetError(Exception):
+    """The program is too large to be followed to its end."""
+
+
+@dataclass
+class Frame:
+    """One running function, class body or module."""
+
+    scope: Scope
+    function: Function | None = None
+    results: list[Value] = field(default_factory=list)
+    yields: list[Value] = field(default_factory=list)
+    qualname: str = ''
+    loop_exits: int = 0
+
+    @property
+    def module(self) -> Module:
+        """The module whose text is running."""
+        return self.scope.module
+
+    def place(self, node: ast.AST) -> Place:
+        """Where ``node`` stands."""
+        return Place(
+            self.scope.module.file, getattr(node, 'lineno', 0), getattr(node, 'col_offset', -1) + 1
+        )
+
+
+class Machine(ABC):
+    """The state every part shares, and what each part offers to the others."""
+
+    store: Store
+    world: World
+    steps: int
+
+    @abstractmethod
+    def evaluate(self, node: ast.expr, frame: Frame) -> Value:
+        """The value of an expression."""
+
+    @abstractmethod
+    def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Run statements; returns how the block may end, see ``statements.py``."""
+
+    @abstractmethod
+    def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
+        """Store ``value`` in a name, attribute, item or pattern of them."""
+
+    @abstractmethod
+    def attribute(self, value: Value, name: str, place: Place, text: str = '') -> Value:
+        """``value.name``."""
+
+    @abstractmethod
+    def has_attribute(self, value: Value, name: str) -> bool | None:
+        """Whether ``value.name`` exists; ``None`` when that depends."""
+
+    @abstractmethod
+    def call(self, function: Value, call: Call) -> Value:
+        """The result of a call, after its effects."""
+
+    @abstractmethod
+    def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
+        """A class from its statement, its body run."""
+
+    @abstractmethod
+    def import_module(self, name: str, place: Place) -> Value:
+        """A scanned module, or a library of that name."""
+
+    @abstractmethod
+    def library(self, name: str) -> Value:
+        """What a dotted name of a library stands for."""
+
+    @abstractmethod
+    def items_of(self, value: Value, place: Place) -> tuple[tuple[Value, ...], Unknown | None]:
+        """What iterating over ``value`` gives, and why there may be more."""
+
+    @abstractmethod
+    def truth(self, value: Value) -> bool | None:
+        """``bool(value)``; ``None`` when that depends."""
+
+    @abstractmethod
+    def comprehend(self, node: ast.expr, frame: Frame) -> Value:
+        """The value of a comprehension or generator expression."""
+
+    @abstractmethod
+    def make_function(self, node: FunctionNode, frame: Frame) -> Value:
+        """A function from its definition, its decorators applied."""
+
+    @abstractmethod
+    def imported(self, module: Value, module_name: str, name: str, place: Place) -> Value:
+        """What ``from module import name`` gives."""
+
+    @abstractmethod
+    def enter_context(self, value: Value, place: Place) -> Value:
+        """What ``with value as x`` binds to ``x``."""
+
+    @abstractmethod
+    def note_attribute(self, owner: Value, name: str, is_write: bool, place: Place) -> None:
+        """An attribute is read or written; matters while a callback runs."""
+
+    @abstractmethod
+    def note_global(self, module: Module, name: str, is_write: bool, place: Place) -> None:
+        """A global is read or written; matters while a callback runs."""
+
+    @abstractmethod
+    def note_loop(self, node: ast.While, frame: Frame) -> None:
+        """A ``while`` loop begins; matters when it waits for something."""
+
+    @abstractmethod
+    def run_function(self, function: Function, call: Call) -> Value:
+        """Run the body of a scanned function, also of a coroutine function."""
+
+    @abstractmethod
+    def prepare(self, instance: Instance) -> None:
+        """Give a new instance the state that its library bases add."""
+
+    @abstractmethod
+    def call_library(self, function: Library, call: Call) -> Value:
+        """Call a name of a library: make an instance, or give a mystery."""
+
+    @abstractmethod
+    def library_call(self, function: Value, call: Call) -> None:
+        """Something unknown is called, perhaps with a node among its arguments."""
+
+    @abstractmethod
+    def library_member(
+        self, cls: Library, receiver: Value | None, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` that a library class gives to ``receiver``."""
+
+    @abstractmethod
+    def member_of_unknown_base(
+        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` where a base class is not in sight."""
+
+    @abstractmethod
+    def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
+        """Attribute ``name`` of a value that must be a node."""
+
+    @abstractmethod
+    def submodule(self, module: Module, name: str, place: Place) -> Value | None:
+        """A module of a scanned package."""
+
+    @abstractmethod
+    def become_node(self, instance: Instance) -> Instance | None:
+        """Treat an instance of a class with an unknown base as the node it is used as."""
+
+    @abstractmethod
+    def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
+        """A new future of ``kind``."""
+
+    @abstractmethod
+    def await_value(self, value: Value, place: Place) -> Value:
+        """``await value``."""
+
+    @abstractmethod
+    def run_if_coroutine(self, value: Value, place: Place) -> Value:
+        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+
+    @abstractmethod
+    def zero_argument_super(self, frame: Frame) -> Value:
+        """``super()`` in the method that is running."""
+
+    @abstractmethod
+    def instantiate(self, cls: Class, call: Call) -> Value:
+        """Make an instance of a scanned class and run its ``__init__``."""
+
+    @abstractmethod
+    def name_value(self, value: Value, name: str) -> None:
+        """Remember the first name under which a group, an executor … is stored."""
+
+    @abstractmethod
+    def note_nested_spin(
+        self, how: str, node: Instance | None, executor: Value, place: Place
+    ) -> bool:
+        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
+
+    @abstractmethod
+    def note_change(self, what: str, node: Instance, place: Place) -> None:
+        """A callback changes which executor serves ``node``."""
+
+    @abstractmethod
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+
+    @abstractmethod
+    def note_await(self, value: Value, place: Place) -> None:
+        """A callback awaits ``value``."""
+
+    @abstractmethod
+    def note_acquire(self, lock: Value, place: Place) -> None:
+        """A lock is taken."""
+
+    @abstractmethod
+    def note_release(self, lock: Value) -> None:
+        """A lock is given back."""
+
+    @abstractmethod
+    def note_publish(self, publisher: Value, place: Place) -> None:
+        """A message is published."""
+
+    def stop_program(self) -> None:
+        """The program ends here on this branch (``sys.exit``)."""
+        self.world.stopped = True
+
+    def mystery(self, reason: str, place: Place | None, text: str = '') -> Mystery:
+        """A value that cannot be followed."""
+        return Mystery(Unknown(reason, place), text)
+
+    def branch(self, choices: Sequence[Callable[[], Value]], place: Place) -> Value:
+        """
+        Try each of ``choices`` from the same state and join what they leave behind.
+
+        A choice that ends the program leaves nothing behind, unless all do.
+        """
+        results: list[tuple[Value, Writes, bool]] = []
+        for index, attempt in enumerate(choices):
+            with self.on_path(place, index):
+                mark = self.store.open_branch()
+                result = attempt()
+                stopped, self.world.stopped = self.world.stopped, False
+                results.append((result, self.store.close_branch(mark), stopped))
+        going_on = [entry for entry in results if not entry[2]]
+        self.world.stopped = not going_on
+        kept = going_on or results
+        self.store.join([writes for _, writes, _ in kept])
+        return choice([result for result, _, _ in kept])
+
+    @contextmanager
+    def on_path(self, place: Place, index: int) -> Iterator[None]:
+        """Everything done inside depends on the branch ``index`` at ``place``."""
+        before = self.world.path
+        self.world.path = (*before, (place, index))
+        try:
+            yield
+        finally:
+            self.world.path = before
+
+    def each(self, value: Value, act: Callable[[Value], Value], place: Place) -> Value:
+        """Do ``act`` on every option of ``value``, as alternatives if there are several."""
+        if not isinstance(value, Choice):
+            return act(value)
+        options = value.options
+        return self.branch([partial(act, option) for option in options], place)
+
+
+__all__ = ['BudgetError', 'Frame', 'Library', 'Machine', 'Path']

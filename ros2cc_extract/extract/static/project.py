@@ -1,0 +1,145 @@
+"""The files of the scanned program: which there are, and which one an import names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.places import Place
+
+_SKIPPED = frozenset(
+    {'__pycache__', 'build', 'install', 'log', 'node_modules', 'venv', '.venv', 'site-packages'}
+)
+
+
+class Project:
+    """
+    All files that belong together.
+
+    :param given: the files that the user asked for, in order; others are only followed.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+        self._files: dict[Path, SourceFile] = {}
+        self._by_name: dict[str, list[SourceFile]] = {}
+        self.given: list[SourceFile] = []
+
+    @staticmethod
+    def of_paths(paths: Sequence[Path], root: Path | None) -> Project:
+        """
+        Find the Python files under ``paths``.
+
+        :raises InputError: for a missing path, or a directory without any Python file.
+        """
+        project = Project((root or Path.cwd()).resolve())
+        for path in paths:
+            project._add_path(path)
+        return project
+
+    @staticmethod
+    def of_text(text: str, name: str) -> Project:
+        """A program of one file that is not on the disk."""
+        project = Project(Path('/nonexistent'))
+        source = SourceFile(Path(name), name, Path(name).stem, '', text)
+        project.given.append(source)
+        project._files[Path(name)] = source
+        return project
+
+    @property
+    def files(self) -> list[SourceFile]:
+        """Every file that was given or followed."""
+        return list(self._files.values())
+
+    def script_folders(self) -> set[Path]:
+        """Folders that may declare scripts: those above the given files, up to the packages."""
+        folders: set[Path] = set()
+        for source in self.given:
+            if source.given_text is None:
+                depth = len(source.package.split('.')) if source.package else 0
+                folders.update(list(source.path.parents)[: depth + 2])
+        return folders
+
+    def module(self, name: str, importer: str) -> SourceFile | None:
+        """The file that ``import name`` means in the file shown as ``importer``."""
+        if not name or name.partition('.')[0] == 'rclpy':
+            return None
+        parts = name.split('.')
+        for folder in self._search_folders(importer):
+            found = self._in_folder(folder, parts)
+            if found is not None:
+                return found
+        candidates = self._by_name.get(name, [])
+        return candidates[0] if candidates else None
+
+    def _search_folders(self, importer: str) -> Iterator[Path]:
+        source = next((file for file in self._files.values() if file.shown == importer), None)
+        if source is None or source.given_text is not None:
+            return
+        yield source.path.parent
+        depth = len(source.package.split('.')) if source.package else 0
+        folder = source.path.parent
+        for _ in range(depth):
+            folder = folder.parent
+        if depth:
+            yield folder
+
+    def _in_folder(self, folder: Path, parts: list[str]) -> SourceFile | None:
+        stem = folder.joinpath(*parts)
+        for candidate in (stem.with_name(f'{stem.name}.py'), stem / '__init__.py'):
+            known = self._files.get(candidate)
+            if known is not None:
+                return known
+            if candidate.is_file():
+                return self._add_file(candidate)
+        return None
+
+    def _add_path(self, path: Path) -> None:
+        if path.is_dir():
+            found = sorted(_python_files(path))
+            if not found:
+                raise InputError('no Python file in this directory', Place(str(path)))
+            self.given.extend(self._add_file(file) for file in found)
+        elif path.exists():
+            self.given.append(self._add_file(path))
+        else:
+            raise InputError('no such file or directory', Place(str(path)))
+
+    def _add_file(self, path: Path) -> SourceFile:
+        full = Path(os.path.abspath(path))  # noqa: PTH100  resolve() would follow links
+        known = self._files.get(full)
+        if known is not None:
+            return known
+        package = _package_of(full)
+        stem = full.stem
+        name = package if stem == '__init__' and package else f'{package}.{stem}'.lstrip('.')
+        source = SourceFile(full, self._shown(path, full), name, package)
+        self._files[full] = source
+        self._by_name.setdefault(name, []).append(source)
+        return source
+
+    def _shown(self, path: Path, full: Path) -> str:
+        try:
+            return full.relative_to(self._root).as_posix()
+        except ValueError:
+            return path.as_posix()
+
+
+def _package_of(path: Path) -> str:
+    names: list[str] = []
+    folder = path.parent
+    while (folder / '__init__.py').is_file() and folder.name.isidentifier():
+        names.append(folder.name)
+        folder = folder.parent
+    return '.'.join(reversed(names))
+
+
+def _python_files(folder: Path) -> Iterator[Path]:
+    for base, folders, files in os.walk(folder):
+        folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
+        for name in files:
+            if name.endswith('.py'):
+                yield Path(base) / name

@@ -1,0 +1,359 @@
+"""Python's own functions and the parts of its standard library that set-up code uses."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static import folding
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Handler,
+    Instance,
+    Mapping,
+    Mystery,
+    Native,
+    Partial,
+    Sequence,
+    Super,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.places import Unknown
+
+_RANGE_LIMIT = 100_000
+
+
+def _range(machine: Machine, receiver: Value, call: Call) -> Value:
+    bounds = [arg.value for arg in call.args if isinstance(arg, Const)]
+    if len(bounds) != len(call.args) or not all(isinstance(bound, int) for bound in bounds):
+        mystery = next((arg for arg in call.args if isinstance(arg, Mystery)), None)
+        reason = mystery.unknown.reason if mystery else 'range of unknown length'
+        return Sequence((), 'range', Unknown(reason, call.place))
+    try:
+        numbers = range(*bounds)
+    except (TypeError, ValueError):
+        return Sequence((), 'range', Unknown('bad range', call.place))
+    if len(numbers) > _RANGE_LIMIT:
+        return Sequence((), 'range', Unknown('a very long range', call.place))
+    return Sequence(tuple(Const(number) for number in numbers), 'range')
+
+
+def _enumerate(machine: Machine, receiver: Value, call: Call) -> Value:
+    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    start = call.argument(1, 'start')
+    first = start.value if isinstance(start, Const) and isinstance(start.value, int) else 0
+    pairs = (Sequence((Const(first + i), item), 'tuple') for i, item in enumerate(items))
+    return Sequence(tuple(pairs), 'list', rest)
+
+
+def _zip(machine: Machine, receiver: Value, call: Call) -> Value:
+    columns = [machine.items_of(arg, call.place) for arg in call.args]
+    rest = next((rest for _, rest in columns if rest is not None), call.more)
+    rows = zip(*(items for items, _ in columns), strict=False)
+    return Sequence(tuple(Sequence(row, 'tuple') for row in rows), 'list', rest)
+
+
+def _converted(kind: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if not call.args:
+            return Sequence((), kind)
+        items, rest = machine.items_of(call.args[0], call.place)
+        return Sequence(items, kind, rest)
+
+    return handler
+
+
+def _reversed(machine: Machine, receiver: Value, call: Call) -> Value:
+    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    return Sequence(items[::-1], 'list', rest)
+
+
+def _dict(machine: Machine, receiver: Value, call: Call) -> Value:
+    entries: dict[Value, Value] = {}
+    rest = call.more
+    if call.args and isinstance(call.args[0], Mapping):
+        entries.update(call.args[0].entries)
+        rest = rest or call.args[0].rest
+    elif call.args:
+        pairs, unknown = machine.items_of(call.args[0], call.place)
+        rest = rest or unknown
+        for pair in pairs:
+            if isinstance(pair, Sequence) and len(pair.items) == 2:
+                entries[pair.items[0]] = pair.items[1]
+    entries.update({Const(name): value for name, value in call.keywords.items()})
+    return Mapping(entries, rest)
+
+
+def _len(machine: Machine, receiver: Value, call: Call) -> Value:
+    value = call.args[0] if call.args else NONE
+    if isinstance(value, Sequence) and value.rest is None:
+        if not any(isinstance(item, Choice) for item in value.items):
+            return Const(len(value.items))
+    if isinstance(value, Mapping) and value.rest is None:
+        return Const(len(value.entries))
+    if isinstance(value, Const) and isinstance(value.value, (str, bytes)):
+        return Const(len(value.value))
+    return machine.mystery('length that could not be followed', call.place, 'len(…)')
+
+
+def _scalar(kind: type) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        value = call.args[0] if call.args else Const(kind())
+        if isinstance(value, Const) and len(call.args) < 2:
+            try:
+                return Const(kind(value.value))
+            except (TypeError, ValueError, OverflowError):
+                return machine.mystery(f'{kind.__name__}() of a bad value', call.place)
+        if kind is bool:
+            truth = machine.truth(value)
+            return value if truth is None else Const(truth)
+        return (
+            value
+            if isinstance(value, Mystery)
+            else machine.mystery(f'{kind.__name__}() of an unknown value', call.place)
+        )
+
+    return handler
+
+
+def _extreme(act: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        values = call.args
+        if len(values) == 1:
+            values = list(machine.items_of(values[0], call.place)[0])
+        numbers = [value.value for value in values if isinstance(value, Const)]
+        if numbers and len(numbers) == len(values) and not call.keywords and not call.more:
+            try:
+                return Const(max(numbers) if act == 'max' else min(numbers))
+            except TypeError:
+                pass
+        return machine.mystery(f'{act}() of unknown values', call.place, f'{act}(…)')
+
+    return handler
+
+
+def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) < 2 or not isinstance(call.args[1], Const):
+        return machine.mystery('getattr with a computed name', call.place, 'getattr(…)')
+    name = str(call.args[1].value)
+
+    def of(owner: Value) -> Value:
+        exists = machine.has_attribute(owner, name)
+        default = call.argument(2)
+        if exists is False and default is not None:
+            return default
+        found = machine.attribute(owner, name, call.place)
+        if exists is None and default is not None and isinstance(found, Mystery):
+            return choice([found, default])
+        return found
+
+    return choice([of(owner) for owner in options_of(call.args[0])])
+
+
+def _setattr(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) == 3 and isinstance(call.args[1], Const):
+        owner, name, value = call.args[0], str(call.args[1].value), call.args[2]
+        if isinstance(owner, (Instance, Class)):
+            if isinstance(value, Instance) and value.hint is None:
+                value.hint = name
+            machine.store.write(owner, name, value)
+    return NONE
+
+
+def _hasattr(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) == 2 and isinstance(call.args[1], Const):
+        exists = machine.has_attribute(call.args[0], str(call.args[1].value))
+        if exists is not None:
+            return Const(exists)
+    return machine.mystery('hasattr', call.place, 'hasattr(…)')
+
+
+def _isinstance(machine: Machine, receiver: Value, call: Call) -> Value:
+    value, wanted = (*call.args, NONE, NONE)[:2]
+    classes = wanted.items if isinstance(wanted, Sequence) else (wanted,)
+    if isinstance(value, Instance):
+        if any(cls in value.mro for cls in classes):
+            return Const(True)
+        if all(isinstance(cls, Class) for cls in (*value.mro, *classes)):
+            return Const(False)
+    return machine.mystery('isinstance', call.place, 'isinstance(…)')
+
+
+def _callable(machine: Machine, receiver: Value, call: Call) -> Value:
+    value = call.args[0] if call.args else NONE
+    if isinstance(value, (Function, Bound, Class, Partial, Native)):
+        return Const(True)
+    if isinstance(value, Const):
+        return Const(False)
+    return machine.mystery('callable', call.place, 'callable(…)')
+
+
+def _super(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) == 2 and isinstance(call.args[0], Class):
+        return Super(call.args[0], call.args[1])
+    return machine.mystery('super()', call.place)
+
+
+def _map(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) != 2:
+        return machine.mystery('map', call.place, 'map(…)')
+    items, rest = machine.items_of(call.args[1], call.place)
+    results = tuple(machine.call(call.args[0], Call(call.place, [item])) for item in items)
+    return Sequence(results, 'list', rest)
+
+
+def _type(machine: Machine, receiver: Value, call: Call) -> Value:
+    value = call.args[0] if call.args else NONE
+    if len(call.args) == 1 and isinstance(value, Instance):
+        return value.cls
+    return machine.mystery('type()', call.place, 'type(…)')
+
+
+def _print(machine: Machine, receiver: Value, call: Call) -> Value:
+    return NONE
+
+
+def _exit(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.stop_program()
+    return NONE
+
+
+def _partial(machine: Machine, receiver: Value, call: Call) -> Value:
+    if not call.args:
+        return machine.mystery('partial without a function', call.place, 'partial()')
+    return Partial(call.args[0], tuple(call.args[1:]), dict(call.keywords))
+
+
+def _wraps(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``wraps(f)`` gives a decorator that lends the name of ``f`` to its function."""
+    named = call.args[0] if call.args else NONE
+
+    def decorate(machine: Machine, receiver: Value, inner: Call) -> Value:
+        function = inner.args[0] if inner.args else NONE
+        if isinstance(function, Function) and isinstance(named, (Function, Bound)):
+            machine.store.write(function, '__wrapped__', named)
+        return function
+
+    return Native('wraps(…)', decorate)
+
+
+def _same(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Decorators such as ``lru_cache`` that leave the function what it is."""
+    if call.args and isinstance(call.args[0], (Function, Class)):
+        return call.args[0]
+    return Native('decorator', _same)
+
+
+def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
+    results = [machine.await_value(arg, call.place) for arg in call.args]
+    return results[0] if results else NONE
+
+
+def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
+    return _converted('list')(machine, receiver, Call(call.place, call.args[:1]))
+
+
+def _defaultdict(machine: Machine, receiver: Value, call: Call) -> Value:
+    return Mapping({}, Unknown('defaultdict', call.place) if call.args else None)
+
+
+def _environment(machine: Machine, receiver: Value, call: Call) -> Value:
+    return machine.mystery('an environment variable', call.place, 'environment variable')
+
+
+def _sum(machine: Machine, receiver: Value, call: Call) -> Value:
+    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    total: Value = Const(0)
+    for item in items:
+        total = folding.binary(ast.Add(), total, item) or machine.mystery('sum', call.place)
+    return total if rest is None else machine.mystery('sum of unknown values', call.place)
+
+
+_FUNCTIONS: dict[str, Handler] = {
+    'builtins.range': _range,
+    'builtins.enumerate': _enumerate,
+    'builtins.zip': _zip,
+    'builtins.list': _converted('list'),
+    'builtins.tuple': _converted('tuple'),
+    'builtins.set': _converted('set'),
+    'builtins.frozenset': _converted('set'),
+    'builtins.sorted': _converted('list'),
+    'builtins.iter': _converted('list'),
+    'builtins.reversed': _reversed,
+    'builtins.dict': _dict,
+    'builtins.len': _len,
+    'builtins.int': _scalar(int),
+    'builtins.float': _scalar(float),
+    'builtins.str': _scalar(str),
+    'builtins.bool': _scalar(bool),
+    'builtins.max': _extreme('max'),
+    'builtins.min': _extreme('min'),
+    'builtins.sum': _sum,
+    'builtins.getattr': _getattr,
+    'builtins.setattr': _setattr,
+    'builtins.hasattr': _hasattr,
+    'builtins.isinstance': _isinstance,
+    'builtins.callable': _callable,
+    'builtins.super': _super,
+    'builtins.map': _map,
+    'builtins.type': _type,
+    'builtins.print': _print,
+    'builtins.exit': _exit,
+    'builtins.quit': _exit,
+    'sys.exit': _exit,
+    'os._exit': _exit,
+    'functools.partial': _partial,
+    'functools.wraps': _wraps,
+    'functools.lru_cache': _same,
+    'functools.cache': _same,
+    'contextlib.contextmanager': _same,
+    'dataclasses.dataclass': _same,
+    'asyncio.run': _run_coroutine,
+    'asyncio.gather': _run_coroutine,
+    'asyncio.wait': _run_coroutine,
+    'asyncio.create_task': _run_coroutine,
+    'asyncio.ensure_future': _run_coroutine,
+    'collections.deque': _deque,
+    'queue.Queue': _deque,
+    'collections.OrderedDict': _dict,
+    'collections.defaultdict': _defaultdict,
+    'os.getenv': _environment,
+    'os.environ.get': _environment,
+}
+
+_LOOP_METHODS: dict[str, Handler] = {
+    'run_until_complete': _run_coroutine,
+    'create_task': _run_coroutine,
+    'run_forever': _print,
+}
+
+
+def _event_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+    return Instance(Name('asyncio.AbstractEventLoop'), call.place)
+
+
+TABLE = Library(
+    classes={
+        'asyncio.AbstractEventLoop': LibraryClass(methods=_LOOP_METHODS),
+        'builtins.object': LibraryClass(init=_print),
+    },
+    functions={
+        **_FUNCTIONS,
+        'asyncio.get_event_loop': _event_loop,
+        'asyncio.new_event_loop': _event_loop,
+        'asyncio.get_running_loop': _event_loop,
+    },
+)
+
+__all__ = ['TABLE', 'Coroutine']

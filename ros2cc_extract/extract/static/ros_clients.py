@@ -1,0 +1,108 @@
+"""Clients, futures, timers, rates and publishers: what set-up code and callbacks do with them."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_executors import (
+    add_task,
+    node_executor_property,
+)
+from ros2cc_extract.extract.static.ros_nodes import NODE, mark_destroyed
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Handler,
+    Instance,
+    Value,
+)
+from ros2cc_extract.extract.static.world import EntityState, PlainState
+from ros2cc_extract.spec.model import EntityKind
+
+
+def _blocking(name: str, position: int | None) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(position, 'timeout_sec')
+        machine.note_blocking(name, receiver, timeout, call.place)
+        return machine.mystery(f'result of {name}', call.place, name)
+
+    return handler
+
+
+def _call_async(machine: Machine, receiver: Value, call: Call) -> Value:
+    return machine.future(call.place, 'client', receiver)
+
+
+def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Done-callbacks run as tasks of the executor, in no group (measured)."""
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    if not isinstance(state, PlainState) or state.kind == 'pool':
+        return NONE
+    source = state.of.state if isinstance(state.of, Instance) else None
+    node = source.node if isinstance(source, EntityState) else None
+    callback = call.argument(0, 'callback')
+    add_task(machine, node, None, callback, call.place, EntityKind.DONE_CALLBACK)
+    if isinstance(source, EntityState):
+        machine.world.entities[-1].key = source.key
+    return NONE
+
+
+def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    entity = receiver.state
+    if isinstance(entity, EntityState) and entity is machine.world.current:
+        if machine.world.path == machine.world.callback_path:
+            entity.one_shot = True
+    return NONE
+
+
+def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
+        mark_destroyed(machine, receiver.state)
+    return NONE
+
+
+def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_publish(receiver, call.place)
+    return NONE
+
+
+def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance) and receiver.state.kind == 'pool':
+        machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
+    return machine.mystery('result of a future', call.place, 'result()')
+
+
+def future_class(kind: str) -> LibraryClass:
+    """rclpy's futures."""
+    return LibraryClass(
+        state=lambda machine, instance: PlainState(kind, place=instance.place),
+        methods={'add_done_callback': _add_done_callback, 'result': _future_result},
+    )
+
+
+_ENTITY: dict[str, Handler] = {'destroy': _destroy}
+
+TABLE = Library(
+    classes={
+        'rclpy.timer.Timer': LibraryClass(methods={'cancel': _cancel, **_ENTITY}),
+        'rclpy.timer.Rate': LibraryClass(methods={'sleep': _blocking('Rate.sleep', None)}),
+        'rclpy.subscription.Subscription': LibraryClass(methods=_ENTITY),
+        'rclpy.service.Service': LibraryClass(methods=_ENTITY),
+        'rclpy.guard_condition.GuardCondition': LibraryClass(methods=_ENTITY),
+        'rclpy.client.Client': LibraryClass(
+            methods={
+                'call': _blocking('client.call', 1),
+                'call_async': _call_async,
+                'wait_for_service': _blocking('wait_for_service', 0),
+                **_ENTITY,
+            }
+        ),
+        'rclpy.publisher.Publisher': LibraryClass(methods={'publish': _publish}),
+        'rclpy.task.Future': future_class('future'),
+        'rclpy.task.Task': future_class('task'),
+    },
+)
+
+NODE_EXECUTOR = (NODE, node_executor_property)

@@ -1,0 +1,385 @@
+"""
+Executors and the calls that spin them.
+
+Sources: rclpy 7.1.6, ``__init__.py`` (the ``spin…`` functions take the node out of any other
+executor and, when they return, out of theirs), ``executors.py`` (``add_node``; the default
+number of threads is the number of CPUs the process may use).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
+from ros2cc_extract.extract.static.values import (
+    ABSENT,
+    NONE,
+    Call,
+    Class,
+    Const,
+    Handler,
+    Instance,
+    Mystery,
+    Native,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.extract.static.world import ExecutorState, GroupState, NodeState, Spin
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType
+
+BASE = 'rclpy.executors.Executor'
+SINGLE = 'rclpy.executors.SingleThreadedExecutor'
+MULTI = 'rclpy.executors.MultiThreadedExecutor'
+EVENTS = 'rclpy.experimental.EventsExecutor'
+
+_SPIN_OVERRIDES = frozenset(
+    [
+        'spin',
+        'spin_once',
+        'spin_until_future_complete',
+        '_spin_once_impl',
+        'wait_for_ready_callbacks',
+        '_wait_for_ready_callbacks',
+        '_make_handler',
+        'create_task',
+    ]
+)
+
+
+def _make(machine: Machine, instance: Instance) -> ExecutorState:
+    names = {cls.name for cls in instance.mro if isinstance(cls, Name)}
+    state = ExecutorState(kind=instance.class_name)
+    if MULTI in names:
+        state.threads = None
+    if isinstance(instance.cls, Class):
+        _describe_custom(instance.cls, names, state)
+    instance.slots['__nodes__'] = ()
+    machine.world.executors.append(instance)
+    return state
+
+
+def _describe_custom(cls: Class, names: set[str], state: ExecutorState) -> None:
+    base = next((name for name in (MULTI, SINGLE, EVENTS) if name in names), None)
+    changed = [
+        name
+        for entry in cls.mro
+        if isinstance(entry, Class)
+        for name in entry.slots
+        if name in _SPIN_OVERRIDES
+    ]
+    if base is None:
+        state.unresolved = Unknown(f'custom executor class {cls.name}', cls.place)
+    elif changed:
+        reason = f'custom executor class {cls.name} overrides {changed[0]}'
+        state.unresolved = Unknown(reason, cls.place)
+    else:
+        state.assumed = f'{cls.name} schedules as its base {base.rpartition(".")[2]}'
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    names = {cls.name for cls in receiver.mro if isinstance(cls, Name)}
+    if isinstance(state, ExecutorState) and MULTI in names:
+        _set_threads(state, call.argument(0, 'num_threads'), call.place)
+    return NONE
+
+
+def _set_threads(state: ExecutorState, value: Value | None, place: Place) -> None:
+    if value is None or value == NONE:
+        return
+    state.threads_at = place
+    if isinstance(value, Const) and isinstance(value.value, int) and value.value > 0:
+        state.threads = value.value
+        return
+    state.threads = 2
+    reason = value.unknown.reason if isinstance(value, Mystery) else 'computed at run time'
+    text = f'{value.text}: ' if isinstance(value, Mystery) and value.text else ''
+    state.threads_unresolved = Unknown(f'thread count {text}{reason}', place)
+
+
+def as_executor(machine: Machine, value: Value, place: Place) -> Instance:
+    """The executor that ``value`` is; an unresolved one where that cannot be followed."""
+    if isinstance(value, Instance) and isinstance(value.state, ExecutorState):
+        return value
+    reason = value.unknown.reason if isinstance(value, Mystery) else 'not a known executor'
+    text = f'{value.text}: ' if isinstance(value, Mystery) and value.text else ''
+    key = f'executor|{text}|{reason}'
+    known = machine.world.ghosts.get(key)
+    if known is None:
+        known = Instance(Name(BASE), place)
+        known.state = ExecutorState(kind='unknown', unknown=Unknown(f'{text}{reason}', place))
+        known.slots['__nodes__'] = ()
+        machine.world.ghosts[key] = known
+        machine.world.executors.append(known)
+    return known
+
+
+def as_node(machine: Machine, value: Value | None) -> Instance | None:
+    """The node that ``value`` is; a ghost for a mystery; ``None`` for anything else."""
+    if isinstance(value, Instance) and isinstance(value.state, NodeState):
+        return value
+    if isinstance(value, Instance):
+        return machine.become_node(value)
+    return ghost_node(machine, value) if isinstance(value, Mystery) else None
+
+
+def nodes_of(executor: Instance) -> tuple[Instance, ...]:
+    """The nodes an executor has, in the order in which they were added."""
+    found: list[Instance] = []
+    for entry in executor.slots.get('__nodes__', ()):
+        found.extend(o for o in options_of(entry) if isinstance(o, Instance) and o not in found)
+    return tuple(found)
+
+
+def add_node(machine: Machine, executor: Instance, node: Instance) -> None:
+    """Add ``node``, which leaves any other executor it is in."""
+    old = node.slots.get('__executor__')
+    for other in options_of(old) if isinstance(old, Value) else ():
+        if isinstance(other, Instance) and other is not executor:
+            remove_node(machine, other, node)
+    entries = executor.slots['__nodes__']
+    if node not in entries:
+        machine.store.write(executor, '__nodes__', (*entries, node))
+    machine.store.write(node, '__executor__', executor)
+    machine.store.write(node, '__owner__', executor)
+
+
+def remove_node(machine: Machine, executor: Instance, node: Instance) -> None:
+    """Take ``node`` out of ``executor``."""
+    entries = tuple(
+        choice([o for o in (e.options if hasattr(e, 'options') else (e,)) if o is not node])
+        for e in executor.slots['__nodes__']
+        if e is not node and tuple(options_of(e)) != (node,)
+    )
+    machine.store.write(executor, '__nodes__', tuple(e for e in entries if e is not ABSENT))
+    if node.slots.get('__executor__') is executor:
+        machine.store.remove(node, '__executor__')
+
+
+def global_executor(machine: Machine) -> Instance:
+    """The executor of ``rclpy.spin``: single-threaded, made on first use."""
+    world = machine.world
+    if world.global_executor is None:
+        executor = Instance(Name(SINGLE), Place(''))
+        executor.state = ExecutorState('SingleThreadedExecutor', is_global=True)
+        executor.slots['__nodes__'] = ()
+        world.global_executor = executor
+    return world.global_executor
+
+
+def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ever: bool) -> None:
+    world = machine.world
+    nodes = nodes_of(executor)
+    executor.state.spun = True
+    world.spins.append(Spin(executor, nodes, how, place, world.path, ever, world.in_thread))
+    for node in nodes:
+        node.state.spun = True
+    if ever and not world.in_thread:
+        world.after_spin = True
+
+
+def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
+    """``rclpy.spin`` and its kin: add the node, spin, take the node out again."""
+
+    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
+        given = call.argument(0, 'node') or NONE
+        executor = call.argument(position, 'executor')
+        place = call.place
+
+        def with_node(node_value: Value) -> Value:
+            def with_executor(executor_value: Value) -> Value:
+                _spin_node(machine, node_value, executor_value, how, place, ever)
+                return NONE
+
+            return machine.each(executor if executor is not None else NONE, with_executor, place)
+
+        machine.each(given, with_node, place)
+        return machine.mystery(f'result of rclpy.{how}', place)
+
+    return spin
+
+
+def _spin_node(
+    machine: Machine, node_value: Value, given: Value, how: str, place: Place, ever: bool
+) -> None:
+    node = as_node(machine, node_value)
+    if node is None:
+        return
+    if machine.note_nested_spin(f'rclpy.{how}', node, given, place):
+        return
+    executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
+    _warn_of_theft(machine, node, executor, how, place)
+    add_node(machine, executor, node)
+    record_spin(machine, executor, f'rclpy.{how}', place, ever)
+    remove_node(machine, executor, node)
+
+
+def _warn_of_theft(
+    machine: Machine, node: Instance, executor: Instance, how: str, place: Place
+) -> None:
+    old = node.slots.get('__executor__')
+    for other in options_of(old) if isinstance(old, Value) else ():
+        if not isinstance(other, Instance) or other is executor:
+            continue
+        name = other.hint or 'executor'
+        machine.world.diagnostics.append(
+            Diagnostic(
+                severity=Severity.WARNING,
+                slug='executor-not-spun' if not other.state.spun else 'node-taken-out',
+                place=place,
+                message=f'rclpy.{how} takes the node out of {name} ({other.state.kind}, '
+                f'{other.place}) and runs it on '
+                + (
+                    'the global single-threaded executor'
+                    if executor.state.is_global
+                    else 'another'
+                ),
+                help=f'call {name}.{how}() or pass executor={name}',
+            )
+        )
+
+
+def _method_spin(how: str, ever: bool) -> Handler:
+    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Instance)
+        if not machine.note_nested_spin(f'executor.{how}', None, receiver, call.place):
+            record_spin(machine, receiver, how, call.place, ever)
+        return machine.mystery(f'result of {how}', call.place)
+
+    return spin
+
+
+def _add(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+
+    def act(value: Value) -> Value:
+        node = as_node(machine, value)
+        if node is not None:
+            machine.note_change('add_node', node, call.place)
+            add_node(machine, receiver, node)
+        return NONE
+
+    return machine.each(call.argument(0, 'node') or NONE, act, call.place)
+
+
+def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = call.argument(0, 'node')
+    if isinstance(receiver, Instance) and isinstance(node, Instance):
+        if isinstance(node.state, NodeState) and not machine.world.after_spin:
+            remove_node(machine, receiver, node)
+            machine.note_change('remove_node', node, call.place)
+    return NONE
+
+
+def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A task has no entity and no group (rclpy-semantics: work outside every group)."""
+    assert isinstance(receiver, Instance)
+    nodes = nodes_of(receiver)
+    add_task(machine, nodes[0] if nodes else None, receiver, call.argument(0), call.place)
+    return machine.future(call.place, 'task')
+
+
+def add_task(
+    machine: Machine,
+    node: Instance | None,
+    executor: Instance | None,
+    callback: Value | None,
+    place: Place,
+    kind: EntityKind = EntityKind.TASK,
+) -> None:
+    """Record group-less work; it runs on the executor of ``node``."""
+    world = machine.world
+    if node is None:
+        node = world.nodes[0] if world.nodes else None
+    if node is None:
+        return
+    entity = add_entity(machine, node, kind, groupless(machine), place)
+    entity.callback = callback
+    if isinstance(callback, Value) and hasattr(callback, 'call') and hasattr(callback, 'function'):
+        entity.callback = callback.function
+
+
+def groupless(machine: Machine) -> Instance:
+    """The group that stands for work in no group at all."""
+    world = machine.world
+    if world.groupless is None:
+        group = Instance(Name('rclpy.callback_groups.ReentrantCallbackGroup'), Place(''))
+        group.state = GroupState(type=GroupType.REENTRANT, groupless=True)
+        group.hint = 'no_group'
+        world.groupless = group
+    return world.groupless
+
+
+def _get_nodes(machine: Machine, receiver: Value, call: Call) -> Value:
+    return machine.mystery('nodes of the executor at run time', call.place)
+
+
+def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
+    found = receiver.slots.get('__executor__')
+    known = options_of(found) if isinstance(found, Value) else ()
+    if known:
+        return choice(list(known))
+    made = Instance(Name('rclpy.executors.NodeExecutor'), place)
+    made.state = receiver.state
+    made.slots['node'] = receiver
+    return made
+
+
+def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    node = receiver.slots.get('node')
+    owner = node if isinstance(node, Instance) else None
+    add_task(machine, owner, None, call.argument(0), call.place)
+    return machine.future(call.place, 'task')
+
+
+def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
+    return NONE
+
+
+EXECUTOR_METHODS: dict[str, Handler] = {
+    'add_node': _add,
+    'remove_node': _remove,
+    'spin': _method_spin('spin', True),
+    'spin_once': _method_spin('spin_once', False),
+    'spin_until_future_complete': _method_spin('spin_until_future_complete', False),
+    'spin_once_until_future_complete': _method_spin('spin_once_until_future_complete', False),
+    'create_task': _create_task,
+    'get_nodes': _get_nodes,
+    'shutdown': _shut_down,
+    'wake': _shut_down,
+}
+
+node_executor_property = _node_executor
+node_task = _node_task
+
+_CLASS = LibraryClass(state=_make, init=_init, methods=EXECUTOR_METHODS)
+
+TABLE = Library(
+    classes={
+        BASE: _CLASS,
+        SINGLE: LibraryClass(bases=(BASE,)),
+        MULTI: LibraryClass(bases=(BASE,)),
+        EVENTS: LibraryClass(bases=(BASE,)),
+        'rclpy.executors.NodeExecutor': LibraryClass(methods={'create_task': _node_task}),
+    },
+    functions={
+        'rclpy.spin': _module_spin('spin', 1, True),
+        'rclpy.spin_once': _module_spin('spin_once', None, False),
+        'rclpy.spin_until_future_complete': _module_spin('spin_until_future_complete', 2, False),
+        'rclpy.get_global_executor': lambda machine, receiver, call: global_executor(machine),
+    },
+    aliases={
+        'rclpy.SingleThreadedExecutor': SINGLE,
+        'rclpy.experimental.events_executor.EventsExecutor': EVENTS,
+        'rclpy.experimental.events_executor.events_executor.EventsExecutor': EVENTS,
+        'rclpy.executors.EventsExecutor': EVENTS,
+    },
+)
+
+__all__ = ['TABLE', 'Native', 'add_task', 'as_executor', 'as_node', 'groupless']

@@ -1,0 +1,297 @@
+"""
+Nodes and what they create.
+
+Positions and names of arguments: rclpy 7.1.6, ``node.py``. Only ``create_timer`` (third) and
+``create_guard_condition`` (second) take the group as a positional argument.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_groups import group_of, new_group
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+)
+from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.extract.static.world import (
+    EntityState,
+    GroupState,
+    NodeState,
+    PlainState,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import Act, EntityKind, GroupType
+
+NODE = 'rclpy.node.Node'
+LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
+
+
+@dataclass(frozen=True)
+class CreateCall:
+    """One ``create_…`` method: positions of its arguments, and their names."""
+
+    kind: EntityKind
+    cls: str
+    key: tuple[int, str] | None = None
+    callback: tuple[int, str] | None = None
+    period: tuple[int, str] | None = None
+    group_position: int | None = None
+
+
+CREATE_CALLS = {
+    'create_subscription': CreateCall(
+        EntityKind.SUBSCRIPTION, 'rclpy.subscription.Subscription', (1, 'topic'), (2, 'callback')
+    ),
+    'create_timer': CreateCall(
+        EntityKind.TIMER,
+        'rclpy.timer.Timer',
+        callback=(1, 'callback'),
+        period=(0, 'timer_period_sec'),
+        group_position=2,
+    ),
+    'create_service': CreateCall(
+        EntityKind.SERVICE, 'rclpy.service.Service', (1, 'srv_name'), (2, 'callback')
+    ),
+    'create_client': CreateCall(EntityKind.CLIENT, 'rclpy.client.Client', (1, 'srv_name')),
+    'create_guard_condition': CreateCall(
+        EntityKind.GUARD_CONDITION,
+        'rclpy.guard_condition.GuardCondition',
+        callback=(0, 'callback'),
+        group_position=1,
+    ),
+}
+
+
+def make_node(machine: Machine, instance: Instance) -> NodeState:
+    """The state of a new node, with its default group."""
+    group = new_group(machine, GroupState(default=True), instance.place, None)
+    state = NodeState(default_group=group, count=machine.world.count)
+    names = {cls.name for cls in instance.mro if isinstance(cls, Name)}
+    state.lifecycle = LIFECYCLE_NODE in names
+    group.state.node = instance
+    group.state.count = machine.world.count
+    machine.world.nodes.append(instance)
+    return state
+
+
+def ghost_node(machine: Machine, value: Mystery) -> Instance:
+    """The node that a value which cannot be followed must be; one for each such value."""
+    key = f'{value.text}|{value.unknown.at}|{value.unknown.reason}'
+    known = machine.world.ghosts.get(key)
+    if known is None:
+        known = Instance(Name(NODE), value.unknown.at or Place(''))
+        known.path = machine.world.path
+        state = make_node(machine, known)
+        label = f'{value.text}: ' if value.text else ''
+        state.ghost = Unknown(f'{label}{value.unknown.reason}', value.unknown.at)
+        known.state = state
+        known.hint = value.text.rpartition('.')[2] or None
+        machine.world.ghosts[key] = known
+    return known
+
+
+def add_entity(
+    machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
+) -> EntityState:
+    """Record an entity of ``node`` made here and now."""
+    world = machine.world
+    entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
+    entity.when = world.when
+    world.entities.append(entity)
+    if world.deeds is not None:
+        world.deeds.changes.append(Act(name=kind.value, source=place, chain=world.chain[1:]))
+    return entity
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    if isinstance(receiver.state, NodeState):
+        receiver.state.name = call.argument(0, 'node_name') or NONE
+    return NONE
+
+
+def _creator(row: CreateCall) -> Handler:
+    def create(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Instance)
+        group = group_of(
+            machine, receiver, call.argument(row.group_position, 'callback_group'), call.place
+        )
+        entity = add_entity(machine, receiver, row.kind, group, call.place)
+        entity.key = call.argument(*row.key) if row.key else None
+        entity.callback = call.argument(*row.callback) if row.callback else None
+        entity.period = call.argument(*row.period) if row.period else None
+        made = Instance(Name(row.cls), call.place)
+        made.state = entity
+        return made
+
+    return create
+
+
+def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A timer in a private reentrant group of the node (``node.py``, ``_rate_group``)."""
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    if state.rate_group is None:
+        group = GroupState(type=GroupType.REENTRANT, library='rclpy.create_rate', node=receiver)
+        state.rate_group = new_group(machine, group, call.place, 'rate_group')
+    entity = add_entity(machine, receiver, EntityKind.TIMER, state.rate_group, call.place)
+    entity.library = 'rclpy.create_rate'
+    frequency = call.argument(0, 'frequency')
+    if isinstance(frequency, Const) and isinstance(frequency.value, (int, float)):
+        entity.period = Const(1.0 / frequency.value) if frequency.value else None
+    else:
+        entity.period = frequency
+    made = Instance(Name('rclpy.timer.Rate'), call.place)
+    made.state = entity
+    return made
+
+
+def _create_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+    made = Instance(Name('rclpy.publisher.Publisher'), call.place)
+    made.state = PlainState('publisher', call.argument(1, 'topic'), receiver, call.place)
+    return made
+
+
+def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = Instance(Name(NODE), call.place)
+    node.path = machine.world.path
+    node.state = make_node(machine, node)
+    node.state.name = call.argument(0, 'node_name')
+    machine.world.instances.append(node)
+    return node
+
+
+def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+    target = call.args[0] if call.args else None
+    if isinstance(target, Instance) and isinstance(target.state, EntityState):
+        mark_destroyed(machine, target.state)
+    return Const(True)
+
+
+def mark_destroyed(machine: Machine, entity: EntityState) -> None:
+    """Note that the program destroys ``entity`` while its node is alive."""
+    if not machine.world.after_spin and not machine.world.shutting_down:
+        entity.destroyed = True
+
+
+def _parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+    name = call.argument(0, 'name')
+    default = call.argument(1, 'value')
+    text = f'parameter {name.value!r}' if isinstance(name, Const) else 'a parameter'
+    assert isinstance(receiver, Instance)
+    known = receiver.slots.setdefault('__parameters__', {})
+    if isinstance(name, Const):
+        if default is not None:
+            known[name.value] = default
+        default = known.get(name.value)
+    if isinstance(default, Const) and default.value is not None:
+        text = f'{text} (default {default.value!r})'
+    made = Instance(Name('rclpy.parameter.Parameter'), call.place)
+    made.state = PlainState('parameter', Mystery(Unknown(f'value of {text}', call.place), text))
+    return made
+
+
+def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
+    return _parameter(machine, receiver, call)
+
+
+def _parameter_value(machine: Machine, receiver: Instance, place: Place) -> Value:
+    state = receiver.state
+    value = state.key if isinstance(state, PlainState) else None
+    return value or machine.mystery('value of a parameter', place)
+
+
+def _message(machine: Machine, receiver: Instance, place: Place) -> Value:
+    made = Instance(Name('rclpy.parameter.ParameterValue'), place)
+    made.state = receiver.state
+    return made
+
+
+class _ValueMethods(dict[str, Handler]):
+    """``get_parameter_value()`` and its fields all stand for the value."""
+
+
+def _get_parameter_value(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    return _message(machine, receiver, call.place)
+
+
+def _default_group(machine: Machine, receiver: Instance, place: Place) -> Value:
+    group: Instance = receiver.state.default_group
+    return group
+
+
+def _unfollowed(reason: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        return machine.mystery(reason, call.place, reason)
+
+    return handler
+
+
+_VALUE_FIELDS = [
+    'bool_value',
+    'integer_value',
+    'double_value',
+    'string_value',
+    'byte_array_value',
+    'bool_array_value',
+    'integer_array_value',
+    'double_array_value',
+    'string_array_value',
+]
+
+_NODE_METHODS: dict[str, Handler] = {
+    **{name: _creator(row) for name, row in CREATE_CALLS.items()},
+    'create_rate': _create_rate,
+    'create_publisher': _create_publisher,
+    'create_lifecycle_publisher': _create_publisher,
+    'destroy_timer': _destroy,
+    'destroy_subscription': _destroy,
+    'destroy_service': _destroy,
+    'destroy_client': _destroy,
+    'destroy_guard_condition': _destroy,
+    'declare_parameter': _parameter,
+    'get_parameter': _parameter,
+    'get_parameter_or': _parameter_or,
+    'get_clock': _unfollowed('the clock'),
+    'get_name': _unfollowed('name of the node at run time'),
+    'get_logger': _unfollowed('the logger'),
+    'get_namespace': _unfollowed('namespace of the node at run time'),
+    'destroy_node': lambda machine, receiver, call: NONE,
+}
+
+TABLE = Library(
+    classes={
+        NODE: LibraryClass(
+            state=make_node,
+            init=_init,
+            methods=_NODE_METHODS,
+            properties={'default_callback_group': _default_group},
+        ),
+        LIFECYCLE_NODE: LibraryClass(init=_init, bases=(NODE,)),
+        'rclpy.parameter.Parameter': LibraryClass(
+            properties={'value': _parameter_value},
+            methods={'get_parameter_value': _get_parameter_value},
+        ),
+        'rclpy.parameter.ParameterValue': LibraryClass(
+            properties=dict.fromkeys(_VALUE_FIELDS, _parameter_value)
+        ),
+        'rclpy.publisher.Publisher': LibraryClass(),
+    },
+    functions={'rclpy.create_node': _create_node},
+    aliases={
+        'rclpy.lifecycle.LifecycleNode': LIFECYCLE_NODE,
+        'rclpy.lifecycle.Node': LIFECYCLE_NODE,
+        'rclpy.lifecycle.node.Node': LIFECYCLE_NODE,
+        'rclpy.node.create_node': 'rclpy.create_node',
+    },
+)

@@ -1,0 +1,493 @@
+"""
+Running statements.
+
+``execute_block`` returns how the block may end, as a sum of the constants below; more than
+one bit is set where that depends on a branch nobody can decide.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from functools import reduce
+from operator import or_
+from typing import Any
+
+from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
+from ros2cc_extract.extract.static.store import Writes
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Choice,
+    Function,
+    Instance,
+    Mapping,
+    Module,
+    Mystery,
+    Scope,
+    Value,
+    choice,
+)
+from ros2cc_extract.extract.static.values import Sequence as Items
+from ros2cc_extract.extract.static.world import ExecutorState, GroupState, PlainState
+from ros2cc_extract.places import Place, Unknown
+
+NEXT, RETURN, BREAK, CONTINUE, DEAD = 1, 2, 4, 8, 16
+_LEAVING = RETURN | BREAK | CONTINUE
+
+STEP_LIMIT = 1_500_000
+
+
+class Statements(Machine):
+    """The statements of the language."""
+
+    def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Run ``body`` in order; what follows a possible early exit is conditional."""
+        path, exits = self.world.path, 0
+        try:
+            for statement in body:
+                flow = self.execute(statement, frame)
+                exits |= flow & ~NEXT
+                if not flow & NEXT:
+                    return exits
+                if flow & _LEAVING and frame.function is not None:
+                    self.world.path = (*self.world.path, (frame.place(statement), -1))
+            return exits | NEXT
+        finally:
+            self.world.path = path
+
+    def execute(self, statement: ast.stmt, frame: Frame) -> int:
+        """Run one statement."""
+        self.steps += 1
+        if self.steps > STEP_LIMIT:
+            raise BudgetError
+        handler = _STATEMENTS.get(type(statement))
+        flow = handler(self, statement, frame) if handler else NEXT
+        if self.world.stopped:
+            return DEAD
+        return flow
+
+    def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
+        """Store ``value`` in a name, attribute, item or pattern of them."""
+        if isinstance(target, ast.Name):
+            self.assign_name(target, value, frame)
+        elif isinstance(target, ast.Attribute):
+            self._assign_attribute(target, value, frame)
+        elif isinstance(target, ast.Subscript):
+            self._assign_item(target, value, frame)
+        elif isinstance(target, (ast.Tuple, ast.List)):
+            self._unpack(target.elts, value, frame)
+        elif isinstance(target, ast.Starred):
+            self.assign(target.value, value, frame)
+
+    def assign_name(self, target: ast.Name, value: Value, frame: Frame) -> None:
+        """Store ``value`` under a name in the scope that owns it."""
+        name = target.id
+        _hint(value, name)
+        scope = frame.scope
+        if name in scope.global_names:
+            self.store.write(scope.module, name, value)
+            self.note_global(scope.module, name, True, frame.place(target))
+        elif name in scope.nonlocal_names:
+            self.store.write(_owner_of(name, scope), name, value)
+        elif frame.function is None and not scope.parent and frame.qualname == '':
+            self.store.write(scope.module, name, value)
+        else:
+            self.store.write(scope, name, value)
+
+    def _assign_attribute(self, target: ast.Attribute, value: Value, frame: Frame) -> None:
+        owner = self.evaluate(target.value, frame)
+        _hint(value, target.attr)
+        place = frame.place(target)
+        options = owner.options if isinstance(owner, Choice) else (owner,)
+        for option in options:
+            self.note_attribute(option, target.attr, True, place)
+            if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
+                old = option.slots.get(target.attr)  # type: ignore[attr-defined]
+                new = value if len(options) == 1 or old is None else choice([old, value])
+                self.store.write(option, target.attr, new)  # type: ignore[arg-type]
+
+    def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
+        owner = self.evaluate(target.value, frame)
+        key = self.evaluate(target.slice, frame)
+        if isinstance(owner, Mapping):
+            if loops.is_key(key):
+                _hint(value, loops.key_text(key))
+                self.store.write(owner, 'entries', {**owner.entries, key: value})
+            else:
+                entries = {**owner.entries, key: value}
+                reason = 'a key of this dictionary could not be followed'
+                self.store.write(owner, 'entries', entries)
+                self.store.write(owner, 'open', Unknown(reason, frame.place(target)))
+        elif isinstance(owner, Items):
+            index = loops.index_of(key, len(owner.items))
+            if index is not None:
+                items = list(owner.items)
+                items[index] = value
+                self.store.write(owner, 'items', tuple(items))
+
+    def _unpack(self, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
+        place = frame.place(targets[0]) if targets else Place('')
+        items, rest = self.items_of(value, place)
+        for index, target in enumerate(targets):
+            if isinstance(target, ast.Starred):
+                behind = len(targets) - index - 1
+                middle = items[index : len(items) - behind]
+                self.assign(target.value, Items(middle, 'list', rest), frame)
+                items = (*items[:index], NONE, *items[len(items) - behind :])
+            elif index < len(items) and not (rest and isinstance(value, Mystery)):
+                self.assign(target, items[index], frame)
+            else:
+                reason = rest.reason if rest else 'too few values to unpack'
+                text = ast.unparse(target)
+                self.assign(target, self.mystery(reason, frame.place(target), text), frame)
+
+    def delete(self, node: ast.Delete, frame: Frame) -> int:
+        """``del name`` and ``del object.attribute``; items stay."""
+        for target in node.targets:
+            if isinstance(target, ast.Name):
+                self.store.remove(frame.scope, target.id)
+        return NEXT
+
+    def branches(
+        self,
+        bodies: Sequence[Callable[[], int]],
+        place: Place,
+        frame: Frame,
+    ) -> int:
+        """Run alternatives from one state; joins what may hold after them."""
+        ends: list[tuple[int, Writes]] = []
+        for index, body in enumerate(bodies):
+            with self.on_path(place, index):
+                mark = self.store.open_branch()
+                flow = body()
+                if self.world.stopped:
+                    flow, self.world.stopped = DEAD, False
+                ends.append((flow, self.store.close_branch(mark)))
+        live = [end for end in ends if end[0] & ~DEAD]
+        if not live:
+            self.store.join([writes for _, writes in ends])
+            return DEAD
+        going = [writes for flow, writes in live if flow & NEXT]
+        leaving = [_without(writes, frame.scope) for flow, writes in live if not flow & NEXT]
+        if going:
+            self.store.join(going, leaving)
+        else:
+            self.store.join([writes for _, writes in live])
+        return reduce(or_, (flow for flow, _ in live)) & ~DEAD
+
+
+def _without(writes: Writes, scope: Scope) -> Writes:
+    """The writes of a branch that leaves the function, less those to its own names."""
+    return {key: entry for key, entry in writes.items() if entry[0] is not scope}
+
+
+def _hint(value: Value, name: str) -> None:
+    if isinstance(value, Instance) and value.hint is None:
+        if isinstance(value.state, PlainState) or name not in ('_', 'self'):
+            value.hint = name
+    elif isinstance(value, Choice):
+        for option in value.options:
+            if isinstance(option, Instance) and isinstance(
+                option.state, (GroupState, ExecutorState)
+            ):
+                _hint(option, name)
+
+
+def _owner_of(name: str, scope: Scope) -> Scope | Module:
+    parent = scope.parent
+    while parent is not None:
+        if name in parent.slots:
+            return parent
+        parent = parent.parent
+    return scope.module
+
+
+def _expression(machine: Statements, node: ast.Expr, frame: Frame) -> int:
+    machine.evaluate(node.value, frame)
+    return NEXT
+
+
+def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
+    value = machine.evaluate(node.value, frame)
+    for target in node.targets:
+        machine.assign(target, value, frame)
+    return NEXT
+
+
+def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) -> int:
+    if node.value is not None:
+        machine.assign(node.target, machine.evaluate(node.value, frame), frame)
+    return NEXT
+
+
+def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
+    load = ast.copy_location(_as_load(node.target), node.target)
+    whole = ast.copy_location(ast.BinOp(load, node.op, node.value), node)
+    target = node.target
+    old = machine.evaluate(load, frame)
+    if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
+        items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
+        machine.store.write(old, 'items', (*old.items, *items))
+        machine.store.write(old, 'open', old.rest or rest)
+        return NEXT
+    machine.assign(target, machine.evaluate(whole, frame), frame)
+    return NEXT
+
+
+def _as_load(target: ast.Name | ast.Attribute | ast.Subscript) -> ast.expr:
+    if isinstance(target, ast.Name):
+        return ast.Name(target.id, ast.Load())
+    if isinstance(target, ast.Attribute):
+        return ast.Attribute(target.value, target.attr, ast.Load())
+    return ast.Subscript(target.value, target.slice, ast.Load())
+
+
+def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
+    frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    return RETURN
+
+
+def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
+    if node.exc is not None:
+        machine.evaluate(node.exc, frame)
+    return DEAD
+
+
+def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
+    holds = machine.truth(machine.evaluate(node.test, frame))
+    if holds is not None:
+        return machine.execute_block(node.body if holds else node.orelse, frame)
+    bodies = _arms(machine, node, frame)
+    return machine.branches(bodies, frame.place(node), frame)
+
+
+def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], int]]:
+    """The arms of an undecided ``if … elif … else`` as alternatives of one statement."""
+    arms: list[Callable[[], int]] = [lambda: machine.execute_block(node.body, frame)]
+    rest = node.orelse
+    while len(rest) == 1 and isinstance(rest[0], ast.If):
+        inner = rest[0]
+        holds = machine.truth(machine.evaluate(inner.test, frame))
+        if holds is not False:
+            arms.append(lambda body=inner.body: machine.execute_block(body, frame))  # type: ignore[misc]
+        if holds is True:
+            return arms
+        rest = inner.orelse
+    arms.append(lambda: machine.execute_block(rest, frame))
+    return arms
+
+
+def _try(machine: Statements, node: ast.Try, frame: Frame) -> int:
+    """Body, ``else`` and ``finally`` run as if nothing went wrong; handlers are branches."""
+    place = frame.place(node)
+
+    def regular() -> int:
+        flow = machine.execute_block(node.body, frame)
+        if flow & NEXT and node.orelse:
+            flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
+        return flow
+
+    path = machine.world.path
+    flow = regular()
+    stopped, machine.world.stopped = machine.world.stopped, False
+    machine.world.path = path
+    if node.handlers:
+        flow = _handle(machine, node, frame, place, DEAD if stopped else flow)
+        stopped = False
+    if node.finalbody:
+        final = machine.execute_block(node.finalbody, frame)
+        flow = flow if final & NEXT else final
+    machine.world.stopped = machine.world.stopped or stopped
+    return flow
+
+
+def _handle(machine: Statements, node: ast.Try, frame: Frame, place: Place, flow: int) -> int:
+    """Run the handlers after the body; each is a branch of its own."""
+    bodies: list[Callable[[], int]] = [lambda: flow]
+
+    def run(handler: ast.ExceptHandler) -> int:
+        if handler.name:
+            text = handler.name
+            machine.assign(
+                ast.Name(text, ast.Store()),
+                machine.mystery('a caught exception', frame.place(handler), text),
+                frame,
+            )
+        return machine.execute_block(handler.body, frame)
+
+    for handler in node.handlers:
+        bodies.append(lambda handler=handler: run(handler))  # type: ignore[misc]
+    ends = machine.branches(bodies, place, frame)
+    return ends & ~_LEAVING if flow & NEXT else ends
+
+
+def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
+    held = machine.world.held
+    try:
+        for item in node.items:
+            value = machine.evaluate(item.context_expr, frame)
+            entered = machine.enter_context(value, frame.place(item.context_expr))
+            if item.optional_vars is not None:
+                machine.assign(item.optional_vars, entered, frame)
+        return machine.execute_block(node.body, frame)
+    finally:
+        machine.world.held = held
+
+
+def _match(machine: Statements, node: ast.Match, frame: Frame) -> int:
+    machine.evaluate(node.subject, frame)
+    bodies: list[Callable[[], int]] = [
+        lambda case=case: _case(machine, case, frame)  # type: ignore[misc]
+        for case in node.cases
+    ]
+    if not any(_is_wildcard(case) for case in node.cases):
+        bodies.append(lambda: NEXT)
+    return machine.branches(bodies, frame.place(node), frame)
+
+
+def _is_wildcard(case: ast.match_case) -> bool:
+    pattern = case.pattern
+    return case.guard is None and isinstance(pattern, ast.MatchAs) and pattern.pattern is None
+
+
+def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
+    for part in ast.walk(case.pattern):
+        name = getattr(part, 'name', None) or getattr(part, 'rest', None)
+        if isinstance(name, str):
+            unknown = machine.mystery('bound by a match pattern', frame.place(part), name)
+            machine.assign(ast.Name(name, ast.Store()), unknown, frame)
+    return machine.execute_block(case.body, frame)
+
+
+def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
+    place = frame.place(node.iter)
+    values = machine.evaluate(node.iter, frame)
+    items, rest = machine.items_of(values, place)
+
+    def once(item: Value) -> int:
+        machine.assign(node.target, item, frame)
+        return machine.execute_block(node.body, frame)
+
+    flow = loops.run_loop(machine, items, rest, once, place)
+    if node.orelse and flow & NEXT:
+        flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
+    return flow
+
+
+def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
+    holds = machine.truth(machine.evaluate(node.test, frame))
+    if holds is False:
+        return machine.execute_block(node.orelse, frame)
+    machine.note_loop(node, frame)
+    reason = Unknown('made in a while loop', frame.place(node))
+    with loops.counted(machine, reason):
+        flow = machine.execute_block(node.body, frame)
+    return loops.after_loop(flow)
+
+
+def _function(
+    machine: Statements, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame
+) -> int:
+    machine.assign(ast.Name(node.name, ast.Store()), machine.make_function(node, frame), frame)
+    return NEXT
+
+
+def _class(machine: Statements, node: ast.ClassDef, frame: Frame) -> int:
+    value: Value = machine.make_class(node, frame)
+    machine.assign(ast.Name(node.name, ast.Store()), value, frame)
+    return NEXT
+
+
+def _import(machine: Statements, node: ast.Import, frame: Frame) -> int:
+    for alias in node.names:
+        module = machine.import_module(alias.name, frame.place(node))
+        if alias.asname is None:
+            top = alias.name.partition('.')[0]
+            module = machine.import_module(top, frame.place(node))
+        name = alias.asname or alias.name.partition('.')[0]
+        machine.assign(ast.Name(name, ast.Store()), module, frame)
+    return NEXT
+
+
+def _import_from(machine: Statements, node: ast.ImportFrom, frame: Frame) -> int:
+    place = frame.place(node)
+    name = absolute_name(node, frame.module)
+    module = machine.import_module(name, place)
+    for alias in node.names:
+        if alias.name == '*':
+            _import_star(machine, module, frame)
+            continue
+        value = machine.imported(module, name, alias.name, place)
+        machine.assign(ast.Name(alias.asname or alias.name, ast.Store()), value, frame)
+    return NEXT
+
+
+def _import_star(machine: Statements, module: Value, frame: Frame) -> None:
+    if isinstance(module, Module):
+        for name, value in list(module.slots.items()):
+            if isinstance(name, str) and not name.startswith('_'):
+                machine.assign(ast.Name(name, ast.Store()), value, frame)
+        frame.module.stars.extend(module.stars)
+    else:
+        frame.module.stars.append(module)
+
+
+def absolute_name(node: ast.ImportFrom, module: Module) -> str:
+    """Dotted name of the module that a ``from`` import names."""
+    if not node.level:
+        return node.module or ''
+    parts = module.package.split('.') if module.package else []
+    kept = parts[: len(parts) - (node.level - 1)] if node.level > 1 else parts
+    return '.'.join([*kept, *([node.module] if node.module else [])])
+
+
+def _global(machine: Statements, node: ast.Global, frame: Frame) -> int:
+    frame.scope.global_names.update(node.names)
+    return NEXT
+
+
+def _nonlocal(machine: Statements, node: ast.Nonlocal, frame: Frame) -> int:
+    frame.scope.nonlocal_names.update(node.names)
+    return NEXT
+
+
+def _constant_flow(flow: int) -> Callable[..., int]:
+    return lambda machine, node, frame: flow
+
+
+def _assert(machine: Statements, node: ast.Assert, frame: Frame) -> int:
+    machine.evaluate(node.test, frame)
+    return NEXT
+
+
+_STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
+    ast.Expr: _expression,
+    ast.Assign: _assign,
+    ast.AnnAssign: _assign_annotated,
+    ast.AugAssign: _assign_augmented,
+    ast.Return: _return,
+    ast.Raise: _raise,
+    ast.If: _if,
+    ast.Try: _try,
+    ast.With: _with,
+    ast.AsyncWith: _with,
+    ast.Match: _match,
+    ast.For: _for,
+    ast.AsyncFor: _for,
+    ast.While: _while,
+    ast.FunctionDef: _function,
+    ast.AsyncFunctionDef: _function,
+    ast.ClassDef: _class,
+    ast.Import: _import,
+    ast.ImportFrom: _import_from,
+    ast.Global: _global,
+    ast.Nonlocal: _nonlocal,
+    ast.Break: _constant_flow(BREAK),
+    ast.Continue: _constant_flow(CONTINUE),
+    ast.Assert: _assert,
+    ast.Delete: lambda machine, node, frame: machine.delete(node, frame),
+}
+
+if hasattr(ast, 'TryStar'):
+    _STATEMENTS[ast.TryStar] = _try

@@ -1,0 +1,111 @@
+"""
+The writes of the abstract machine: undone after one branch, joined after all.
+
+Only this module changes ``slots``. Lists and dictionaries in slots are replaced, never
+changed in place, so that a write can be undone by putting the old value back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ros2cc_extract.extract.static.values import ABSENT, Heaped, Value, choice
+
+Slot = tuple[Heaped, Any]
+Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any]]
+
+_MAX_OPTIONS = 16
+
+
+class Store:
+    """The log of writes since the start of the run."""
+
+    def __init__(self) -> None:
+        self._trail: list[tuple[Heaped, Any, Any]] = []
+        self._depth = 0
+
+    def reset(self) -> None:
+        """Forget every open branch after a run that was cut off; writes stay as they are."""
+        self._trail.clear()
+        self._depth = 0
+
+    def write(self, owner: Heaped, slot: Any, value: Any) -> None:
+        """Set a slot of ``owner``."""
+        if self._depth:
+            self._trail.append((owner, slot, owner.slots.get(slot, ABSENT)))
+        owner.slots[slot] = value
+
+    def remove(self, owner: Heaped, slot: Any) -> None:
+        """Remove a slot of ``owner`` if it is there."""
+        if slot in owner.slots:
+            if self._depth:
+                self._trail.append((owner, slot, owner.slots[slot]))
+            del owner.slots[slot]
+
+    def open_branch(self) -> int:
+        """Start a branch; returns the mark that ``close_branch`` wants."""
+        self._depth += 1
+        return len(self._trail)
+
+    def close_branch(self, mark: int) -> Writes:
+        """Undo every write since ``mark`` and return what the branch had written."""
+        written: Writes = {}
+        while len(self._trail) > mark:
+            owner, slot, old = self._trail.pop()
+            key = (id(owner), slot)
+            if key not in written:
+                written[key] = (owner, slot, owner.slots.get(slot, ABSENT))
+            if old is ABSENT:
+                owner.slots.pop(slot, None)
+            else:
+                owner.slots[slot] = old
+        self._depth -= 1
+        return written
+
+    def join(self, branches: list[Writes], leaving: Sequence[Writes] = ()) -> None:
+        """
+        Write what may hold after one of ``branches``, which all began in this state.
+
+        :param leaving: branches that leave the function; only what they wrote counts.
+        """
+        slots = {
+            key: (entry[0], entry[1])
+            for writes in (*branches, *leaving)
+            for key, entry in writes.items()
+        }
+        for key, (owner, slot) in slots.items():
+            now = owner.slots.get(slot, ABSENT)
+            ends = [writes[key][2] if key in writes else now for writes in branches]
+            ends.extend(writes[key][2] for writes in leaving if key in writes)
+            joined = join_contents(ends)
+            if joined is ABSENT:
+                self.remove(owner, slot)
+            else:
+                self.write(owner, slot, joined)
+
+
+def join_contents(ends: list[Any]) -> Any:
+    """Join what one slot holds at the end of several branches."""
+    first = ends[0]
+    if all(end is first for end in ends[1:]):
+        return first
+    kinds = {type(end) for end in ends}
+    if kinds <= {tuple, type(ABSENT)}:
+        return _join_items([() if end is ABSENT else end for end in ends])
+    if kinds <= {dict, type(ABSENT)}:
+        return _join_entries([{} if end is ABSENT else end for end in ends])
+    if all(isinstance(end, Value) for end in ends):
+        return choice(ends[:_MAX_OPTIONS])
+    return next(end for end in reversed(ends) if end is not None and end is not ABSENT)
+
+
+def _join_items(ends: list[tuple[Value, ...]]) -> tuple[Value, ...]:
+    length = max(len(end) for end in ends)
+    columns = ([end[i] if i < len(end) else ABSENT for end in ends] for i in range(length))
+    return tuple(choice(column) for column in columns)
+
+
+def _join_entries(ends: list[dict[Value, Value]]) -> dict[Value, Value]:
+    keys = dict.fromkeys(key for end in ends for key in end)
+    return {key: choice([end.get(key, ABSENT) for end in ends]) for key in keys}

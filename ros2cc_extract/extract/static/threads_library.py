@@ -1,0 +1,196 @@
+"""Threads, locks, events and pools of the standard library."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Const,
+    Function,
+    Handler,
+    Instance,
+    Mapping,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.world import PlainState, ThreadState
+from ros2cc_extract.places import Unknown
+
+
+def _thread_state(machine: Machine, instance: Instance) -> ThreadState:
+    return ThreadState()
+
+
+def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    state.target = call.argument(1, 'target')
+    state.call = _target_call(machine, call, call.argument(3, 'args'), call.argument(4, 'kwargs'))
+    return NONE
+
+
+def _timer_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    state.target = call.argument(1, 'function')
+    state.call = _target_call(machine, call, call.argument(2, 'args'), call.argument(3, 'kwargs'))
+    return NONE
+
+
+def _target_call(machine: Machine, call: Call, args: Value | None, keywords: Value | None) -> Call:
+    inner = Call(call.place)
+    if args is not None and args != NONE:
+        items, rest = machine.items_of(args, call.place)
+        inner.args, inner.more = list(items), rest
+    if isinstance(keywords, Mapping):
+        inner.keywords = {
+            str(key.value): value
+            for key, value in keywords.entries.items()
+            if isinstance(key, Const)
+        }
+    return inner
+
+
+def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
+    """Follow what another thread runs; it holds no lock of ours and is no callback."""
+    world = machine.world
+    saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
+    path = world.path
+    world.in_thread, world.deeds, world.held = True, None, ()
+    try:
+        result = machine.call(target, call)
+        machine.run_if_coroutine(result, call.place)
+    finally:
+        world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
+        world.stopped = False
+        world.path = path
+
+
+def _start(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    if state.started:
+        return NONE
+    state.started = True
+    run = machine.attribute(receiver, 'run', call.place)
+    if isinstance(run, Bound):
+        run_in_thread(machine, run, Call(call.place))
+    elif state.target is not None:
+        for target in options_of(state.target):
+            run_in_thread(machine, target, state.call or Call(call.place))
+    return NONE
+
+
+def _submit(machine: Machine, receiver: Value, call: Call) -> Value:
+    if call.args:
+        inner = Call(call.place, call.args[1:], call.keywords, call.more)
+        run_in_thread(machine, call.args[0], inner)
+    return machine.future(call.place, 'pool')
+
+
+def _run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) > 1:
+        run_in_thread(machine, call.args[1], Call(call.place, call.args[2:]))
+    return machine.future(call.place, 'pool')
+
+
+def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
+    if call.args:
+        inner = _target_call(machine, call, call.argument(1), call.argument(2))
+        run_in_thread(machine, call.args[0], inner)
+    return NONE
+
+
+def _plain(kind: str) -> LibraryClass:
+    return LibraryClass(
+        state=lambda machine, instance: PlainState(kind, place=instance.place),
+        init=lambda machine, receiver, call: NONE,
+        methods=_PLAIN_METHODS.get(kind, {}),
+    )
+
+
+def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(timeout_index, timeout_name)
+        machine.note_blocking(call_name, receiver, timeout, call.place)
+        return machine.mystery(f'result of {call_name}', call.place)
+
+    return handler
+
+
+def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_acquire(receiver, call.place)
+    return machine.mystery('result of acquire', call.place)
+
+
+def _release(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_release(receiver)
+    return NONE
+
+
+def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_blocking('time.sleep', None, call.argument(0, 'secs'), call.place)
+    return NONE
+
+
+_LOCK_METHODS: dict[str, Handler] = {'acquire': _acquire, 'release': _release}
+
+_PLAIN_METHODS: dict[str, dict[str, Handler]] = {
+    'lock': _LOCK_METHODS,
+    'rlock': _LOCK_METHODS,
+    'condition': {
+        **_LOCK_METHODS,
+        'wait': _blocking('Condition.wait', 0, 'timeout'),
+        'wait_for': _blocking('Condition.wait_for', 1, 'timeout'),
+    },
+    'semaphore': _LOCK_METHODS,
+    'event': {'wait': _blocking('Event.wait', 0, 'timeout')},
+    'barrier': {'wait': _blocking('Barrier.wait', 0, 'timeout')},
+    'pool': {
+        'submit': _submit,
+        'map': lambda machine, receiver, call: machine.mystery('results of a pool', call.place),
+    },
+}
+
+_THREAD = LibraryClass(
+    state=_thread_state,
+    init=_thread_init,
+    methods={'start': _start, 'join': _blocking('Thread.join', 0, 'timeout')},
+)
+
+_JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')
+
+TABLE = Library(
+    classes={
+        'threading.Thread': _THREAD,
+        'threading.Timer': LibraryClass(init=_timer_init, bases=('threading.Thread',)),
+        'multiprocessing.Process': LibraryClass(
+            state=_thread_state,
+            init=_thread_init,
+            methods={'start': _start, 'join': _JOIN_PROCESS},
+        ),
+        'threading.Lock': _plain('lock'),
+        'threading.RLock': _plain('rlock'),
+        'threading.Condition': _plain('condition'),
+        'threading.Semaphore': _plain('semaphore'),
+        'threading.BoundedSemaphore': _plain('semaphore'),
+        'threading.Event': _plain('event'),
+        'threading.Barrier': _plain('barrier'),
+        'concurrent.futures.ThreadPoolExecutor': _plain('pool'),
+        'concurrent.futures.ProcessPoolExecutor': _plain('pool'),
+    },
+    functions={
+        'time.sleep': _sleep,
+        '_thread.start_new_thread': _start_new,
+        'asyncio.to_thread': _submit,
+    },
+    aliases={
+        'concurrent.futures.thread.ThreadPoolExecutor': 'concurrent.futures.ThreadPoolExecutor'
+    },
+)
+
+__all__ = ['TABLE', 'Class', 'Function', 'Unknown', 'run_in_thread']

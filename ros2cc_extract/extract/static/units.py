@@ -1,0 +1,137 @@
+"""From what a run leaves behind to verification units: one executor with its nodes each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ros2cc_extract.extract.static.ros_executors import nodes_of
+from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
+from ros2cc_extract.extract.static.values import Class, Instance, Path, options_of
+from ros2cc_extract.extract.static.values import Value as AnyValue
+from ros2cc_extract.extract.static.world import ExecutorState, Spin, World
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import Spec, collect_unresolved
+
+NO_EXECUTOR = 'no executor or spin found for this node'
+
+
+@dataclass(eq=False)
+class Unit:
+    """
+    An executor and the nodes it serves in the end.
+
+    :param spin: the call that spins it, ``None`` when there is none in sight.
+    """
+
+    executor: Instance | None
+    nodes: list[Instance]
+    spin: Spin | None
+
+
+def specs_of(world: World, entry: str | None) -> list[Spec]:
+    """The specifications of one run."""
+    found = []
+    for unit in units_of(world):
+        spec = UnitBuilder(world, unit.executor, unit.nodes, unit.spin).build(entry)
+        found.append(_with_unresolved(spec))
+    return found
+
+
+def _with_unresolved(spec: Spec) -> Spec:
+    collected = collect_unresolved(replace(spec, unresolved=()))
+    own = tuple(fact for fact in spec.unresolved if fact not in collected)
+    return replace(spec, unresolved=(*collected, *own))
+
+
+def units_of(world: World) -> list[Unit]:
+    """One unit for each executor that is spun; then nodes that nobody spins."""
+    units = [unit for unit in _spun_units(world) if unit.nodes]
+    served = {id(node) for unit in units for node in unit.nodes}
+    for executor in world.executors:
+        nodes = [n for n in _filled_nodes(executor, world) if id(n) not in served]
+        if nodes:
+            units.append(Unit(executor, nodes, None))
+            served.update(id(node) for node in nodes)
+    seen: set[object] = set()
+    for node in world.nodes:
+        if id(node) in served:
+            continue
+        key = _class_key(node)
+        if key in seen:
+            continue
+        seen.add(key)
+        units.append(Unit(None, [node], None))
+    return units
+
+
+def _class_key(node: Instance) -> object:
+    if isinstance(node.cls, Class) and node.state.ghost is None:
+        return (id(node.cls), str(node.state.name))
+    return id(node)
+
+
+def _filled_nodes(executor: Instance, world: World) -> list[Instance]:
+    return [
+        node
+        for node in nodes_of(executor)
+        if isinstance(owner := node.slots.get('__owner__'), AnyValue)
+        and executor in options_of(owner)
+    ]
+
+
+def _spun_units(world: World) -> list[Unit]:
+    """Spins of one executor become one unit; of the global one, those that share nodes."""
+    units: list[Unit] = []
+    for spin in sorted(world.spins, key=lambda spin: not spin.for_ever):
+        nodes = [node for node in spin.nodes if _is_final(spin, node, world)]
+        if not nodes:
+            continue
+        unit = next((u for u in units if _same_unit(u, spin, nodes)), None)
+        if unit is None:
+            units.append(Unit(spin.executor, nodes, spin))
+        else:
+            unit.nodes.extend(node for node in nodes if node not in unit.nodes)
+    order = {id(spin): index for index, spin in enumerate(world.spins)}
+    return sorted(units, key=lambda u: order[id(u.spin)])
+
+
+def _same_unit(unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
+    if unit.executor is not spin.executor or unit.spin is None:
+        return False
+    if not spin.executor.state.is_global:
+        return True
+    if any(node in unit.nodes for node in nodes):
+        return not exclusive(unit.spin.path, spin.path)
+    return not unit.spin.for_ever and not spin.for_ever
+
+
+def _is_final(spin: Spin, node: Instance, world: World) -> bool:
+    """Whether ``spin`` serves ``node`` in the end: a spin for ever, later ones first."""
+    rivals = [
+        other
+        for other in world.spins
+        if node in other.nodes
+        and other.executor is not spin.executor
+        and not exclusive(other.path, spin.path)
+    ]
+    mine = world.spins.index(spin)
+    best_of_mine = any(
+        other.for_ever
+        for other in world.spins
+        if other.executor is spin.executor and node in other.nodes
+    )
+    for rival in rivals:
+        if rival.for_ever and not best_of_mine:
+            return False
+        if rival.for_ever == best_of_mine and world.spins.index(rival) > mine:
+            return False
+    return True
+
+
+def exclusive(one: Path, other: Path) -> bool:
+    """Whether two paths cannot both be taken: different branches of one statement."""
+    branches = {place: index for place, index in one if index >= 0}
+    return any(index >= 0 and branches.get(place, index) != index for place, index in other)
+
+
+__all__ = ['ExecutorState', 'Unknown', 'specs_of']

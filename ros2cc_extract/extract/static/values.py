@@ -1,0 +1,440 @@
+"""
+The abstract values of a program's set-up phase: what an expression may stand for.
+
+Mutable values keep what can change in ``slots``, which only ``store.py`` writes, so that two
+branches can be tried one after the other from the same state. Nothing here knows ROS.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from ros2cc_extract.places import Place, Unknown
+
+if TYPE_CHECKING:
+    from ros2cc_extract.extract.static.machine import Machine
+
+
+class Value:
+    """Anything an expression may stand for; compared by identity unless said otherwise."""
+
+    __slots__ = ()
+
+
+class Absent(Value):
+    """Stands for "no value on this branch" inside a ``Choice``."""
+
+    __slots__ = ()
+
+
+ABSENT = Absent()
+
+
+class Const(Value):
+    """A constant of a built-in scalar type; equal when type and value are equal."""
+
+    __slots__ = ('value',)
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Const)
+            and type(self.value) is type(other.value)
+            and bool(self.value == other.value)
+        )
+
+    def __hash__(self) -> int:
+        return hash((type(self.value), self.value))
+
+    def __repr__(self) -> str:
+        return f'Const({self.value!r})'
+
+
+NONE = Const(None)
+
+
+class Mystery(Value):
+    """
+    A value that could not be followed.
+
+    :param text: how the source calls it; two mysteries of one text and place are one thing.
+    :param default: what it is when nobody passes anything else (a parameter's default).
+    """
+
+    __slots__ = ('default', 'text', 'unknown')
+
+    def __init__(self, unknown: Unknown, text: str = '', default: Value | None = None) -> None:
+        self.unknown = unknown
+        self.text = text
+        self.default = default
+
+    def __repr__(self) -> str:
+        return f'Mystery({self.unknown})'
+
+
+class Choice(Value):
+    """One of several values, depending on a branch; never nested, never of one option."""
+
+    __slots__ = ('options',)
+
+    def __init__(self, options: tuple[Value, ...]) -> None:
+        self.options = options
+
+    def __repr__(self) -> str:
+        return f'Choice{self.options!r}'
+
+
+class Heaped(Value):
+    """A value with state; ``slots`` is written by ``store.py`` alone."""
+
+    __slots__ = ('slots',)
+
+    def __init__(self) -> None:
+        self.slots: dict[Any, Any] = {}
+
+
+class Sequence(Heaped):
+    """
+    A list, tuple, set or other ordered collection.
+
+    Slots: ``items`` (tuple of values) and ``open`` (``Unknown`` when there may be more).
+    """
+
+    __slots__ = ('kind',)
+
+    def __init__(
+        self, items: tuple[Value, ...], kind: str = 'list', rest: Unknown | None = None
+    ) -> None:
+        super().__init__()
+        self.kind = kind
+        self.slots['items'] = items
+        self.slots['open'] = rest
+
+    @property
+    def items(self) -> tuple[Value, ...]:
+        """The known items, in order."""
+        return tuple(self.slots['items'])
+
+    @property
+    def rest(self) -> Unknown | None:
+        """Why there may be more items than the known ones."""
+        rest = self.slots['open']
+        return rest if isinstance(rest, Unknown) else None
+
+
+class Mapping(Heaped):
+    """A dictionary; slots: ``entries`` (key constant -> value) and ``open`` as in a sequence."""
+
+    __slots__ = ()
+
+    def __init__(self, entries: dict[Value, Value], rest: Unknown | None = None) -> None:
+        super().__init__()
+        self.slots['entries'] = entries
+        self.slots['open'] = rest
+
+    @property
+    def entries(self) -> dict[Value, Value]:
+        """The known entries, in order; never to be changed in place."""
+        entries: dict[Value, Value] = self.slots['entries']
+        return entries
+
+    @property
+    def rest(self) -> Unknown | None:
+        """Why there may be more entries than the known ones."""
+        rest = self.slots['open']
+        return rest if isinstance(rest, Unknown) else None
+
+
+class Module(Heaped):
+    """A module of the scanned program; slots are its globals."""
+
+    __slots__ = ('file', 'name', 'package', 'stars')
+
+    def __init__(self, name: str, file: str, package: str) -> None:
+        super().__init__()
+        self.name = name
+        self.file = file
+        self.package = package
+        self.stars: list[Value] = []
+
+
+class Scope(Heaped):
+    """Names of one call, class body or comprehension; ``parent`` is the enclosing function's."""
+
+    __slots__ = ('global_names', 'module', 'nonlocal_names', 'parent')
+
+    def __init__(self, module: Module, parent: Scope | None) -> None:
+        super().__init__()
+        self.module = module
+        self.parent = parent
+        self.global_names: set[str] = set()
+        self.nonlocal_names: set[str] = set()
+
+
+FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+
+
+class Function(Heaped):
+    """
+    A function or lambda of the scanned program, with what it closes over.
+
+    :param qualname: as ``__qualname__``.
+    :param owner: class whose body defines it.
+    :param defaults: of the last positional parameters, evaluated once at the definition.
+    """
+
+    __slots__ = (
+        'binding',
+        'defaults',
+        'keyword_defaults',
+        'module',
+        'node',
+        'owner',
+        'qualname',
+        'scope',
+    )
+
+    def __init__(
+        self, node: FunctionNode, module: Module, qualname: str, scope: Scope | None
+    ) -> None:
+        super().__init__()
+        self.node = node
+        self.module = module
+        self.qualname = qualname
+        self.scope = scope
+        self.owner: Class | None = None
+        self.defaults: tuple[Value, ...] = ()
+        self.keyword_defaults: dict[str, Value] = {}
+        self.binding = 'method'
+
+    @property
+    def name(self) -> str:
+        """The bare name, ``<lambda>`` for a lambda."""
+        return self.qualname.rpartition('.')[2]
+
+    @property
+    def full_name(self) -> str:
+        """Qualified name with its module."""
+        return f'{self.module.name}.{self.qualname}'
+
+    @property
+    def place(self) -> Place:
+        """Where the definition stands."""
+        return Place(self.module.file, self.node.lineno, self.node.col_offset + 1)
+
+    @property
+    def is_coroutine(self) -> bool:
+        """True for ``async def``."""
+        return isinstance(self.node, ast.AsyncFunctionDef)
+
+
+class Library(Value):
+    """
+    Something of a library that is not scanned, by its canonical dotted name.
+
+    :param site: the import that brought it in, for messages.
+    """
+
+    __slots__ = ('name',)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Library) and self.name == other.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __repr__(self) -> str:
+        return f'Library({self.name})'
+
+
+class Class(Heaped):
+    """
+    A class of the scanned program; slots are its class attributes.
+
+    :param mro: this class first; classes, libraries and mysteries.
+    """
+
+    __slots__ = ('bases', 'module', 'mro', 'name', 'node', 'qualname')
+
+    def __init__(self, name: str, qualname: str, module: Module, node: ast.ClassDef) -> None:
+        super().__init__()
+        self.name = name
+        self.qualname = qualname
+        self.module = module
+        self.node = node
+        self.bases: tuple[Value, ...] = ()
+        self.mro: tuple[Value, ...] = (self,)
+
+    @property
+    def place(self) -> Place:
+        """Where the class statement stands."""
+        return Place(self.module.file, self.node.lineno, self.node.col_offset + 1)
+
+
+class Instance(Heaped):
+    """
+    An object made by calling a class: one allocation site, one identity.
+
+    :param cls: scanned class or library class.
+    :param state: what a library class adds to it (a node, a group, an executor, a thread …).
+    :param path: the undecided branches under which it is made.
+    :param hint: name of the first variable or attribute it is stored in.
+    """
+
+    __slots__ = ('cls', 'hint', 'path', 'place', 'state')
+
+    def __init__(self, cls: Class | Library, place: Place) -> None:
+        super().__init__()
+        self.cls = cls
+        self.place = place
+        self.state: Any = None
+        self.path: Path = ()
+        self.hint: str | None = None
+
+    @property
+    def mro(self) -> tuple[Value, ...]:
+        """Resolution order of its class."""
+        return self.cls.mro if isinstance(self.cls, Class) else (self.cls,)
+
+    @property
+    def class_name(self) -> str:
+        """Bare name of its class."""
+        return self.cls.name.rpartition('.')[2]
+
+
+class Bound(Value):
+    """A scanned method with its receiver."""
+
+    __slots__ = ('function', 'receiver')
+
+    def __init__(self, receiver: Value, function: Function) -> None:
+        self.receiver = receiver
+        self.function = function
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Bound)
+            and other.receiver is self.receiver
+            and other.function is self.function
+        )
+
+    def __hash__(self) -> int:
+        return hash((id(self.receiver), id(self.function)))
+
+
+class Super(Value):
+    """``super()`` inside a method of ``owner``."""
+
+    __slots__ = ('owner', 'receiver')
+
+    def __init__(self, owner: Class, receiver: Value) -> None:
+        self.owner = owner
+        self.receiver = receiver
+
+
+class Partial(Value):
+    """``functools.partial`` of something callable."""
+
+    __slots__ = ('args', 'function', 'keywords')
+
+    def __init__(
+        self, function: Value, args: tuple[Value, ...], keywords: dict[str, Value]
+    ) -> None:
+        self.function = function
+        self.args = args
+        self.keywords = keywords
+
+
+class Coroutine(Value):
+    """A coroutine that has been made and not yet been run."""
+
+    __slots__ = ('call', 'function')
+
+    def __init__(self, function: Function, call: Call) -> None:
+        self.function = function
+        self.call = call
+
+
+Path = tuple[tuple[Place, int], ...]
+"""Undecided branches, outermost first: place of the branching statement, index of the branch."""
+
+
+@dataclass
+class Call:
+    """
+    The arguments of one call.
+
+    :param place: where the call expression stands.
+    :param args: positional arguments, starred ones spread out.
+    :param more: why there may be more arguments than these (``*args`` of unknown content).
+    :param text: source of the function expression.
+    """
+
+    place: Place
+    args: list[Value] = field(default_factory=list)
+    keywords: dict[str, Value] = field(default_factory=dict)
+    more: Unknown | None = None
+    text: str = ''
+
+    def argument(self, index: int | None, *names: str) -> Value | None:
+        """The argument at ``index`` or of one of ``names``; a mystery when it may be passed."""
+        for name in names:
+            if name in self.keywords:
+                return self.keywords[name]
+        if index is not None and index < len(self.args):
+            return self.args[index]
+        return Mystery(self.more, names[0] if names else '') if self.more else None
+
+    def bound_to(self, receiver: Value) -> Call:
+        """The same call with ``receiver`` as first argument."""
+        return Call(self.place, [receiver, *self.args], self.keywords, self.more, self.text)
+
+
+Handler = Callable[['Machine', Value, Call], Value]
+"""A library function: the machine, the receiver (or what stands before the dot), the call."""
+
+
+class Native(Value):
+    """A library function or method whose effect is known."""
+
+    __slots__ = ('handler', 'name', 'receiver')
+
+    def __init__(self, name: str, handler: Handler, receiver: Value = NONE) -> None:
+        self.name = name
+        self.handler = handler
+        self.receiver = receiver
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Native)
+            and other.handler is self.handler
+            and other.receiver is self.receiver
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.name, id(self.receiver)))
+
+
+def options_of(value: Value) -> tuple[Value, ...]:
+    """All the values ``value`` may stand for; "no value" is left out."""
+    if isinstance(value, Choice):
+        return tuple(option for option in value.options if option is not ABSENT)
+    return () if value is ABSENT else (value,)
+
+
+def choice(values: list[Value]) -> Value:
+    """One value that stands for all of ``values``, in order, each once."""
+    flat: list[Value] = []
+    for value in values:
+        for option in value.options if isinstance(value, Choice) else (value,):
+            if option not in flat:
+                flat.append(option)
+    return flat[0] if len(flat) == 1 else Choice(tuple(flat))

@@ -1,0 +1,195 @@
+"""
+What one run of a program's set-up leaves behind: its nodes, entities, groups and spins.
+
+Records are mutable while the run goes on and belong to this room; ``units.py`` turns them
+into the frozen values of the specification.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
+
+
+@dataclass(eq=False)
+class GroupState:
+    """
+    A callback group.
+
+    :param node: the node whose default group it is.
+    :param unresolved: why it could not be followed, or why its type is not certain.
+    """
+
+    type: GroupType = GroupType.EXCLUSIVE
+    node: Instance | None = None
+    default: bool = False
+    groupless: bool = False
+    unresolved: Unknown | None = None
+    library: str | None = None
+    custom: str | None = None
+    count: int | Unknown = 1
+
+
+@dataclass(eq=False)
+class NodeState:
+    """
+    A ROS node.
+
+    :param name: value of the name argument; ``None`` when none was seen.
+    :param ghost: why it is not known which node it is; set for a node handed in from outside.
+    :param more: why it may have entities that we do not see.
+    """
+
+    default_group: Instance
+    name: Value | None = None
+    ghost: Unknown | None = None
+    lifecycle: bool = False
+    rate_group: Instance | None = None
+    more: list[tuple[str, Place | None]] = field(default_factory=list)
+    spun: bool = False
+    count: int | Unknown = 1
+
+
+@dataclass(eq=False)
+class ExecutorState:
+    """
+    An executor; its slot ``nodes`` holds the nodes it has, in order.
+
+    :param threads: number of worker threads, ``None`` for the number of CPUs at run time.
+    :param unresolved: why its kind or thread count could not be followed.
+    """
+
+    kind: str
+    threads: int | None = 1
+    threads_at: Place | None = None
+    threads_unresolved: Unknown | None = None
+    is_global: bool = False
+    unknown: Unknown | None = None
+    unresolved: Unknown | None = None
+    assumed: str | None = None
+    spun: bool = False
+
+
+@dataclass(eq=False)
+class EntityState:
+    """A ROS entity or a piece of group-less work; one record for each that is made."""
+
+    kind: EntityKind
+    node: Instance
+    group: Instance
+    place: Place
+    callback: Value | None = None
+    key: Value | None = None
+    period: Value | None = None
+    path: Path = ()
+    count: int | Unknown = 1
+    when: When = When.START
+    library: str | None = None
+    destroyed: bool = False
+    one_shot: bool = False
+    label: str | None = None
+    extra_callbacks: tuple[Value, ...] = ()
+    deeds: Deeds | None = None
+
+
+class EntityRef(str):
+    """Stands for an entity in a ``Blocking`` until the unit has given it a name."""
+
+    number: int
+
+    @staticmethod
+    def to(entity: EntityState) -> EntityRef:
+        """A reference to ``entity``."""
+        reference = EntityRef(entity.kind.value)
+        reference.number = id(entity)
+        return reference
+
+
+@dataclass(eq=False)
+class Spin:
+    """One spin call: the executor, the nodes it has then, and how it is called."""
+
+    executor: Instance
+    nodes: tuple[Instance, ...]
+    how: str
+    place: Place
+    path: Path
+    for_ever: bool
+    in_thread: bool
+
+
+@dataclass(eq=False)
+class ThreadState:
+    """A ``threading.Thread`` or timer: what it runs when started."""
+
+    target: Value | None = None
+    call: Call | None = None
+    started: bool = False
+
+
+@dataclass(eq=False)
+class PlainState:
+    """A library object of which only the kind matters: a lock, an event, a publisher …"""
+
+    kind: str
+    key: Value | None = None
+    of: Value | None = None
+    place: Place | None = None
+
+
+@dataclass
+class Deeds:
+    """What one callback does, in the order of its text."""
+
+    blocking: list[Blocking] = field(default_factory=list)
+    reads: list[Access] = field(default_factory=list)
+    writes: list[Access] = field(default_factory=list)
+    locks: list[Act] = field(default_factory=list)
+    publishes: list[Act] = field(default_factory=list)
+    changes: list[Act] = field(default_factory=list)
+
+
+@dataclass
+class World:
+    """
+    One run.
+
+    :param path: the undecided branches we are in.
+    :param count: how often what is made now is made (loops).
+    :param called: every function that was followed, to find those that were not.
+    :param stopped: this branch of the program has ended.
+    """
+
+    path: Path = ()
+    count: int | Unknown = 1
+    when: When = When.START
+    in_thread: bool = False
+    stopped: bool = False
+    deeds: Deeds | None = None
+    current: EntityState | None = None
+    chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
+    after_spin: bool = False
+    awaiting: bool = False
+    nodes: list[Instance] = field(default_factory=list)
+    entities: list[EntityState] = field(default_factory=list)
+    spins: list[Spin] = field(default_factory=list)
+    executors: list[Instance] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    called: set[int] = field(default_factory=set)
+    instances: list[Instance] = field(default_factory=list)
+    functions: list[Function] = field(default_factory=list)
+    ghosts: dict[str, Instance] = field(default_factory=dict)
+    unknown_groups: dict[object, Instance] = field(default_factory=dict)
+    kept: list[Value] = field(default_factory=list)
+    callback_path: Path = ()
+    shutting_down: bool = False
+    followed: int = 0
+    cut: list[tuple[str, Place]] = field(default_factory=list)
+    written_globals: dict[str, frozenset[str]] = field(default_factory=dict)
+    global_executor: Instance | None = None
+    groupless: Instance | None = None
