@@ -52,9 +52,11 @@ def _text_method(name: str) -> Handler:
         assert isinstance(receiver, Const)
         if name == 'join':
             return _joined(machine, receiver, call)
-        if all(isinstance(arg, Const) for arg in (*call.args, *call.keywords.values())):
-            if call.more is None:
-                return _applied(machine, receiver, name, call)
+        if (
+            all(isinstance(arg, Const) for arg in (*call.args, *call.keywords.values()))
+            and call.more is None
+        ):
+            return _applied(machine, receiver, name, call)
         return machine.mystery(f'text from str.{name}', call.place, f'str.{name}')
 
     return handler

@@ -90,11 +90,14 @@ class Effects(Machine):
         if deeds is None:
             return
         for part in ast.walk(node.test):
-            if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
-                if part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready'):
-                    owner = self.evaluate(part.func.value, frame)
-                    if part.func.attr in ('done', 'is_set'):
-                        self.note_blocking('busy wait', owner, None, frame.place(node))
+            if (
+                isinstance(part, ast.Call)
+                and isinstance(part.func, ast.Attribute)
+                and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
+            ):
+                owner = self.evaluate(part.func.value, frame)
+                if part.func.attr in ('done', 'is_set'):
+                    self.note_blocking('busy wait', owner, None, frame.place(node))
 
     def note_blocking(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -134,13 +137,16 @@ class Effects(Machine):
     def note_acquire(self, lock: Value, place: Place) -> None:
         """A lock is taken."""
         for option in options_of(lock):
-            if isinstance(option, Instance) and isinstance(option.state, PlainState):
-                if option.state.kind in _LOCKS:
-                    name = option.hint or option.state.kind
-                    self.world.held = (*self.world.held, name)
-                    if self.world.deeds is not None:
-                        act = Act(name=name, source=place, chain=self.world.chain[1:])
-                        self.world.deeds.locks.append(act)
+            if (
+                isinstance(option, Instance)
+                and isinstance(option.state, PlainState)
+                and option.state.kind in _LOCKS
+            ):
+                name = option.hint or option.state.kind
+                self.world.held = (*self.world.held, name)
+                if self.world.deeds is not None:
+                    act = Act(name=name, source=place, chain=self.world.chain[1:])
+                    self.world.deeds.locks.append(act)
 
     def note_release(self, lock: Value) -> None:
         """A lock is given back."""

@@ -108,9 +108,14 @@ class Libraries(Machine):
                 return Native('__init__', row.init, receiver)
             if name in row.methods:
                 return Native(name, row.methods[name], receiver)
-        if rows and cls.name.startswith('rclpy.') and name == 'executor':
-            if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
-                return NODE_EXECUTOR[1](self, receiver, place)
+        if (
+            rows
+            and cls.name.startswith('rclpy.')
+            and name == 'executor'
+            and isinstance(receiver, Instance)
+            and isinstance(receiver.state, NodeState)
+        ):
+            return NODE_EXECUTOR[1](self, receiver, place)
         return None
 
     def _unbound(self, row: LibraryClass, name: str) -> Value | None:

@@ -97,9 +97,12 @@ def _dict(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _len(machine: Machine, receiver: Value, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
-    if isinstance(value, Sequence) and value.rest is None:
-        if not any(isinstance(item, Choice) for item in value.items):
-            return Const(len(value.items))
+    if (
+        isinstance(value, Sequence)
+        and value.rest is None
+        and not any(isinstance(item, Choice) for item in value.items)
+    ):
+        return Const(len(value.items))
     if isinstance(value, Mapping) and value.rest is None:
         return Const(len(value.entries))
     if isinstance(value, Const) and isinstance(value.value, (str, bytes)):

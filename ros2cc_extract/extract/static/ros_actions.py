@@ -74,9 +74,13 @@ def _send_goal_async(machine: Machine, receiver: Value, call: Call) -> Value:
     """The feedback callback runs in the client's waitable, hence in its group."""
     assert isinstance(receiver, Instance)
     feedback = call.argument(1, 'feedback_callback')
-    if isinstance(receiver.state, EntityState) and feedback is not None and feedback != NONE:
-        if feedback not in receiver.state.extra_callbacks:
-            receiver.state.extra_callbacks += (feedback,)
+    if (
+        isinstance(receiver.state, EntityState)
+        and feedback is not None
+        and feedback != NONE
+        and feedback not in receiver.state.extra_callbacks
+    ):
+        receiver.state.extra_callbacks += (feedback,)
     return machine.future(call.place, 'goal', receiver)
 
 

@@ -51,9 +51,12 @@ def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
 def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     entity = receiver.state
-    if isinstance(entity, EntityState) and entity is machine.world.current:
-        if machine.world.path == machine.world.callback_path:
-            entity.one_shot = True
+    if (
+        isinstance(entity, EntityState)
+        and entity is machine.world.current
+        and machine.world.path == machine.world.callback_path
+    ):
+        entity.one_shot = True
     return NONE
 
 

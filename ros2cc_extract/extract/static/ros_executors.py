@@ -269,10 +269,14 @@ def _add(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
     node = call.argument(0, 'node')
-    if isinstance(receiver, Instance) and isinstance(node, Instance):
-        if isinstance(node.state, NodeState) and not machine.world.after_spin:
-            remove_node(machine, receiver, node)
-            machine.note_change('remove_node', node, call.place)
+    if (
+        isinstance(receiver, Instance)
+        and isinstance(node, Instance)
+        and isinstance(node.state, NodeState)
+        and not machine.world.after_spin
+    ):
+        remove_node(machine, receiver, node)
+        machine.note_change('remove_node', node, call.place)
     return NONE
 
 
