@@ -10,13 +10,17 @@ BIN := $(VENV)/bin
 TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 
-.PHONY: demo test lint schema clean
+.PHONY: demo test test-long lint schema clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/paper_case2/node.py
 
 test: $(VENV)/developed $(JAZZY)/installed
 	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -n auto $(PYTEST_FLAGS)
+
+# Random comparisons in the numbers of record; hours on the pure Python checker.
+test-long: $(VENV)/developed
+	$(BIN)/python -m pytest -m slow $(PYTEST_FLAGS)
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .
