@@ -108,9 +108,9 @@ class Moving:
         if edge.sync.direction is Direction.RECEIVE:
             return []
         receivers = list(self._receivers(own[0], edge.sync, at))
-        if self._network.channels[edge.sync.base].is_broadcast:
-            return self._broadcast(own, receivers, committed)
         steps = [self._probe(own)] if _may_fail(edge.sync.index) else []
+        if self._network.channels[edge.sync.base].is_broadcast:
+            return steps + self._broadcast(own, receivers, committed)
         return steps + [
             self._move((own, receiver))
             for receiver in receivers
@@ -149,7 +149,10 @@ class Moving:
         """Return a move that never happens but fails where the channel index does."""
         key = 'probe', sender
         if key not in self._compiled:
-            lines = ['def probe(s):', *self._sending(sender), f'{INDENT}return -1']
+            sync = self._edge(sender).sync
+            assert sync is not None
+            index = f'{INDENT}{self._channel(sync)}'
+            lines = ['def probe(s):', *self._enabled(sender), index, f'{INDENT}return -1']
             self._compiled[key] = self._define('probe', lines)
         return self._compiled[key], self.label((sender,))
 
@@ -165,12 +168,6 @@ class Moving:
         if guard is None:
             return []
         return [f'{INDENT}if not {self._writer.value(guard)}: return -1']
-
-    def _sending(self, sender: EdgeRef) -> list[str]:
-        """Return the guard of a sender, and its channel index where that can fail."""
-        sync = self._edge(sender).sync
-        probing = [f'{INDENT}{self._channel(sync)}'] if sync and _may_fail(sync.index) else []
-        return self._enabled(sender) + probing
 
     def _matching(self, sender: EdgeRef, receiver: EdgeRef) -> list[str]:
         syncs = [self._edge(reference).sync for reference in (sender, receiver)]
@@ -244,7 +241,7 @@ class Moving:
         key = 'test', sender, receiver
         if key not in self._compiled:
             if receiver is None:
-                lines = ['def test(s):', *self._sending(sender)]
+                lines = ['def test(s):', *self._enabled(sender)]
             else:
                 enabled = self._enabled(receiver)
                 lines = ['def test(s):', *enabled, *self._matching(sender, receiver)]

@@ -187,6 +187,9 @@ class Expressions:
         if node.operator == 'imply':
             premise = negation(self.condition(node.left, scope))
             return binary(Op.OR, premise, self.condition(node.right, scope))
+        if node.operator == 'xor':
+            left, right = self.condition(node.left, scope), self.condition(node.right, scope)
+            return binary(Op.NE, left, right)
         if node.operator in ('==', '!='):
             arrays = self._array_comparison(node, scope)
             if arrays is not None:

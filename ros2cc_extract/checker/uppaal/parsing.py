@@ -123,7 +123,9 @@ def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelForma
     found = _WORD.match(rest)
     word = found[0] if found else 'end of line'
     previous = _LAST_WORD.search(before)
-    for suspect in (word, previous[0].strip() if previous else ''):
+    first = _WORD.match(line.lstrip())
+    suspects = [found, previous, first]
+    for suspect in (match[0].strip() for match in suspects if match):
         if suspect in _OUTSIDE:
             what = f'{_OUTSIDE[suspect]} are outside the supported subset of UPPAAL'
             return ModelFormatError(what, at, MEND_SUBSET)

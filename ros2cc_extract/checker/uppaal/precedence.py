@@ -55,7 +55,7 @@ _RIGHT_ASSOCIATIVE = {_INFIX['='], _INFIX['?']}
 _PREFIX = {'forall': 0, 'exists': 0, 'sum': 0, 'not': 3}
 _TIGHT_PREFIX = len(_LEVELS) + 1
 _CHAINED = ('&&', '||', 'and', 'or')
-_SPELLING = {'and': '&&', 'or': '||', 'not': '!', 'xor': '!='}
+_SPELLING = {'and': '&&', 'or': '||', 'not': '!'}
 
 
 class NestingError(Exception):

@@ -33,7 +33,7 @@ def clean(text: str) -> str:
 def first_line(text: str, line: int) -> int:
     """Return the line of the first character of a formula."""
     blank = _COMMENT.sub(lambda match: re.sub(r'\S', ' ', match[0]), text)
-    return line + len(blank[: len(blank) - len(blank.lstrip())].splitlines()[1:])
+    return line + blank[: len(blank) - len(blank.lstrip())].count('\n')
 
 
 def read_query_file(text: str, name: str) -> tuple[Query, ...]:
