@@ -21,6 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder to write to'
     )
+    parser.add_argument(
+        '--svg', action='store_true', help='also draw each automaton as UPPAAL shows it'
+    )
     add_unit_arguments(parser)
     add_model_arguments(parser.add_argument_group('model'))
 
@@ -42,7 +45,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         )
         for assumption in closed.assumptions:
             print(f'{rendered.name}: assumed: {assumption}', file=stderr)
-        for name, text in model_files(rendered).items():
+        files = {**model_files(rendered), **(_drawings(rendered) if args.svg else {})}
+        for name, text in files.items():
             write_atomically(args.output / name, text)
             print(args.output / name, file=stdout)
     return EXIT_CLEAN
@@ -55,3 +59,9 @@ def model_files(rendered: RenderedModel) -> Mapping[str, str]:
         f'{rendered.name}.q': rendered.q,
         **rendered.published,
     }
+
+
+def _drawings(rendered: RenderedModel) -> Mapping[str, str]:
+    from ros2cc_extract.generator.svg import draw
+
+    return {f'{rendered.name}_{name}.svg': text for name, text in draw(rendered.xml).items()}

@@ -45,6 +45,19 @@ def test_model_writes_what_uppaal_and_the_published_tool_need(run: Run, tmp_path
     ]
 
 
+def test_model_draws_its_automata_on_request(run: Run, tmp_path: Path) -> None:
+    outcome = run('model', CASE_1, '-o', 'out', '--svg')
+    assert outcome.status == 0
+    drawn = sorted((tmp_path / 'out').glob('*.svg'))
+    assert [path.stem.removeprefix('paper_case1_') for path in drawn] == [
+        'Callback',
+        'CallbackGroup',
+        'Executor',
+        'Thread',
+    ]
+    assert all(path.read_text().startswith('<svg ') for path in drawn)
+
+
 def test_verify_reads_the_model_that_model_wrote(run: Run) -> None:
     run('model', CASE_1, '-o', 'out')
     from_source = json.loads(run('verify', CASE_1, '--output-format', 'json').out)
