@@ -258,7 +258,7 @@ class Calls(Machine):
         if isinstance(value, Coroutine):
             return self.run_function(value.function, value.call)
         if isinstance(value, Instance) and isinstance(value.state, PlainState):
-            return self.mystery(f'result of awaiting a {value.state.kind}', place)
+            return self.awaited(value, place)
         return self.mystery('result of an await', place)
 
     def run_if_coroutine(self, value: Value, place: Place) -> Value:

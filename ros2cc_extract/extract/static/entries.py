@@ -39,7 +39,9 @@ def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[
         if module == source.module_name and name in functions
     ]
     if _is_script(tree):
-        found.append(Entry(source, None, f'{source.shown}:{_script_label(tree)}'))
+        script = Entry(source, None, f'{source.shown}:{_script_label(tree)}')
+        found = [entry for entry in found if entry.label != script.label]
+        found.append(script)
     elif not found and 'main' in functions:
         found.append(Entry(source, 'main', f'{source.shown}:main'))
     elif not found:

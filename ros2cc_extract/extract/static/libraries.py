@@ -7,7 +7,7 @@ import sys
 from ros2cc_extract.extract.static import rclpy_api
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR
+from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, result_of
 from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -173,6 +173,10 @@ class Libraries(Machine):
         if name in CREATE_CALLS and value.text and not _is_no_node(value):
             return self.library_member(Library(NODE), ghost_node(self, value), name, place)
         return None
+
+    def awaited(self, future: Instance, place: Place) -> Value:
+        """What awaiting a future gives."""
+        return result_of(self, future, place)
 
     def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
         """A new future of ``kind``."""

@@ -188,6 +188,10 @@ class Machine(ABC):
         """``await value``."""
 
     @abstractmethod
+    def awaited(self, future: Instance, place: Place) -> Value:
+        """What awaiting a future gives."""
+
+    @abstractmethod
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
         """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
 

@@ -16,7 +16,9 @@ from ros2cc_extract.extract.static.values import (
     Instance,
     Value,
 )
+from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.world import EntityState, PlainState
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
 
 
@@ -42,9 +44,9 @@ def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
     source = state.of.state if isinstance(state.of, Instance) else None
     node = source.node if isinstance(source, EntityState) else None
     callback = call.argument(0, 'callback')
-    add_task(machine, node, None, callback, call.place, EntityKind.DONE_CALLBACK)
-    if isinstance(source, EntityState):
-        machine.world.entities[-1].key = source.key
+    task = add_task(machine, node, callback, call.place, EntityKind.DONE_CALLBACK)
+    if task is not None:
+        task.argument = receiver
     return NONE
 
 
@@ -72,9 +74,33 @@ def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
-    if isinstance(receiver, Instance) and receiver.state.kind == 'pool':
+    assert isinstance(receiver, Instance)
+    if receiver.state.kind == 'pool':
         machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
-    return machine.mystery('result of a future', call.place, 'result()')
+    return result_of(machine, receiver, call.place)
+
+
+def result_of(machine: Machine, future: Instance, place: Place) -> Value:
+    """What a future gives: a goal handle for a goal that was sent, else a mystery."""
+    if future.state.kind != 'goal':
+        return machine.mystery(f'result of a {future.state.kind} future', place, 'result()')
+    handle = Instance(Name('rclpy.action.client.ClientGoalHandle'), place)
+    handle.state = PlainState('goal handle', of=future.state.of, place=place)
+    return handle
+
+
+def _goal_future(kind: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Instance)
+        return machine.future(call.place, kind, receiver.state.of)
+
+    return handler
+
+
+def _get_result(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Blocks until the goal has ended (``action/client.py``, ``get_result``)."""
+    machine.note_blocking('get_result', receiver, None, call.place)
+    return machine.mystery('result of a goal', call.place, 'get_result()')
 
 
 def future_class(kind: str) -> LibraryClass:
@@ -100,6 +126,13 @@ TABLE = Library(
                 'call_async': _call_async,
                 'wait_for_service': _blocking('wait_for_service', 0),
                 **_ENTITY,
+            }
+        ),
+        'rclpy.action.client.ClientGoalHandle': LibraryClass(
+            methods={
+                'get_result_async': _goal_future('result'),
+                'cancel_goal_async': _goal_future('cancel'),
+                'get_result': _get_result,
             }
         ),
         'rclpy.publisher.Publisher': LibraryClass(methods={'publish': _publish}),

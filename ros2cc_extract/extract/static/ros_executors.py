@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.values import (
     Call,
     Class,
     Const,
+    Coroutine,
     Handler,
     Instance,
     Mystery,
@@ -27,7 +28,13 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.values import Library as Name
-from ros2cc_extract.extract.static.world import ExecutorState, GroupState, NodeState, Spin
+from ros2cc_extract.extract.static.world import (
+    EntityState,
+    ExecutorState,
+    GroupState,
+    NodeState,
+    Spin,
+)
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
@@ -176,7 +183,8 @@ def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ev
     world = machine.world
     nodes = nodes_of(executor)
     executor.state.spun = True
-    world.spins.append(Spin(executor, nodes, how, place, world.path, ever, world.in_thread))
+    spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
+    world.spins.setdefault(spin.key, spin)
     for node in nodes:
         node.state.spun = True
     if ever and not world.in_thread:
@@ -284,28 +292,30 @@ def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
     """A task has no entity and no group (rclpy-semantics: work outside every group)."""
     assert isinstance(receiver, Instance)
     nodes = nodes_of(receiver)
-    add_task(machine, nodes[0] if nodes else None, receiver, call.argument(0), call.place)
+    add_task(machine, nodes[0] if nodes else None, call.argument(0), call.place)
     return machine.future(call.place, 'task')
 
 
 def add_task(
     machine: Machine,
     node: Instance | None,
-    executor: Instance | None,
     callback: Value | None,
     place: Place,
     kind: EntityKind = EntityKind.TASK,
-) -> None:
+) -> EntityState | None:
     """Record group-less work; it runs on the executor of ``node``."""
     world = machine.world
     if node is None:
-        node = world.nodes[0] if world.nodes else None
+        node = world.current.node if world.current else next(iter(world.nodes), None)
     if node is None:
-        return
+        return None
+    known = next((e for e in world.entities if e.place == place and e.kind is kind), None)
+    if known is not None and world.deeds is not None:
+        return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
-    entity.callback = callback
-    if isinstance(callback, Value) and hasattr(callback, 'call') and hasattr(callback, 'function'):
-        entity.callback = callback.function
+    entity.callback = callback.function if isinstance(callback, Coroutine) else callback
+    entity.count = 1
+    return entity
 
 
 def groupless(machine: Machine) -> Instance:
@@ -338,7 +348,7 @@ def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = receiver.slots.get('node')
     owner = node if isinstance(node, Instance) else None
-    add_task(machine, owner, None, call.argument(0), call.place)
+    add_task(machine, owner, call.argument(0), call.place)
     return machine.future(call.place, 'task')
 
 

@@ -218,6 +218,8 @@ def _run_callback(
 
 
 def _callback_arguments(entity: EntityState) -> list[Value]:
+    if entity.argument is not None:
+        return [entity.argument]
     return [
         Mystery(Unknown('argument of a callback', entity.place), '')
         for _ in range(_PARAMETERS.get(entity.kind, 0))

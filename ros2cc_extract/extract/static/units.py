@@ -82,8 +82,9 @@ def _filled_nodes(executor: Instance, world: World) -> list[Instance]:
 def _spun_units(world: World) -> list[Unit]:
     """Spins of one executor become one unit; of the global one, those that share nodes."""
     units: list[Unit] = []
-    for spin in sorted(world.spins, key=lambda spin: not spin.for_ever):
-        nodes = [node for node in spin.nodes if _is_final(spin, node, world)]
+    spins = list(world.spins.values())
+    for spin in sorted(spins, key=lambda spin: not spin.for_ever):
+        nodes = [node for node in spin.nodes if _is_final(spin, node, spins)]
         if not nodes:
             continue
         unit = next((u for u in units if _same_unit(u, spin, nodes)), None)
@@ -91,7 +92,7 @@ def _spun_units(world: World) -> list[Unit]:
             units.append(Unit(spin.executor, nodes, spin))
         else:
             unit.nodes.extend(node for node in nodes if node not in unit.nodes)
-    order = {id(spin): index for index, spin in enumerate(world.spins)}
+    order = {id(spin): index for index, spin in enumerate(spins)}
     return sorted(units, key=lambda u: order[id(u.spin)])
 
 
@@ -105,25 +106,25 @@ def _same_unit(unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
     return not unit.spin.for_ever and not spin.for_ever
 
 
-def _is_final(spin: Spin, node: Instance, world: World) -> bool:
+def _is_final(spin: Spin, node: Instance, spins: list[Spin]) -> bool:
     """Whether ``spin`` serves ``node`` in the end: a spin for ever, later ones first."""
     rivals = [
         other
-        for other in world.spins
+        for other in spins
         if node in other.nodes
         and other.executor is not spin.executor
         and not exclusive(other.path, spin.path)
     ]
-    mine = world.spins.index(spin)
+    mine = spins.index(spin)
     best_of_mine = any(
         other.for_ever
-        for other in world.spins
+        for other in spins
         if other.executor is spin.executor and node in other.nodes
     )
     for rival in rivals:
         if rival.for_ever and not best_of_mine:
             return False
-        if rival.for_ever == best_of_mine and world.spins.index(rival) > mine:
+        if rival.for_ever == best_of_mine and spins.index(rival) > mine:
             return False
     return True
 

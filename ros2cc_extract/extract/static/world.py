@@ -94,6 +94,7 @@ class EntityState:
     label: str | None = None
     extra_callbacks: tuple[Value, ...] = ()
     deeds: Deeds | None = None
+    argument: Value | None = None
 
 
 class EntityRef(str):
@@ -120,6 +121,12 @@ class Spin:
     path: Path
     for_ever: bool
     in_thread: bool
+
+    @property
+    def key(self) -> object:
+        """Equal for one call that is met again, as in a loop."""
+        nodes = tuple(id(node) for node in self.nodes)
+        return (id(self.executor), nodes, self.place, self.path, self.in_thread)
 
 
 @dataclass(eq=False)
@@ -177,7 +184,7 @@ class World:
     awaiting: bool = False
     nodes: list[Instance] = field(default_factory=list)
     entities: list[EntityState] = field(default_factory=list)
-    spins: list[Spin] = field(default_factory=list)
+    spins: dict[object, Spin] = field(default_factory=dict)
     executors: list[Instance] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: set[int] = field(default_factory=set)
