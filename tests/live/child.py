@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import IO
 
 WATCHDOG_S = 60.0
+LOOK_EVERY_S = 0.02
 
 
 class Child:
@@ -51,6 +52,16 @@ class Child:
             assert line, f'ended too early, having said:\n{"".join(self.lines)}'
             self.lines.append(line)
         return self.lines
+
+    def wait_for(self, happened: Callable[[], bool]) -> None:
+        """
+        Wait until ``happened`` gives true, looking again and again.
+
+        :raises AssertionError: when the process ends, or the watchdog ends it, before that.
+        """
+        while not happened():
+            assert self.process.poll() is None, f'ended too early:\n{self.end()}\n{self.text}'
+            threading.Event().wait(LOOK_EVERY_S)
 
     def end(self, signal_number: signal.Signals | None = None) -> int:
         """Send a signal if one is given, read the rest of the output, give the exit status."""

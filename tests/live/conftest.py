@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 from child import Child
 
+from ros2cc_extract.extract.live.environment import hooked_environment
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / 'launch_free_examples'
 PROBE = Path(__file__).with_name('probe.py')
@@ -71,8 +73,14 @@ def start(rclpy_python: str, ros_env: dict[str, str]) -> Iterator[Callable[..., 
     """Start Python programs with rclpy; whatever is left of them is killed after the test."""
     children: list[Child] = []
 
-    def start_program(program: Path, *arguments: str, pass_fds: tuple[int, ...] = ()) -> Child:
-        child = Child([rclpy_python, str(program), *arguments], ros_env, pass_fds)
+    def start_program(
+        program: Path,
+        *arguments: str,
+        pass_fds: tuple[int, ...] = (),
+        recorded_into: Path | None = None,
+    ) -> Child:
+        env = hooked_environment(ros_env, recorded_into) if recorded_into else ros_env
+        child = Child([rclpy_python, str(program), *arguments], env, pass_fds)
         children.append(child)
         return child
 

@@ -79,7 +79,8 @@ def entities(node: Node) -> Iterator[dict[str, Any]]:
     for waitable in node.waitables:
         if not isinstance(waitable, EventHandler):
             kind = ACTION_KINDS.get(type(waitable).__name__, 'waitable')
-            yield describe_entity(node, waitable, kind, None)
+            callback = getattr(waitable, '_goal_callback', None)
+            yield describe_entity(node, waitable, kind, callback)
 
 
 def describe_entity(node: Node, entity: Any, kind: str, callback: Any) -> dict[str, Any]:

@@ -1,49 +1,100 @@
-"""The examples hold in real rclpy what their sources and expected specifications say."""
+"""
+The examples hold in real rclpy what their sources say, and so says everything that we extract.
+
+Each example runs once, under the probe and with the hook; the probe is the judge of both.
+"""
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import signal
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 from child import Child
 from conftest import EXAMPLES, PROBE
 from expectations import EXPECTED
-from held import of_probe, of_spec, without_unknown_keys
+from held import Held, of_probe, of_spec, without_unknown_keys
 
-from ros2cc_extract.spec import yaml_io
+from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.run import read_directory
+from ros2cc_extract.extract.static.api import scan
+from ros2cc_extract.merge import diff
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.yaml_io import load_specs
 
-Observe = Callable[[str], list[str]]
+every_example = pytest.mark.parametrize('name', sorted(EXPECTED))
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What the probe told of the executors of one process, and what the hook recorded of it."""
+
+    told: tuple[Held, ...]
+    recording: Recording
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return specs_of(self.recording)
+
+
+Observe = Callable[[str], Observation]
+_OBSERVED: dict[str, Observation] = {}
 
 
 @pytest.fixture
-def observe(start: Callable[..., Child]) -> Observe:
-    """Run an example until its first executor has told what it holds; give the lines told."""
+def observe(start: Callable[..., Child], tmp_path: Path) -> Observe:
+    """Run an example until its first executor waits for work, once for all tests."""
 
-    def run(name: str) -> list[str]:
-        reader, writer = os.pipe()
-        program = EXAMPLES / name / 'node.py'
-        child = start(PROBE, str(writer), str(program), pass_fds=(writer,))
-        os.close(writer)
-        with os.fdopen(reader) as told:
-            first = told.readline()
-            assert first, child.end()
-            assert child.end(signal.SIGINT) == 0, child.text
-            return [first, *told]
+    def run(name: str) -> Observation:
+        if name not in _OBSERVED:
+            _OBSERVED[name] = run_under_probe(start, EXAMPLES / name / 'node.py', tmp_path)
+        return _OBSERVED[name]
 
     return run
+
+
+def run_under_probe(start: Callable[..., Child], program: Path, folder: Path) -> Observation:
+    reader, writer = os.pipe()
+    child = start(PROBE, str(writer), str(program), pass_fds=(writer,), recorded_into=folder)
+    os.close(writer)
+    with os.fdopen(reader) as told:
+        first = told.readline()
+        assert first, child.end()
+        child.wait_for(lambda: any(map(specs_of, read_directory(folder, io.StringIO()))))
+        assert child.end(signal.SIGINT) == 0, child.text
+        lines = [first, *told]
+    (recording,) = read_directory(folder, io.StringIO())
+    return Observation(tuple(of_probe(json.loads(line)) for line in lines), recording)
 
 
 def test_every_example_has_an_expectation() -> None:
     assert set(EXPECTED) == {path.parent.name for path in EXAMPLES.glob('*/node.py')}
 
 
-@pytest.mark.parametrize('name', sorted(EXPECTED))
+@every_example
 def test_executor_holds_what_the_source_says(name: str, observe: Observe) -> None:
-    (told,) = observe(name)
-    assert of_probe(json.loads(told)) == EXPECTED[name]
+    (told,) = observe(name).told
+    assert told == without_unknown_keys(EXPECTED[name], told)
+
+
+@every_example
+def test_hook_records_what_the_executor_holds(name: str, observe: Observe) -> None:
+    observation = observe(name)
+    (spec,) = observation.specs
+    assert of_spec(spec) == EXPECTED[name]
+    assert (observation.recording.losses, spec.unresolved) == (0, ())
+
+
+@every_example
+def test_static_and_live_specification_are_equal(name: str, observe: Observe) -> None:
+    static = scan([EXAMPLES / name / 'node.py']).units
+    assert [each for each in diff(static, observe(name).specs) if not each.marked] == []
 
 
 def test_expected_specifications_say_what_the_executors_hold() -> None:
@@ -51,6 +102,6 @@ def test_expected_specifications_say_what_the_executors_hold() -> None:
     if not files:
         pytest.skip('no example has an expected.spec.yaml yet')
     for file in files:
-        (spec,) = yaml_io.read_specs(file)
+        (spec,) = load_specs(file)
         observed = EXPECTED[file.parent.name]
         assert without_unknown_keys(observed, of_spec(spec)) == of_spec(spec), file

@@ -163,7 +163,7 @@ def fill_node(record: NodeRecord, node: Any) -> None:
 def fill_entity(record: EntityRecord, entity: Any) -> None:
     creation = record.creation or Creation()
     _fill_key(record, entity, creation)
-    record.function = name_function(getattr(entity, 'callback', None))
+    record.function = _function_of(entity)
     record.execute = name_function(creation.execute_callback)
     creation.execute_callback = None
     record.library = creation.library
@@ -176,9 +176,21 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
             record.library = record.library or f'rclpy.{module}'
     if 'create_rate' in creation.functions:
         record.library = 'rclpy.create_rate'
-    if record.function is not None and record.function.module.startswith('rclpy.'):
+    if record.function is not None and _is_of_rclpy(record.function):
         record.builtin = record.builtin or record.library is None
     record.complete = True
+
+
+def _function_of(entity: Any) -> FunctionName | None:
+    """Name the callback; of an action server the first that is not rclpy's own default."""
+    names = ['callback', '_goal_callback', '_cancel_callback', '_handle_accepted_callback']
+    found = [name_function(getattr(entity, name, None)) for name in names]
+    given = [function for function in found[1:] if function and not _is_of_rclpy(function)]
+    return found[0] or next(iter(given), None)
+
+
+def _is_of_rclpy(function: FunctionName) -> bool:
+    return function.module.partition('.')[0] == 'rclpy'
 
 
 def _fill_key(record: EntityRecord, entity: Any, creation: Creation) -> None:

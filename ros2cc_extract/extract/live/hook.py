@@ -18,7 +18,7 @@ from threading import get_ident
 from typing import Any
 
 from .frames import is_node, trace_creation
-from .record import BEGIN, END, REFUSED, EntityRecord, Recorder
+from .record import BEGIN, END, REFUSED, Recorder
 from .writer import Writer
 
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
@@ -41,7 +41,7 @@ class Hook:
         if loaded is not None:
             self.wrap(loaded)
         else:
-            sys.meta_path.insert(0, _Finder(self.wrap, self.recorder.lose))  # type: ignore[arg-type]
+            sys.meta_path.insert(0, _Finder(self.wrap, self.recorder.lose))
 
     def wrap(self, executors: Any) -> None:
         """Wrap the classes of ``rclpy.executors`` and ``rclpy.callback_groups``."""
@@ -124,11 +124,10 @@ class Hook:
 
     def _watch_new_groups(self, base: Any) -> None:
         """Wrap group classes that are defined later, when they are defined."""
-        original = base.__init_subclass__
         wrap_group, lose = self._wrap_group, self.recorder.lose
 
-        def init_subclass(cls: type, **kwargs: Any) -> None:
-            original(**kwargs)
+        def init_subclass(cls: Any, /, **kwargs: Any) -> None:
+            super(base, cls).__init_subclass__(**kwargs)
             try:
                 wrap_group(cls)
             except Exception as error:
@@ -137,51 +136,32 @@ class Hook:
         self._set(base, '__init_subclass__', classmethod(init_subclass))
 
     def _wrap_group(self, group: type) -> None:
-        if 'beginning_execution' in group.__dict__:
-            self._set(group, 'beginning_execution', self._beginning(group))
-        if 'ending_execution' in group.__dict__:
-            self._set(group, 'ending_execution', self._ending(group))
+        for name in ('beginning_execution', 'ending_execution'):
+            if name in group.__dict__:
+                self._set(group, name, self._reporting(group, name))
 
-    def _beginning(self, group: type) -> Any:
-        original = group.__dict__['beginning_execution']
-        entities, append, lose = self.recorder.entities, self.recorder.events.append, self.recorder.lose
-        clock, find = time.monotonic_ns, self._find
-
-        @functools.wraps(original)
-        def beginning_execution(self: Any, entity: Any) -> Any:
-            allowed = original(self, entity)
-            try:
-                # A subclass that calls its base is counted once, by its own wrapper.
-                if type(self).beginning_execution is beginning_execution:
-                    record = entities.get(id(entity)) or find(self, entity)
-                    append((clock(), get_ident(), BEGIN if allowed else REFUSED, record))
-            except Exception as error:
-                lose(error)
-            return allowed
-
-        return beginning_execution
-
-    def _ending(self, group: type) -> Any:
-        original = group.__dict__['ending_execution']
-        entities, append, lose = self.recorder.entities, self.recorder.events.append, self.recorder.lose
-        clock, find = time.monotonic_ns, self._find
+    def _reporting(self, group: type, name: str) -> Any:
+        """Report each call of a group's method; the only code of ours on the way of a callback."""
+        original = group.__dict__[name]
+        is_end = name == 'ending_execution'
+        recorder, find = self.recorder, self.recorder.note_entity
+        entities, append, lose = recorder.entities, recorder.events.append, recorder.lose
+        clock = time.monotonic_ns
 
         @functools.wraps(original)
-        def ending_execution(self: Any, entity: Any) -> Any:
+        def method(self: Any, entity: Any) -> Any:
             result = original(self, entity)
             try:
-                if type(self).ending_execution is ending_execution:
+                # A subclass that calls its base is reported once, by its own wrapper.
+                if getattr(type(self), name) is method:
+                    what = END if is_end else BEGIN if result else REFUSED
                     record = entities.get(id(entity)) or find(self, entity)
-                    append((clock(), get_ident(), END, record))
+                    append((clock(), get_ident(), what, record))
             except Exception as error:
                 lose(error)
             return result
 
-        return ending_execution
-
-    def _find(self, group: Any, entity: Any) -> EntityRecord:
-        """Note an entity that was there before us."""
-        return self.recorder.note_entity(group, entity)
+        return method
 
     def _after_fork(self) -> None:
         self.recorder.forget()
@@ -206,7 +186,7 @@ class _Finder:
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> Any:
         if name != WATCHED_MODULE:
             return None
-        sys.meta_path.remove(self)  # type: ignore[arg-type]
+        sys.meta_path.remove(self)
         for finder in sys.meta_path:
             spec = finder.find_spec(name, path, target)
             if spec is not None:
@@ -246,5 +226,5 @@ def _file_of_process(directory: str) -> str:
 
 
 def _subclasses(cls: type) -> list[type]:
-    found = cls.__subclasses__()
+    found: list[type] = cls.__subclasses__()
     return found + [deeper for sub in found for deeper in _subclasses(sub)]

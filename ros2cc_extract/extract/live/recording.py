@@ -1,0 +1,311 @@
+"""
+Reads the file that a hooked process writes (``snapshot.py``) into frozen values.
+
+The file may be left over from a process that was killed at any moment; it is then valid and a
+little old, because it is only ever replaced as a whole.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.places import Place
+
+FORMAT = 'ros2cc live recording'
+VERSION = 1
+MEND = 'record the process again with this version of the tool'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Function:
+    """A callback's name and where it is written."""
+
+    name: str
+    defined: Place | None
+    coroutine: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Distribution:
+    """Seconds; the median and p99 are of the last runs, the extremes of all."""
+
+    min_s: float
+    median_s: float
+    p99_s: float
+    max_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """
+    What was measured of one entity.
+
+    :param count: executions begun.
+    :param refused: starts that the group refused.
+    :param running: executions not ended when the file was written.
+    :param threads: how many different threads ran it.
+    """
+
+    count: int
+    refused: int
+    running: int
+    threads: int
+    period: Distribution | None
+    duration: Distribution | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stay:
+    """A node's time in one executor, by the monotonic clock; without ``until_ns`` it goes on."""
+
+    executor: int
+    since_ns: int
+    until_ns: int | None
+    waited: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedExecutor:
+    number: int
+    cls: str
+    bases: tuple[str, ...]
+    own_class: bool
+    created: Place | None
+    threads: int | None
+    default_threads: bool
+    spun: str | None
+    in_thread: bool | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedNode:
+    number: int
+    name: str | None
+    namespace: str | None
+    stays: tuple[Stay, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedGroup:
+    number: int
+    cls: str
+    kind: str
+    node: int | None
+    default: bool
+    rate: bool
+    created: Place | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedEntity:
+    number: int
+    kind: str
+    cls: str
+    node: int | None
+    group: int
+    key: str | None
+    resolved_key: str | None
+    period_s: float | None
+    function: Function | None
+    execute: Function | None
+    builtin: bool
+    library: str | None
+    late: bool
+    gone: bool
+    made: int
+    in_callback: bool
+    in_configure: bool
+    created: Place | None
+    measured: Measured
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedTask:
+    kind: str
+    executor: int
+    node: int | None
+    function: Function
+    count: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """
+    What one process held.
+
+    :param main: the program's file, ``None`` where there is none (``python -c``).
+    :param losses: how many failures of our own the hook swallowed, and the last of them.
+    """
+
+    file: str
+    pid: int
+    argv: tuple[str, ...]
+    rclpy: str | None
+    ended: bool
+    losses: int
+    last_losses: tuple[str, ...]
+    executors: tuple[RecordedExecutor, ...]
+    nodes: tuple[RecordedNode, ...]
+    groups: tuple[RecordedGroup, ...]
+    entities: tuple[RecordedEntity, ...]
+    tasks: tuple[RecordedTask, ...]
+
+
+def read_recording(path: Path, shown_from: Path) -> Recording:
+    """
+    Read one file.
+
+    :param shown_from: places below this folder are shown relative to it.
+    :raises InputError: when the file cannot be read or is none of ours.
+    """
+    try:
+        data = json.loads(path.read_text(encoding='utf-8'))
+    except OSError as error:
+        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
+    except ValueError as error:
+        raise InputError('is no recording (not JSON)', Place(str(path)), MEND) from error
+    if not isinstance(data, dict) or data.get('format') != FORMAT:
+        raise InputError('is no recording of a live process', Place(str(path)), MEND)
+    if data.get('version') != VERSION:
+        raise InputError(
+            f'is a recording of version {data.get("version")}, not {VERSION}',
+            Place(str(path)),
+            MEND,
+        )
+    try:
+        return _Reader(shown_from).recording(str(path), data)
+    except (KeyError, TypeError) as error:
+        raise InputError(f'is a damaged recording: {error!r}', Place(str(path)), MEND) from error
+
+
+class _Reader:
+    """Turns JSON objects into values; ``KeyError`` or ``TypeError`` on a damaged one."""
+
+    def __init__(self, shown_from: Path) -> None:
+        self._shown_from = shown_from
+
+    def recording(self, file: str, data: Mapping[str, Any]) -> Recording:
+        process, losses = data['process'], data['losses']
+        return Recording(
+            file=file,
+            pid=process['pid'],
+            argv=tuple(process['argv']),
+            rclpy=process['rclpy'],
+            ended=data['ended'],
+            losses=losses['count'],
+            last_losses=tuple(losses['last']),
+            executors=tuple(map(self._executor, data['executors'])),
+            nodes=tuple(map(self._node, data['nodes'])),
+            groups=tuple(map(self._group, data['groups'])),
+            entities=tuple(map(self._entity, data['entities'])),
+            tasks=tuple(map(self._task, data['tasks'])),
+        )
+
+    def _executor(self, row: Mapping[str, Any]) -> RecordedExecutor:
+        return RecordedExecutor(
+            number=row['number'],
+            cls=row['class'],
+            bases=tuple(row['bases']),
+            own_class=row['own_class'],
+            created=self._place(row['created']),
+            threads=row['threads'],
+            default_threads=row['default_threads'],
+            spun=row['spun'],
+            in_thread=row['in_thread'],
+        )
+
+    def _node(self, row: Mapping[str, Any]) -> RecordedNode:
+        stays = tuple(
+            Stay(
+                executor=stay['executor'],
+                since_ns=stay['since'],
+                until_ns=stay['until'],
+                waited=stay['waited'],
+            )
+            for stay in row['stays']
+        )
+        return RecordedNode(
+            number=row['number'], name=row['name'], namespace=row['namespace'], stays=stays
+        )
+
+    def _group(self, row: Mapping[str, Any]) -> RecordedGroup:
+        return RecordedGroup(
+            number=row['number'],
+            cls=row['class'],
+            kind=row['kind'],
+            node=row['node'],
+            default=row['default'],
+            rate=row['rate'],
+            created=self._place(row['created']),
+        )
+
+    def _entity(self, row: Mapping[str, Any]) -> RecordedEntity:
+        return RecordedEntity(
+            number=row['number'],
+            kind=row['kind'],
+            cls=row['class'],
+            node=row['node'],
+            group=row['group'],
+            key=row['key'],
+            resolved_key=row['resolved_key'],
+            period_s=row['period_s'],
+            function=self._function(row['function']),
+            execute=self._function(row['execute']),
+            builtin=row['builtin'],
+            library=row['library'],
+            late=row['late'],
+            gone=row['gone'],
+            made=row['made'],
+            in_callback=row['in_callback'],
+            in_configure=row['in_configure'],
+            created=self._place(row['created']),
+            measured=_measured(row['measured']),
+        )
+
+    def _task(self, row: Mapping[str, Any]) -> RecordedTask:
+        function = self._function(row['function'])
+        assert function is not None, 'tasks without a function are not recorded'
+        return RecordedTask(
+            kind=row['kind'],
+            executor=row['executor'],
+            node=row['node'],
+            function=function,
+            count=row['count'],
+        )
+
+    def _function(self, row: Mapping[str, Any] | None) -> Function | None:
+        if row is None:
+            return None
+        return Function(
+            name=row['name'], defined=self._place(row['defined']), coroutine=row['coroutine']
+        )
+
+    def _place(self, row: tuple[str, int, int] | None) -> Place | None:
+        if row is None:
+            return None
+        file, line, column = row
+        try:
+            shown = Path(file).resolve().relative_to(self._shown_from.resolve()).as_posix()
+        except ValueError:
+            shown = file
+        return Place(shown, line, column)
+
+
+def _measured(row: Mapping[str, Any]) -> Measured:
+    return Measured(
+        count=row['count'],
+        refused=row['refused'],
+        running=row['running'],
+        threads=row['threads'],
+        period=_distribution(row['period']),
+        duration=_distribution(row['duration']),
+    )
+
+
+def _distribution(row: Mapping[str, float] | None) -> Distribution | None:
+    return None if row is None else Distribution(**row)

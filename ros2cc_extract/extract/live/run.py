@@ -1,0 +1,149 @@
+"""``run``: start any command with the hook, and write what its processes held."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from ros2cc_extract.errors import InputError, Ros2ccError
+from ros2cc_extract.extract.live.child import end_alike, run_child
+from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.environment import hooked_environment
+from ros2cc_extract.extract.live.recording import Recording, read_recording
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.yaml_io import write_specs
+
+DEFAULT_OUTPUT = Path('live.spec.yaml')
+EXIT_ERROR = 2
+Finish = Callable[[tuple[Spec, ...]], int]
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What came of a run: the command's status (negative: a signal), and its processes."""
+
+    status: int
+    recordings: tuple[Recording, ...]
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return tuple(spec for recording in self.recordings for spec in specs_of(recording))
+
+
+def run_command(
+    command: Sequence[str],
+    output: Path,
+    stderr: TextIO,
+    *,
+    environment: Mapping[str, str] = os.environ,
+    finish: Finish | None = None,
+) -> int:
+    """
+    Run ``command`` with the hook and write the specification of all its processes.
+
+    A process that a signal ended ends us by the same signal, after the output is written.
+
+    :param output: a file, or an existing directory, which gets a file for each process.
+    :param finish: called with all units when everything is written; its status is given back
+        where the command itself ended well.
+    :return: the command's exit status; 2 if that is 0 and the output could not be written.
+    :raises InputError: when it is plain before the start that ``output`` cannot be written.
+    :raises ToolNotFoundError: when the command cannot be started.
+    """
+    check_output(output)
+    recorded = record(command, environment, stderr)
+    report_losses(recorded.recordings, stderr)
+    try:
+        write_output(recorded, output, stderr)
+    except Ros2ccError as error:
+        print(error, file=stderr)
+        return end_alike(recorded.status) or EXIT_ERROR
+    finished = finish(recorded.specs) if finish else 0
+    return end_alike(recorded.status) or finished
+
+
+def record(command: Sequence[str], environment: Mapping[str, str], stderr: TextIO) -> Recorded:
+    """Run ``command`` with the hook; say what could not be read of its recordings."""
+    with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as directory:
+        status = run_child(command, hooked_environment(environment, Path(directory)))
+        return Recorded(status, tuple(read_directory(Path(directory), stderr)))
+
+
+def read_directory(directory: Path, stderr: TextIO) -> list[Recording]:
+    """Read the recordings of a directory in the order of their making, but for damaged ones."""
+    recordings = []
+    for path in sorted(directory.glob('*.json'), key=lambda path: path.stem.rpartition('-')[2]):
+        try:
+            recordings.append(read_recording(path, Path.cwd()))
+        except InputError as error:
+            print(error, file=stderr)
+    return recordings
+
+
+def check_output(output: Path) -> None:
+    """
+    Refuse an output that can only fail, before anything runs.
+
+    :raises InputError: when the folder does not exist or may not be written to.
+    """
+    folder = output if output.is_dir() else output.parent
+    if not folder.is_dir():
+        raise InputError('folder does not exist', Place(str(folder)), 'create it first')
+    if not os.access(folder, os.W_OK) or (output.is_file() and not os.access(output, os.W_OK)):
+        raise InputError(
+            'cannot be written: permission denied', Place(str(output)), 'choose another with -o'
+        )
+
+
+def write_output(recorded: Recorded, output: Path, stderr: TextIO) -> None:
+    """
+    Write one file, or into a directory one file for each process.
+
+    :raises InputError: when writing fails; what was there before is kept.
+    """
+    if not recorded.specs:
+        print(
+            'ros2cc-extract: no process of this command has put a node into an rclpy executor; '
+            f'{output} is not written',
+            file=stderr,
+        )
+    elif output.is_dir():
+        for recording in recorded.recordings:
+            specs = specs_of(recording)
+            if specs:
+                write_specs_to(output / f'{specs[0].name}-{recording.pid}.spec.yaml', specs)
+    else:
+        write_specs_to(output, recorded.specs)
+
+
+def write_specs_to(path: Path, specs: Sequence[Spec]) -> None:
+    """
+    Write by way of a temporary file, so that a half-written one never stands there.
+
+    :raises InputError: when writing fails.
+    """
+    temporary = path.with_name(f'{path.name}.new')
+    try:
+        temporary.write_text(write_specs(specs), encoding='utf-8')
+        temporary.replace(path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise InputError(f'cannot be written: {error.strerror}', Place(str(path))) from error
+
+
+def report_losses(recordings: Sequence[Recording], stderr: TextIO) -> None:
+    """Say what the hook failed to record."""
+    for recording in recordings:
+        if recording.losses:
+            last = recording.last_losses[-1] if recording.last_losses else 'unknown'
+            print(
+                f'ros2cc-extract: process {recording.pid}: the hook failed '
+                f'{recording.losses} times (last: {last}); the node was not touched, but its '
+                'specification may lack something',
+                file=stderr,
+            )
