@@ -33,6 +33,9 @@ schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
 	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
 
+rules: $(VENV)/installed
+	$(BIN)/python scripts/write-rule-pages
+
 $(VENV)/bin/python:
 	@./scripts/make-venv $(PYTHON) $(VENV)
 

@@ -51,7 +51,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.output is not None:
         _keep(args, extraction, closed_units, stderr)
     verifications = _verify(args, closed_units, stderr)
-    findings = findings_of(extraction.units, extraction.diagnostics)
+    findings = findings_of(extraction.units, extraction.diagnostics, verifications)
     if args.output_format == 'json':
         _print_json(extraction, verifications, findings, stdout)
     else:
@@ -130,7 +130,7 @@ def _print_text(
 def _print_verification(verification: Verification, console: Console) -> None:
     from ros2cc_extract.report.verdict_text import print_evidence, print_table
 
-    print_table(verification, console, formulas=False)
+    print_table(verification, console, details=False)
     shown, left_out = _first_of_each_family(verification)
     print_evidence(shown, console)
     if left_out:

@@ -1,0 +1,102 @@
+"""
+How many callbacks can wait at the same time, each holding a worker thread.
+
+An exclusive group lets one of its members in, branches of one ``alternative`` mark never
+coexist, everything else may coincide. So a largest set of simultaneous waiters is a maximum
+matching between groups and marks, where a reentrant callback has a group of its own and an
+unmarked one a mark of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.spec.model import Callback
+
+Key = tuple[str, str, int]
+Matching = dict[Key, tuple[Key, int]]
+"""Mark to the group it is matched with and the number of the callback that joins them."""
+
+
+@dataclass(frozen=True)
+class Capacity:
+    """
+    The largest set of callbacks that can wait at once.
+
+    :param together: one such set, without repetitions of a callback with itself.
+    :param at_least: its size, entities of loops counted as often as they are made.
+    :param unbounded: callbacks that may also overlap themselves, so that no number is enough.
+    """
+
+    together: tuple[Callback, ...]
+    at_least: int
+    unbounded: tuple[Callback, ...]
+
+
+def capacity_of(waiters: Sequence[Callback], context: Context) -> Capacity:
+    """Decide the capacity of ``waiters``, callbacks of the unit without repetition."""
+    edges: dict[Key, list[tuple[Key, int]]] = {}
+    for number, waiter in enumerate(waiters):
+        for copy in range(_copies(waiter, context)):
+            edges.setdefault(_group_key(waiter, copy, context), []).append(
+                (_mark_key(waiter, copy), number)
+            )
+    matched: Matching = {}
+    for group in edges:
+        _augment(group, edges, matched, set())
+    chosen = sorted(number for _, number in matched.values())
+    return Capacity(
+        together=tuple(waiters[number] for number in dict.fromkeys(chosen)),
+        at_least=len(chosen),
+        unbounded=tuple(w for w in waiters if can_overlap_itself(w, context)),
+    )
+
+
+def can_overlap_itself(callback: Callback, context: Context) -> bool:
+    """
+    True when one entity may run concurrently with itself.
+
+    Source: rclpy 7.1.6, ``executors.py`` (``_make_handler``): an entity may be collected again
+    as soon as its data was taken; only an exclusive group refuses the second start. Work in no
+    group runs once per task, but a server makes one per goal.
+    """
+    group = context.group_of(callback)
+    if group.unresolved is not None or callback.one_shot:
+        return False
+    return context.exclusive_group(callback) is None
+
+
+def _copies(callback: Callback, context: Context) -> int:
+    """A loop makes several entities; in exclusive groups they coincide if it makes groups too."""
+    group = context.group_of(callback)
+    own = callback.count if isinstance(callback.count, int) else 1
+    if context.exclusive_group(callback) is None:
+        return own
+    return min(own, group.count) if isinstance(group.count, int) else 1
+
+
+def _group_key(waiter: Callback, copy: int, context: Context) -> Key:
+    group = context.exclusive_group(waiter)
+    return ('group', group.name, copy) if group else ('callback', waiter.name, copy)
+
+
+def _mark_key(waiter: Callback, copy: int) -> Key:
+    if waiter.alternative is None:
+        return ('callback', waiter.name, copy)
+    return ('mark', waiter.alternative, 0)
+
+
+def _augment(
+    group: Key, edges: Mapping[Key, list[tuple[Key, int]]], matched: Matching, tried: set[Key]
+) -> bool:
+    """Find a mark for ``group``, moving others to further marks where that makes room."""
+    for mark, number in edges[group]:
+        if mark in tried:
+            continue
+        tried.add(mark)
+        if mark not in matched or _augment(matched[mark][0], edges, matched, tried):
+            matched[mark] = (group, number)
+            return True
+    return False

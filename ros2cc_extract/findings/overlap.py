@@ -1,0 +1,69 @@
+"""
+Whether two callbacks may run at the same time: by the model's verdict, else by the groups.
+
+Nothing is claimed of callbacks whose group or executor could not be followed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.findings.capacity import can_overlap_itself
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.workers import runs_in_parallel
+from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.verify import QueryResult, Verdict
+
+CAN_OVERLAP = 'can_overlap'
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """
+    Two callbacks may run at the same time.
+
+    :param run: a run of the model that shows it.
+    """
+
+    run: Evidence | None = None
+
+
+def overlap(one: Callback, other: Callback, context: Context) -> Overlap | None:
+    """Say how ``one`` and ``other`` may overlap; ``None`` when they may not, or it is open."""
+    if not _is_settled(one, other, context):
+        return None
+    result = verdict_on(CAN_OVERLAP, one, other, context)
+    if result is not None and result.verdict is Verdict.SATISFIED:
+        return Overlap(result.evidence)
+    if result is not None and result.verdict is Verdict.NOT_SATISFIED:
+        return None
+    return Overlap() if _groups_allow(one, other, context) else None
+
+
+def overlaps_itself(callback: Callback, context: Context) -> bool:
+    """True when two runs of one entity may coincide on this executor."""
+    parallel = runs_in_parallel(context.unit.executor)
+    return parallel and can_overlap_itself(callback, context)
+
+
+def verdict_on(
+    family: str, one: Callback, other: Callback, context: Context
+) -> QueryResult | None:
+    """The verdict of a query family on a pair, in either order; ``None`` if it was not asked."""
+    if context.verification is None:
+        return None
+    pair = {one.name, other.name}
+    found = (r for r in context.verification.results if r.family == family)
+    return next((result for result in found if set(result.callbacks) == pair), None)
+
+
+def _is_settled(one: Callback, other: Callback, context: Context) -> bool:
+    open_groups = any(context.group_of(c).unresolved is not None for c in (one, other))
+    branches = one.alternative is not None and one.alternative == other.alternative
+    return not open_groups and not branches and runs_in_parallel(context.unit.executor)
+
+
+def _groups_allow(one: Callback, other: Callback, context: Context) -> bool:
+    group = context.exclusive_group(one)
+    return group is None or one.group != other.group

@@ -1,0 +1,169 @@
+"""
+Shared state that callbacks which may overlap change without a common lock.
+
+A plain assignment is atomic in CPython; what breaks is *read, then write*: an update
+(``self.n += 1``) or a test followed by an assignment. So those weigh more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from itertools import combinations
+
+from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.findings.overlap import overlap
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.words import shown
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Access, Callback
+
+
+class RaceKind(Enum):
+    """What goes wrong, the worst first."""
+
+    LOST_UPDATE = 'lost update'
+    CHECK_THEN_ACT = 'check then act'
+    LAST_WRITE_WINS = 'last write wins'
+
+
+@dataclass(frozen=True)
+class Use:
+    """A write of an attribute by a callback."""
+
+    callback: Callback
+    access: Access
+
+    @property
+    def place(self) -> Place:
+        """Where it is written; the callback where the line is not known."""
+        callback = self.callback
+        known = self.access.source or callback.defined or callback.source
+        return known or Place(callback.name)
+
+
+@dataclass(frozen=True)
+class Race:
+    """
+    One attribute that callbacks may change at the same time.
+
+    :param first: the write at which something gets lost.
+    :param others: the writes that may come in between, one per callback.
+    :param run: a run of the model in which two of them overlap.
+    """
+
+    name: str
+    kind: RaceKind
+    first: Use
+    others: tuple[Use, ...]
+    run: Evidence | None
+
+    @property
+    def is_outside_groups(self) -> bool:
+        """True when one of the callbacks is in no group at all."""
+        return any(use.callback.groupless for use in (self.first, *self.others))
+
+    @property
+    def subjects(self) -> tuple[str, ...]:
+        """The attribute and the callbacks, which identify the race."""
+        callbacks = (self.first, *self.others)
+        return (self.name, *dict.fromkeys(use.callback.name for use in callbacks))
+
+    def related(self) -> tuple[Remark, ...]:
+        """The other writes."""
+        return tuple(
+            Remark(use.place, f'{use.callback.display_name} writes it here') for use in self.others
+        )
+
+
+@dataclass(frozen=True)
+class _Conflict:
+    kind: RaceKind
+    first: Use
+    other: Use
+    run: Evidence | None
+
+
+def races_of(context: Context) -> Iterator[Race]:
+    """One race per attribute of a node, in the order of its first conflict."""
+    by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
+    for one, other in combinations(context.written, 2):
+        if isinstance(one.node, str) and one.node == other.node:
+            for conflict in _conflicts(one, other, context):
+                key = (one.node, conflict.first.access.name)
+                by_attribute.setdefault(key, []).append(conflict)
+    for (_, name), conflicts in by_attribute.items():
+        yield _race(name, conflicts)
+
+
+def describe(race: Race) -> str:
+    """Say what happens to the attribute."""
+    first = race.first.callback.display_name
+    others = shown(use.callback for use in race.others)
+    return {
+        RaceKind.LOST_UPDATE: f'{first} updates {race.name} from its old value, and {others} may '
+        'write it at the same time: one of the changes can get lost',
+        RaceKind.CHECK_THEN_ACT: f'{first} reads {race.name} and then writes it, and {others} may '
+        'write it in between: what was read no longer holds',
+        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {race.name} at the same time: '
+        'the last one wins',
+    }[race.kind]
+
+
+def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
+    written = {access.name for access in one.writes} & {access.name for access in other.writes}
+    if not written:
+        return
+    together = overlap(one, other, context)
+    if together is None:
+        return
+    for name in sorted(written):
+        pairs = [
+            (Use(one, a), Use(other, b))
+            for a in one.writes
+            for b in other.writes
+            if a.name == b.name == name and not set(a.locks) & set(b.locks)
+        ]
+        if pairs:
+            kind, first, second = min(
+                (_classify(*pair) for pair in pairs), key=lambda found: _WEIGHT[found[0]]
+            )
+            yield _Conflict(kind, first, second, together.run)
+
+
+def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use]:
+    for first, second in ((one, other), (other, one)):
+        if first.access.update:
+            return RaceKind.LOST_UPDATE, first, second
+    for first, second in ((one, other), (other, one)):
+        if _is_read_before(first, second):
+            return RaceKind.CHECK_THEN_ACT, first, second
+    return RaceKind.LAST_WRITE_WINS, one, other
+
+
+def _is_read_before(first: Use, second: Use) -> bool:
+    """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
+    return any(
+        read.name == first.access.name and not set(read.locks) & set(second.access.locks)
+        for read in first.callback.reads
+    )
+
+
+def _race(name: str, conflicts: list[_Conflict]) -> Race:
+    worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
+    uses = [use for conflict in conflicts for use in (conflict.first, conflict.other)]
+    others = {use.callback.name: use for use in reversed(uses)}
+    others.pop(worst.first.callback.name, None)
+    order = dict.fromkeys(use.callback.name for use in uses)
+    return Race(
+        name=name,
+        kind=worst.kind,
+        first=worst.first,
+        others=tuple(others[callback] for callback in order if callback in others),
+        run=worst.run or next((c.run for c in conflicts if c.run), None),
+    )
+
+
+_WEIGHT = {kind: weight for weight, kind in enumerate(RaceKind)}

@@ -1,0 +1,52 @@
+"""The table of all rules, in the order of their codes."""
+
+from __future__ import annotations
+
+from ros2cc_extract.findings.rule import Rule
+from ros2cc_extract.findings.rules import (
+    executor_spun_twice,
+    group_overload,
+    groups_on_one_thread,
+    idle_threads,
+    long_sleep,
+    lost_update,
+    nested_spin,
+    of_diagnostics,
+    one_group,
+    one_thread_call,
+    outside_groups,
+    own_group_await,
+    own_group_call,
+    pool_exhausted,
+    rate_on_one_thread,
+    self_overlap,
+    unordered_write,
+    unresolved,
+    unused_group,
+)
+
+RULES: tuple[Rule, ...] = (
+    own_group_call.RULE,
+    one_thread_call.RULE,
+    pool_exhausted.RULE,
+    own_group_await.RULE,
+    rate_on_one_thread.RULE,
+    nested_spin.RULE,
+    executor_spun_twice.RULE,
+    long_sleep.RULE,
+    group_overload.RULE,
+    lost_update.RULE,
+    unordered_write.RULE,
+    outside_groups.RULE,
+    self_overlap.RULE,
+    one_group.RULE,
+    groups_on_one_thread.RULE,
+    idle_threads.RULE,
+    unused_group.RULE,
+    of_diagnostics.NOT_SPUN,
+    of_diagnostics.TAKEN_OUT,
+    of_diagnostics.UNREADABLE,
+    unresolved.RULE,
+)
+BY_CODE = {rule.code: rule for rule in RULES}
+BY_SLUG = {rule.slug: rule for rule in RULES}

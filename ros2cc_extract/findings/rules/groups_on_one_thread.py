@@ -1,0 +1,66 @@
+"""CC402: groups that let callbacks overlap, on an executor with one thread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.words import listing, made_at
+from ros2cc_extract.findings.workers import is_one_thread
+from ros2cc_extract.spec.model import CallbackGroup
+
+
+def find(context: Context) -> Iterator[Hit]:
+    """Coroutines are let off: with them groups matter on one thread as well."""
+    callbacks = context.written
+    if not is_one_thread(context.unit.executor) or any(c.coroutine for c in callbacks):
+        return
+    used = {callback.group for callback in callbacks}
+    groups = [group for group in context.unit.groups if group.name in used and is_made(group)]
+    if groups:
+        executor = context.unit.executor
+        yield Hit(
+            place=groups[0].source or context.home(),
+            message=f'{listing(group.name for group in groups)}: no effect, the '
+            f'{executor.kind or "executor"} runs all callbacks one after the other',
+            help='serve the node with a MultiThreadedExecutor, or leave the groups out',
+            subjects=tuple(group.name for group in groups),
+            related=tuple(made_at(*groups[1:])),
+        )
+
+
+def is_made(group: CallbackGroup) -> bool:
+    """True for a group that the developer made and that could be followed."""
+    hidden = group.default or group.groupless or group.builtin or group.library
+    return not hidden and group.unresolved is None
+
+
+RULE = Rule(
+    code='CC402',
+    slug='groups-on-one-thread',
+    severity=Severity.NOTE,
+    title='Callback groups on an executor with one thread',
+    what='Callback groups were made, but one thread runs all callbacks one after the other: '
+    'neither a reentrant group nor several groups change anything. A note: a library node may '
+    'be meant for other executors.',
+    why='`rclpy.spin` and `SingleThreadedExecutor` run each callback to its end, or to its '
+    'first `await`, before the next. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`SingleThreadedExecutor`).',
+    bad="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        group = ReentrantCallbackGroup()
+        self.create_timer(0.1, self.control, callback_group=group)
+
+rclpy.spin(node)
+""",
+    good="""\
+executor = MultiThreadedExecutor(num_threads=2)
+executor.add_node(node)
+executor.spin()
+""",
+    mend='Use a `MultiThreadedExecutor`, or leave the groups out.',
+    find=find,
+)

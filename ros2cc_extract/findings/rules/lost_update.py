@@ -1,0 +1,71 @@
+"""CC301: an attribute read and written back while another callback may write it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.races import Race, RaceKind, describe, races_of
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+
+HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
+
+
+def find(context: Context) -> Iterator[Hit]:
+    for race in races_of(context):
+        if race.kind is not RaceKind.LAST_WRITE_WINS and not race.is_outside_groups:
+            yield hit_of(race)
+
+
+def hit_of(race: Race, message: str = '', help: str = HELP) -> Hit:
+    """The finding of one race; ``message`` is added to what happens."""
+    return Hit(
+        place=race.first.place,
+        message=describe(race) + message,
+        help=help,
+        subjects=race.subjects,
+        related=race.related(),
+        run=race.run,
+    )
+
+
+RULE = Rule(
+    code='CC301',
+    slug='lost-update',
+    severity=Severity.WARNING,
+    title='Attribute updated by callbacks that may overlap',
+    what='A callback reads an attribute and writes it back (`self.n += 1`, or a test followed by '
+    'an assignment), another callback writes it, the two may run at the same time, and no lock '
+    'is held by both.',
+    why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
+    'group, run on different threads. CPython may switch threads between reading and writing. '
+    'Whether two callbacks may overlap is decided by the model where it was verified, else by '
+    'their groups and the number of threads. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor`), `callback_groups.py`.',
+    bad="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())
+        self.create_subscription(Empty, 'reset', self.on_reset, 10)
+
+    def tick(self):
+        self.count += 1
+
+    def on_reset(self, msg):
+        self.count = 0
+""",
+    good="""\
+class Arm(Node):
+    def tick(self):
+        with self.lock:
+            self.count += 1
+
+    def on_reset(self, msg):
+        with self.lock:
+            self.count = 0
+""",
+    mend='Hold one `threading.Lock` around both, never over a blocking call; or put both '
+    'callbacks into one mutually exclusive group.',
+    find=find,
+)

@@ -1,0 +1,101 @@
+"""CC106: ``rclpy.spin…(node)`` inside a callback of that node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import Spec
+
+
+def find(context: Context) -> Iterator[Hit]:
+    for wait in waits_of(context):
+        if wait.kind is WaitKind.SPIN and not is_executor_call(wait):
+            is_own = wait.block.on in context.unit.nodes
+            if is_own or wait.block.on is None:
+                yield _hit(wait, context, is_own)
+
+
+def is_executor_call(wait: Wait) -> bool:
+    """True for ``executor.spin_once()`` and its kin, which name an executor themselves."""
+    return wait.block.call.startswith('executor.')
+
+
+def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
+    unit = context.unit
+    caller = wait.caller.display_name
+    node = f'node {wait.block.on!r}' if is_own else 'a node that could not be followed'
+    return Hit(
+        place=wait.place,
+        message=f'{caller} calls {wait.block.call} on {node} inside a callback: '
+        f'{_consequence(unit)}',
+        help='do not spin in a callback: use call_async and continue in a done-callback, or await '
+        'in a coroutine callback',
+        severity=_severity(unit, is_own),
+        subjects=(wait.caller.name,),
+        chain=wait.chain,
+        related=tuple(made_at(wait.caller)),
+    )
+
+
+def _consequence(unit: Spec) -> str:
+    if isinstance(unit.executor.kind, Unknown):
+        return (
+            'under an executor of its own the node leaves that executor and none of its '
+            'callbacks runs again; under rclpy.spin it runs others inside this one'
+        )
+    if is_global(unit):
+        return (
+            'other callbacks run inside this one, and from rclpy 7.1.9 on the executor refuses '
+            'to be spun twice'
+        )
+    return f'the node leaves its {unit.executor.kind}, and none of its callbacks runs again'
+
+
+def _severity(unit: Spec, is_own: bool) -> Severity | None:
+    if not is_own:
+        return Severity.NOTE
+    certain = not isinstance(unit.executor.kind, Unknown) and not is_global(unit)
+    return None if certain else Severity.WARNING
+
+
+def is_global(unit: Spec) -> bool:
+    """True when the unit is run by ``rclpy.spin(node)``, the executor that nested spins use."""
+    return (unit.executor.spun or '').startswith('rclpy.') and unit.executor.source is None
+
+
+RULE = Rule(
+    code='CC106',
+    slug='nested-spin',
+    severity=Severity.ERROR,
+    title='Node spun inside its own callback',
+    what='A callback calls `rclpy.spin_until_future_complete`, `rclpy.spin_once` or `rclpy.spin` '
+    'on the node it belongs to.',
+    why='These functions add the node to the global executor, which takes it out of the executor '
+    'it is in, and remove it afterwards: then it is in none, and none of its callbacks runs '
+    'again. Under plain `rclpy.spin` it is the same executor, so that other callbacks run '
+    'inside this one; from rclpy 7.1.9 on that raises `RuntimeError: Executor is already '
+    'spinning`. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` (`spin_until_future_complete`), '
+    '`node.py` (setter of `executor`), `executors.py` (`add_node`). Measured: a timer fires once '
+    'instead of about 20 times.',
+    bad="""\
+class Arm(Node):
+    def on_timer(self):
+        future = self.client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(self, future)
+        self.use(future.result())
+""",
+    good="""\
+class Arm(Node):
+    def on_timer(self):
+        future = self.client.call_async(Trigger.Request())
+        future.add_done_callback(lambda done: self.use(done.result()))
+""",
+    mend='Never spin inside a callback. Continue in a done-callback, or make the callback a '
+    'coroutine, await the future, and keep the client in another group.',
+    find=find,
+)

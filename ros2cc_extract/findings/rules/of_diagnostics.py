@@ -1,0 +1,69 @@
+"""
+Rules that speak for what the extractor itself notices.
+
+Each takes over the diagnostics of its slug; only the help text is here.
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.rule import Rule
+
+NOT_SPUN = Rule(
+    code='CC405',
+    slug='executor-not-spun',
+    severity=Severity.WARNING,
+    title='Executor never spun',
+    what='An executor is made and given nodes, but never spun; the nodes are run by another '
+    'executor, or by none. Most often `rclpy.spin(node)` is called where `executor.spin()` was '
+    'meant, and everything runs on one thread.',
+    why='`rclpy.spin(node)` adds the node to the global single-threaded executor, which takes it '
+    'out of the one it was in. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` (`spin`), '
+    '`node.py` (setter of `executor`).',
+    bad="""\
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+rclpy.spin(node)
+""",
+    good="""\
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+executor.spin()
+""",
+    mend='Call `executor.spin()`, or `rclpy.spin(node, executor=executor)`.',
+)
+TAKEN_OUT = Rule(
+    code='CC406',
+    slug='node-taken-out',
+    severity=Severity.WARNING,
+    title='Node taken out of its executor',
+    what='A node that an executor serves is given to another one. A node is in one executor '
+    'only, the one that added it last.',
+    why='`add_node` sets `node.executor`, and that setter removes the node from its previous '
+    'executor. Sources: rclpy 7.1.6 and 9.1.2, `node.py`, `executors.py`.',
+    bad="""\
+threading.Thread(target=executor.spin).start()
+rclpy.spin_until_future_complete(node, future)   # the node leaves the executor
+""",
+    good="""\
+threading.Thread(target=executor.spin).start()
+executor.spin_until_future_complete(future)      # or wait for the future in this thread
+""",
+    mend='Spin a node by the executor that serves it.',
+)
+UNREADABLE = Rule(
+    code='CC500',
+    slug='unreadable',
+    severity=Severity.ERROR,
+    title='File could not be read',
+    what='A file is no UTF-8 text, does not parse as Python, or could not be opened. Nothing in '
+    'it was checked.',
+    why='The extractor reads source by the syntax of the Python version it runs on.',
+    bad="""\
+def on_timer(self:
+""",
+    good="""\
+def on_timer(self): ...
+""",
+    mend='Mend the file, or exclude it.',
+)

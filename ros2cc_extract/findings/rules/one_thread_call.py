@@ -1,0 +1,80 @@
+"""CC102: a blocking wait for another callback on an executor with one thread."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by
+from ros2cc_extract.findings.waits import Wait, waits_for, waits_of
+from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.workers import is_one_thread
+
+
+def find(context: Context) -> Iterator[Hit]:
+    if not is_one_thread(context.unit.executor):
+        return
+    for wait in waits_of(context):
+        if wait.kind in BLOCKING and wait.needs:
+            yield _hit(wait, context)
+
+
+def _hit(wait: Wait, context: Context) -> Hit:
+    executor = context.unit.executor
+    end = 'it always runs into its time-out' if wait.has_timeout else 'it waits for ever'
+    group = ' and give the client a group of its own' if shut_out_by(wait, context) else ''
+    return Hit(
+        place=wait.place,
+        message=f'{wait.caller.display_name} waits in {wait.block.call} for {waits_for(wait)} on '
+        f'the only thread of the {executor.kind or "executor"}, so nobody can take it: {end}',
+        help=f'serve the node with MultiThreadedExecutor(num_threads=2) or more{group}, or use '
+        'call_async and continue in a done-callback',
+        severity=Severity.WARNING if wait.has_timeout else None,
+        subjects=(wait.caller.name, *(needed.name for needed in wait.needs)),
+        chain=wait.chain,
+        related=tuple(made_at(wait.caller, *wait.needs)),
+    )
+
+
+RULE = Rule(
+    code='CC102',
+    slug='one-thread-call',
+    severity=Severity.ERROR,
+    title='Blocking call on an executor with one thread',
+    what='A callback waits synchronously for something that another callback of the same '
+    'executor must deliver, and that executor has one thread: the one that waits.',
+    why='`rclpy.spin` and `SingleThreadedExecutor` run every callback in the spinning thread; a '
+    '`MultiThreadedExecutor(num_threads=1)` has one worker, and the spinning thread runs no '
+    'callbacks. The `EventsExecutor` is single-threaded too. Sources: rclpy 7.1.6 and 9.1.2, '
+    '`executors.py`, `experimental/events_executor.py`, `client.py`. Measured: 0 completed calls '
+    'on one thread, whatever the groups.',
+    bad="""\
+class Navigator(Node):
+    def __init__(self):
+        super().__init__('navigator')
+        self.client = self.create_client(Trigger, 'map_ready')
+        self.create_timer(0.5, self.drive)
+
+    def drive(self):
+        self.client.call(Trigger.Request())
+
+rclpy.spin(Navigator())
+""",
+    good="""\
+class Navigator(Node):
+    def __init__(self):
+        super().__init__('navigator')
+        self.client = self.create_client(Trigger, 'map_ready')
+        self.create_timer(0.5, self.drive)
+
+    def drive(self):
+        self.client.call_async(Trigger.Request()).add_done_callback(self.go_on)
+
+rclpy.spin(Navigator())
+""",
+    mend='Do not wait in a callback: send by `call_async` and continue in a done-callback. Or '
+    'serve the node with a `MultiThreadedExecutor` of at least two threads and keep the client '
+    'in another group than the caller.',
+    find=find,
+)

@@ -1,0 +1,74 @@
+"""CC303: a race with work that is in no group, though it seems to be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.races import Race, RaceKind, races_of
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.lost_update import hit_of
+from ros2cc_extract.findings.words import shown
+from ros2cc_extract.spec.model import Callback, EntityKind
+
+_WHAT = {
+    EntityKind.ACTION_EXECUTE: 'the execute callback of an action server',
+    EntityKind.DONE_CALLBACK: 'a done-callback',
+    EntityKind.TASK: 'a task',
+}
+
+
+def find(context: Context) -> Iterator[Hit]:
+    for race in races_of(context):
+        if race.is_outside_groups and race.kind is not RaceKind.LAST_WRITE_WINS:
+            yield hit_of(
+                race, _reminder(race), 'hold one lock around both; a callback group cannot help'
+            )
+
+
+def _reminder(race: Race) -> str:
+    outside = next(c for c in _callbacks(race) if c.groupless)
+    what = _WHAT.get(outside.entity or EntityKind.TASK, 'a task')
+    return f'; {shown([outside])} is {what} and runs outside every callback group'
+
+
+def _callbacks(race: Race) -> tuple[Callback, ...]:
+    return tuple(use.callback for use in (race.first, *race.others))
+
+
+RULE = Rule(
+    code='CC303',
+    slug='outside-groups',
+    severity=Severity.WARNING,
+    title='Race with work outside every callback group',
+    what='An attribute is updated by a callback and by a done-callback, an executor task or the '
+    'execute callback of an action server. These look as if a group protected them, but they '
+    'run in none.',
+    why='`ActionServer.notify_execute`, `Executor.create_task` and done-callbacks of '
+    '`call_async` futures become tasks without entity and without group, so that they may '
+    'overlap every callback and each other. Sources: rclpy 7.1.6 and 9.1.2, `action/server.py`, '
+    '`executors.py` (`create_task`), `task.py`. Measured: a done-callback overlapped with the '
+    'timers of the one exclusive group of its node.',
+    bad="""\
+class Arm(Node):
+    def tick(self):
+        self.pending += 1
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
+
+    def on_done(self, future):
+        self.pending -= 1
+""",
+    good="""\
+class Arm(Node):
+    def tick(self):
+        with self.lock:
+            self.pending += 1
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
+
+    def on_done(self, future):
+        with self.lock:
+            self.pending -= 1
+""",
+    mend='Hold one `threading.Lock` around both. A callback group does not reach such work.',
+    find=find,
+)

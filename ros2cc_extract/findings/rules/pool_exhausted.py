@@ -1,0 +1,154 @@
+"""CC103: as many callbacks may wait at once as there are worker threads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.capacity import Capacity, capacity_of
+from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.own_group_call import shut_out_by
+from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.words import plural, shown
+from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
+from ros2cc_extract.places import Unknown
+
+
+def find(context: Context) -> Iterator[Hit]:
+    """One thread is CC102's case, and a wait that never ends by itself is CC101's."""
+    executor = context.unit.executor
+    if is_one_thread(executor):
+        return
+    waits = [wait for wait in waits_of(context) if _holds_a_worker(wait, context)]
+    if not waits:
+        return
+    callers = {wait.caller.name: wait.caller for wait in waits}
+    capacity = capacity_of(tuple(callers.values()), context)
+    yield from _judge(waits, capacity, workers_of(executor), context)
+
+
+def _holds_a_worker(wait: Wait, context: Context) -> bool:
+    if wait.kind is WaitKind.RATE:
+        return True
+    needed = wait.kind in (WaitKind.ANSWER, WaitKind.SIGNAL) and bool(wait.needs)
+    return needed and shut_out_by(wait, context) is None
+
+
+def _judge(
+    waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown, context: Context
+) -> Iterator[Hit]:
+    needed = capacity.at_least + 1
+    if isinstance(workers, Unknown):
+        if capacity.at_least > 1:
+            yield _hit(waits, capacity, f'on how many threads is not known ({workers})', True)
+    elif workers.is_default:
+        if capacity.at_least > 1:
+            yield _hit(
+                waits,
+                capacity,
+                f'with as many threads as CPUs, so on a machine with {capacity.at_least} or '
+                'fewer CPUs no thread is left for the answers and all wait for ever',
+                capacity.at_least < workers.count,
+            )
+    elif capacity.at_least >= workers.count:
+        yield _hit(
+            waits,
+            capacity,
+            f'on {plural(workers.count, "thread")}: then none is left for the answers and all '
+            'wait for ever',
+            False,
+        )
+    elif capacity.unbounded:
+        yield _overlap_hit(waits, capacity, workers, needed)
+
+
+def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, is_note: bool) -> Hit:
+    names = shown(capacity.together)
+    timed = all(wait.has_timeout for wait in waits)
+    return Hit(
+        place=_first(waits, capacity).place,
+        message=f'{plural(capacity.at_least, "callback")} can wait at the same time ({names}) '
+        f'{rest}',
+        help=_help(capacity),
+        severity=Severity.NOTE if is_note else Severity.WARNING if timed else None,
+        subjects=tuple(callback.name for callback in capacity.together),
+        chain=_first(waits, capacity).chain,
+        related=_others(waits, capacity),
+    )
+
+
+def _help(capacity: Capacity) -> str:
+    if not capacity.unbounded:
+        return f'{capacity.at_least + 1} threads are the smallest number that is enough'
+    return (
+        f'at least {capacity.at_least + 1} threads, but no number is surely enough: '
+        f'{shown(capacity.unbounded)} may also overlap itself; put it into a mutually exclusive '
+        'group of its own'
+    )
+
+
+def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers, needed: int) -> Hit:
+    first = next(wait for wait in waits if wait.caller in capacity.unbounded)
+    return Hit(
+        place=first.place,
+        message=f'{shown(capacity.unbounded)} may overlap itself while it waits; when answers '
+        f'are slow, {plural(workers.count, "run")} of it can hold all '
+        f'{plural(workers.count, "thread")}, and no thread is left for the answers',
+        help='put it into a mutually exclusive group of its own; then '
+        f'{plural(needed, "thread")} are enough',
+        severity=Severity.NOTE,
+        subjects=tuple(callback.name for callback in capacity.unbounded),
+        chain=first.chain,
+        related=_others([first], capacity),
+    )
+
+
+def _first(waits: Sequence[Wait], capacity: Capacity) -> Wait:
+    return next(wait for wait in waits if wait.caller in capacity.together)
+
+
+def _others(waits: Sequence[Wait], capacity: Capacity) -> tuple[Remark, ...]:
+    first = _first(waits, capacity) if waits[0].caller in capacity.together else waits[0]
+    return tuple(
+        Remark(wait.place, f'{wait.caller.display_name} waits here in {wait.block.call}')
+        for wait in waits
+        if wait is not first and wait.caller in capacity.together
+    )
+
+
+RULE = Rule(
+    code='CC103',
+    slug='pool-exhausted',
+    severity=Severity.ERROR,
+    title='Every worker thread may wait at once',
+    what='As many callbacks can wait synchronously at the same time as the executor has worker '
+    'threads. The groups are right, but nobody is left to run what they wait for. The number is '
+    'exact: a mutually exclusive group counts once, a reentrant callback for itself, branches '
+    'of which only one is taken do not add up.',
+    why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
+    'are handled by the same workers, and the spinning thread runs no callbacks. Without '
+    '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '
+    'on one machine and hangs on another. In a reentrant group an entity may be started again '
+    'before its last run has ended. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor`, `_make_handler`). Measured: 4 reentrant callers, 0 completed '
+    'calls on 4 threads, 64 of 64 on 8.',
+    bad="""\
+class Arms(Node):
+    def __init__(self):
+        super().__init__('arms')
+        for name, callback in (('left', self.left), ('right', self.right)):
+            group = MutuallyExclusiveCallbackGroup()
+            self.create_timer(0.5, callback, callback_group=group)
+    # left and right each call a service synchronously
+
+executor = MultiThreadedExecutor(num_threads=2)
+""",
+    good="""\
+executor = MultiThreadedExecutor(num_threads=3)  # two may wait, the third takes the answers
+""",
+    mend='Raise `num_threads` above the number of callbacks that can wait at once, always by an '
+    'explicit number; put callers into mutually exclusive groups, so that none overlaps itself; '
+    'or do not wait in callbacks at all.',
+    find=find,
+)

@@ -1,0 +1,130 @@
+"""
+What a callback waits for, and which other callbacks must run before it goes on.
+
+Source of the table: measured on rclpy 7.1.6 and 9.1.2 (``client.py``, ``action/client.py``,
+``timer.py``, ``task.py``): a synchronous call waits for a ``threading.Event`` that is set when
+the executor has run the client; ``Rate.sleep`` waits for one set by a timer of the node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Blocking, Callback, EntityKind
+
+
+class WaitKind(Enum):
+    """What ends a wait."""
+
+    ANSWER = 'answer'
+    SIGNAL = 'signal'
+    RATE = 'rate'
+    AWAIT = 'await'
+    SPIN = 'spin'
+    SLEEP = 'sleep'
+    OTHER = 'other'
+
+
+_KINDS = {
+    'client.call': WaitKind.ANSWER,
+    'send_goal': WaitKind.ANSWER,
+    'get_result': WaitKind.ANSWER,
+    'cancel_goal': WaitKind.ANSWER,
+    'Event.wait': WaitKind.SIGNAL,
+    'Condition.wait': WaitKind.SIGNAL,
+    'Condition.wait_for': WaitKind.SIGNAL,
+    'Future.result': WaitKind.SIGNAL,
+    'busy-wait': WaitKind.SIGNAL,
+    'Rate.sleep': WaitKind.RATE,
+    'await': WaitKind.AWAIT,
+    'time.sleep': WaitKind.SLEEP,
+}
+_SERVERS = {
+    EntityKind.CLIENT: (EntityKind.SERVICE,),
+    EntityKind.ACTION_CLIENT: (EntityKind.ACTION_SERVER,),
+}
+
+
+@dataclass(frozen=True)
+class Wait:
+    """
+    One wait inside a callback.
+
+    :param needs: callbacks of the same unit that must run before it ends; empty when it ends
+        otherwise, or when what it waits for is not known.
+    """
+
+    caller: Callback
+    block: Blocking
+    kind: WaitKind
+    needs: tuple[Callback, ...] = ()
+
+    @property
+    def place(self) -> Place:
+        """Where it waits; the callback itself where the line is not known."""
+        caller = self.caller
+        return self.block.source or caller.defined or caller.source or Place(caller.name)
+
+    @property
+    def has_timeout(self) -> bool:
+        """True when it ends after some time in any case."""
+        return self.block.seconds is not None
+
+    @property
+    def chain(self) -> tuple[Remark, ...]:
+        """The calls that lead from the callback to the wait."""
+        words = [f'{self.caller.display_name} calls from here']
+        words += ['and on from here'] * (len(self.block.chain) - 1)
+        return tuple(map(Remark, self.block.chain, words))
+
+
+def kind_of(block: Blocking) -> WaitKind:
+    """Classify a blocking call by its name."""
+    if block.call.rpartition('.')[2].startswith('spin'):
+        return WaitKind.SPIN
+    return _KINDS.get(block.call, WaitKind.OTHER)
+
+
+def waits_of(context: Context) -> Iterator[Wait]:
+    """All waits of the callbacks somebody wrote, in the order of the unit."""
+    for caller in context.written:
+        for block in caller.blocking:
+            yield Wait(caller, block, kind_of(block), tuple(_needs(block, caller, context)))
+
+
+def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Callback]:
+    needed = context.by_name.get(block.on) if isinstance(block.on, str) else None
+    if needed is None or needed == caller or _exclude_each_other(needed, caller):
+        return
+    yield needed
+    yield from _server(needed, context)
+
+
+def _server(client: Callback, context: Context) -> Iterator[Callback]:
+    """The one server of the unit by the client's name; a remapping is not visible here."""
+    kinds = _SERVERS.get(client.entity) if client.entity else None
+    if kinds and isinstance(client.key, str):
+        found = [c for c in context.written if c.entity in kinds and c.key == client.key]
+        yield from found[:1] if len(found) == 1 else ()
+
+
+def _exclude_each_other(one: Callback, other: Callback) -> bool:
+    """True when only one of them is ever created."""
+    return one.alternative is not None and one.alternative == other.alternative
+
+
+def waits_for(wait: Wait) -> str:
+    """Say what a wait waits for."""
+    needed = wait.needs[0] if wait.needs else None
+    if needed is None:
+        return 'something else'
+    if needed.entity in (EntityKind.CLIENT, EntityKind.ACTION_CLIENT):
+        name = f' {needed.key!r}' if isinstance(needed.key, str) else ''
+        what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
+        return f'the answer of {what}{name}'
+    return f'{needed.display_name}'

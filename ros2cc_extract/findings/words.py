@@ -1,0 +1,49 @@
+"""Names of callbacks and groups in sentences, the same in every rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.spec.model import Callback, CallbackGroup
+
+
+def group_words(group: CallbackGroup) -> str:
+    """Say which group: ``the default group of 'arm'`` or ``group 'arm_group'``."""
+    if group.default and group.node:
+        return f'the default group of {group.node!r}'
+    return 'the default group' if group.default else f'group {group.name!r}'
+
+
+def listing(names: Iterable[str], limit: int = 6) -> str:
+    """Join names in their order; many are cut with their number."""
+    distinct = list(dict.fromkeys(names))
+    if len(distinct) <= limit:
+        return ', '.join(distinct)
+    return f'{", ".join(distinct[:limit])} and {len(distinct) - limit} more'
+
+
+def shown(callbacks: Iterable[Callback]) -> str:
+    """List callbacks by the names of their functions."""
+    return listing(callback.display_name for callback in callbacks)
+
+
+def plural(number: int, noun: str) -> str:
+    """Write ``1 thread``, ``2 threads``."""
+    return f'{number} {noun}{"" if number == 1 else "s"}'
+
+
+def made_at(*owners: Callback | CallbackGroup) -> Iterator[Remark]:
+    """Where callbacks and groups were created, for those whose place is known."""
+    for owner in owners:
+        if owner.source is not None:
+            words = _made_words(owner)
+            yield Remark(owner.source, f'{words} is created here')
+
+
+def _made_words(owner: Callback | CallbackGroup) -> str:
+    if isinstance(owner, CallbackGroup):
+        return group_words(owner)
+    kind = owner.entity.value.replace('_', ' ') if owner.entity else owner.type.value
+    name = f' {owner.key!r}' if isinstance(owner.key, str) else ''
+    return f'{kind}{name or " of " + owner.display_name}'

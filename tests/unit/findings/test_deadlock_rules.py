@@ -1,0 +1,255 @@
+"""CC1xx: which waits never end, on which executor; figures of the table are measured ones."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from finding_units import (
+    EVENTS_EXECUTOR,
+    NOT_FOUND,
+    ONE_THREAD,
+    OTHER,
+    at,
+    calls,
+    client,
+    default_threads,
+    exclusive,
+    found,
+    only,
+    outside,
+    reentrant,
+    service,
+    sleeps,
+    subscription,
+    threads,
+    timer,
+    unit,
+)
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import EntityKind, Executor, Spec
+
+
+def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:
+    return unit(
+        executor,
+        timer('drive', group, blocking=calls('plan_client')),
+        client('plan_client', client_group),
+        subscription('on_stop', 'other'),
+    )
+
+
+@pytest.mark.parametrize(
+    ('executor', 'client_group', 'expected'),
+    [
+        (threads(4), 'arm_default', ['CC101:40']),
+        (NOT_FOUND, 'arm_default', ['CC101:40']),
+        (ONE_THREAD, 'arm_default', ['CC102:40']),
+        (EVENTS_EXECUTOR, 'arm_default', ['CC102:40']),
+        (ONE_THREAD, 'other', ['CC102:40']),
+        (threads(1), 'other', ['CC102:40']),
+        (threads(2), 'other', []),
+        (NOT_FOUND, 'other', []),
+    ],
+)
+def test_placement_of_the_client_decides_as_measured(
+    executor: Executor, client_group: str, expected: list[str]
+) -> None:
+    spec = caller_and_client(executor, 'arm_default', client_group)
+    assert [f for f in found(spec) if f.startswith('CC1')] == expected
+
+
+def test_a_reentrant_group_does_not_block_but_may_overlap_itself() -> None:
+    spec = caller_and_client(threads(4), 'free', 'free')
+    assert found(spec) == ['CC103:40 note']
+
+
+def test_message_of_a_call_into_the_own_group() -> None:
+    finding = only(caller_and_client(threads(4), 'arm_default', 'arm_default'), 'CC101')
+    assert finding.message == (
+        "drive waits in client.call for the answer of service 'plan', but the client is in the "
+        "default group of 'arm', which is closed while drive runs: it waits for ever"
+    )
+    assert finding.subjects == ('drive', 'plan_client')
+
+
+def test_a_time_out_makes_a_warning() -> None:
+    spec = unit(
+        threads(4),
+        timer('drive', blocking=calls('plan_client', seconds=2.0)),
+        client('plan_client'),
+        subscription('on_stop', 'other'),
+    )
+    finding = only(spec, 'CC101')
+    assert finding.severity is Severity.WARNING
+    assert finding.message.endswith('it always runs into its time-out')
+
+
+def test_the_service_of_the_same_unit_may_be_what_is_shut_out() -> None:
+    spec = unit(
+        threads(4),
+        timer('drive', blocking=calls('plan_client')),
+        client('plan_client', 'other'),
+        service('on_plan', key='plan'),
+    )
+    assert 'on_plan, which serves it, is in the default group' in only(spec, 'CC101').message
+
+
+@pytest.mark.parametrize('on', [None, Unknown('an argument'), 'client_of_another_unit'])
+def test_an_unknown_client_gives_nothing(on: str | Unknown | None) -> None:
+    spec = unit(ONE_THREAD, timer('drive', blocking=calls(on)), client('plan_client'))
+    assert found(spec) == []
+
+
+def test_an_unresolved_group_gives_nothing() -> None:
+    group = exclusive('g', unresolved=Unknown('an argument'))
+    spec = unit(
+        threads(4),
+        timer('drive', 'g', blocking=calls('plan_client')),
+        client('plan_client', 'g'),
+        groups=(group,),
+    )
+    assert found(spec) == []
+
+
+def test_branches_of_which_only_one_is_taken_do_not_wait_for_each_other() -> None:
+    spec = unit(
+        threads(2),
+        timer('drive', alternative='a', blocking=calls('plan_client')),
+        client('plan_client', alternative='a'),
+        subscription('on_stop', 'other'),
+    )
+    assert found(spec) == []
+
+
+def test_an_event_that_a_member_of_the_group_sets() -> None:
+    spec = unit(
+        threads(4),
+        timer('drive', blocking=calls('on_done', call='Event.wait')),
+        subscription('on_done'),
+        subscription('on_stop', 'other'),
+    )
+    assert found(spec) == ['CC101:40', 'CC403:90 note']
+
+
+def blockers(number: int, executor: Executor, group: str = '', **facts: object) -> Spec:
+    """``number`` timers that wait for a client, each in a group of its own or all in one."""
+    names = [f'g{index}' for index in range(number)]
+    timers = [
+        timer(f'arm_{n}', group or n, blocking=calls('plan_client', 40 + i), **facts)
+        for i, n in enumerate(names)
+    ]
+    groups = (*map(exclusive, names), OTHER, reentrant('free'), exclusive('one'))
+    return unit(executor, *timers, client('plan_client', 'other'), groups=groups)
+
+
+@pytest.mark.parametrize(
+    ('number', 'workers', 'expected'), [(2, 2, ['CC103:40']), (2, 3, []), (4, 3, ['CC103:40'])]
+)
+def test_pool_is_exhausted_by_as_many_waiters_as_threads(
+    number: int, workers: int, expected: list[str]
+) -> None:
+    assert found(blockers(number, threads(workers))) == expected
+
+
+def test_the_smallest_sufficient_number_is_named() -> None:
+    finding = only(blockers(4, threads(4)), 'CC103')
+    assert finding.help == '5 threads are the smallest number that is enough'
+    assert [remark.place for remark in finding.related] == [at(41), at(42), at(43)]
+
+
+def test_an_exclusive_group_counts_once() -> None:
+    assert found(blockers(4, threads(2), group='one')) == []
+
+
+def test_exclusive_branches_count_once() -> None:
+    assert 'CC103:40' not in found(blockers(4, threads(2), alternative='either'))
+
+
+def test_reentrant_waiters_overlap_themselves_so_no_number_is_enough() -> None:
+    finding = only(blockers(4, threads(4), group='free'), 'CC103')
+    assert finding.severity is Severity.ERROR
+    assert 'no number is surely enough' in finding.help
+
+
+def test_the_default_thread_count_is_that_of_the_machine() -> None:
+    finding = only(blockers(4, default_threads(4)), 'CC103')
+    assert 'on a machine with 4 or fewer CPUs' in finding.message
+    assert found(blockers(2, default_threads(4))) == ['CC103:40 note']
+    assert found(blockers(1, default_threads(4))) == []
+
+
+def test_an_unknown_thread_count_gives_a_note() -> None:
+    executor = replace(threads(2), unresolved=Unknown('thread count is a parameter'))
+    assert found(blockers(2, executor)) == ['CC103:40 note']
+
+
+def test_await_within_the_own_group_never_resumes() -> None:
+    def spec(executor: Executor, group: str) -> Spec:
+        waits = calls('plan_client', call='await')
+        return unit(
+            executor,
+            service('on_open', coroutine=True, blocking=waits, key='open'),
+            client('plan_client', group),
+        )
+
+    assert found(spec(ONE_THREAD, 'arm_default')) == ['CC104:40']
+    assert 'CC104:40' in found(spec(threads(4), 'arm_default'))
+    assert found(spec(NOT_FOUND, 'arm_default')) == ['CC104:40 warning']
+    assert found(spec(EVENTS_EXECUTOR, 'arm_default')) == []
+    assert found(spec(ONE_THREAD, 'other')) == []
+
+
+def test_rate_sleep_needs_a_second_thread() -> None:
+    def spec(executor: Executor) -> Spec:
+        return unit(
+            executor,
+            subscription('on_go', blocking=calls(None, call='Rate.sleep')),
+            subscription('on_stop', 'other'),
+        )
+
+    assert [f for f in found(spec(ONE_THREAD)) if f.startswith('CC1')] == ['CC105:40']
+    assert [f for f in found(spec(threads(1))) if f.startswith('CC1')] == ['CC105:40']
+    assert found(spec(threads(2))) == []
+    assert found(spec(NOT_FOUND)) == []
+
+
+def nested(executor: Executor, on: str | None, call: str) -> list[str]:
+    spec = unit(executor, timer('tick', blocking=calls(on, call=call)))
+    return [f for f in found(spec) if f.startswith('CC1')]
+
+
+def test_nested_spin_takes_the_node_out_of_its_executor() -> None:
+    call = 'rclpy.spin_until_future_complete'
+    assert nested(threads(4), 'arm', call) == ['CC106:40']
+    assert nested(NOT_FOUND, 'arm', call) == ['CC106:40 warning']
+    assert nested(replace(ONE_THREAD, spun='rclpy.spin'), 'arm', call) == ['CC106:40 warning']
+    assert nested(threads(4), None, call) == ['CC106:40 note']
+    assert nested(threads(4), 'helper', call) == []
+
+
+def test_an_executor_spun_by_its_own_callback() -> None:
+    assert nested(threads(4), 'executor', 'executor.spin_once') == ['CC107:40 warning']
+    assert nested(threads(4), 'another', 'executor.spin_once') == []
+
+
+def test_execute_callback_waits_outside_every_group() -> None:
+    execute = outside('execute', EntityKind.ACTION_EXECUTE, blocking=calls('plan_client'))
+    assert found(unit(ONE_THREAD, execute, client('plan_client'))) == ['CC102:40']
+    assert found(unit(threads(4), execute, client('plan_client'))) == ['CC103:40 note']
+
+
+def test_a_sleep_is_no_wait_for_others() -> None:
+    assert found(unit(threads(2), timer('a', blocking=sleeps(0.2)), timer('b', 'other'))) == []
+
+
+def test_the_chain_leads_from_the_callback_to_the_wait() -> None:
+    waits = calls('plan_client', chain=(at(30), at(35)))
+    spec = unit(ONE_THREAD, timer('drive', blocking=waits), client('plan_client'))
+    chain = only(spec, 'CC102').chain
+    assert [(remark.place, remark.text) for remark in chain] == [
+        (at(30), 'drive calls from here'),
+        (at(35), 'and on from here'),
+    ]

@@ -1,0 +1,195 @@
+"""CC3xx: shared state, decided by the model's verdict or by groups and threads."""
+
+from __future__ import annotations
+
+import pytest
+from finding_units import (
+    NOT_FOUND,
+    ONE_THREAD,
+    at,
+    calls,
+    exclusive,
+    found,
+    only,
+    outside,
+    subscription,
+    threads,
+    timer,
+    unit,
+    updates,
+    writes,
+)
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec
+from ros2cc_extract.verify import QueryResult, Verdict, Verification
+
+RUN = Evidence(
+    start={'thread_0': 'idle'},
+    moments=(
+        Moment(
+            number=1,
+            sentences=(Sentence('thread_0', 'tick starts on thread_0'),),
+            places=(('tick', at(10)),),
+            changes={},
+        ),
+    ),
+    cycle_from=None,
+    ends=None,
+)
+
+
+def verified(verdict: Verdict, *pair: str) -> Verification:
+    result = QueryResult(
+        family='can_overlap',
+        formula='E<> …',
+        words='…',
+        callbacks=pair,
+        verdict=verdict,
+        reason=None,
+        seconds=0.0,
+        evidence=RUN if verdict is Verdict.SATISFIED else None,
+    )
+    return Verification(
+        model='arm',
+        profile='paper',
+        text='plain',
+        engine='reference',
+        states=1,
+        transitions=1,
+        seconds=0.0,
+        peak_mb=1.0,
+        complete=True,
+        results=(result,),
+    )
+
+
+def counter(executor: Executor, reset_group: str = 'other', **of_reset: object) -> Spec:
+    return unit(
+        executor,
+        timer('tick', writes=updates('Arm.count', 30)),
+        subscription('on_reset', reset_group, writes=writes('Arm.count', 35), **of_reset),
+    )
+
+
+def races(spec: Spec, verification: Verification | None = None) -> list[str]:
+    return [code for code in found(spec, verification) if code.startswith('CC3')]
+
+
+@pytest.mark.parametrize(
+    ('spec', 'expected'),
+    [
+        (counter(threads(2)), ['CC301:30 warning']),
+        (counter(threads(2), 'arm_default'), []),
+        (counter(threads(1)), []),
+        (counter(ONE_THREAD), []),
+        (counter(NOT_FOUND), []),
+        (counter(threads(2), node='leg'), []),
+        (counter(threads(2), node=Unknown('an argument')), []),
+    ],
+)
+def test_groups_and_threads_decide_where_no_verdict_is(spec: Spec, expected: list[str]) -> None:
+    assert races(spec) == expected
+
+
+@pytest.mark.parametrize(
+    ('verdict', 'expected'),
+    [
+        (Verdict.SATISFIED, ['CC301:30 warning']),
+        (Verdict.NOT_SATISFIED, []),
+        (Verdict.UNDECIDED, ['CC301:30 warning']),
+    ],
+)
+def test_the_verdict_of_the_model_goes_before(verdict: Verdict, expected: list[str]) -> None:
+    assert races(counter(threads(2)), verified(verdict, 'on_reset', 'tick')) == expected
+
+
+def test_the_run_of_the_model_is_the_evidence() -> None:
+    verification = verified(Verdict.SATISFIED, 'tick', 'on_reset')
+    finding = only(counter(threads(2)), 'CC301', verification)
+    assert finding.run is RUN
+    assert [(remark.place, remark.text) for remark in finding.related] == [
+        (at(35), 'on_reset writes it here')
+    ]
+    assert finding.message == (
+        'tick updates Arm.count from its old value, and on_reset may write it at the same time: '
+        'one of the changes can get lost'
+    )
+
+
+def test_a_common_lock_protects_and_two_locks_do_not() -> None:
+    def spec(lock: str) -> Spec:
+        return unit(
+            threads(2),
+            timer('tick', writes=updates('Arm.count', 30, 'Arm.lock')),
+            subscription('on_reset', 'other', writes=writes('Arm.count', 35, lock)),
+        )
+
+    assert races(spec('Arm.lock')) == []
+    assert races(spec('Arm.other_lock')) == ['CC301:30 warning']
+
+
+def test_an_unresolved_group_gives_nothing() -> None:
+    group = exclusive('other', unresolved=Unknown('an argument'))
+    spec = unit(
+        threads(2),
+        timer('tick', 'other', writes=updates('Arm.count', 30)),
+        subscription('on_reset', 'g', writes=writes('Arm.count', 35)),
+        groups=(group, exclusive('g')),
+    )
+    assert races(spec) == []
+
+
+def test_plain_assignments_are_a_note_and_a_test_before_makes_it_a_warning() -> None:
+    plain = timer('tick', writes=writes('Arm.goal', 30))
+    tested = timer('tick', reads=writes('Arm.goal', 29), writes=writes('Arm.goal', 30))
+    other = subscription('on_goal', 'other', writes=writes('Arm.goal', 35))
+    assert races(unit(threads(2), plain, other)) == ['CC302:30 note']
+    assert races(unit(threads(2), tested, other)) == ['CC301:30 warning']
+    assert races(unit(threads(2), other, tested)) == ['CC301:30 warning']
+
+
+def test_one_finding_for_one_attribute() -> None:
+    groups = tuple(exclusive(name) for name in 'abc')
+    callbacks = [
+        timer(f'on_{name}', name, writes=updates('Arm.count', 30 + i))
+        for i, name in enumerate('abc')
+    ]
+    spec = unit(threads(4), *callbacks, groups=groups)
+    finding = only(spec, 'CC301')
+    assert finding.place == at(30)
+    assert finding.subjects == ('Arm.count', 'on_a', 'on_b', 'on_c')
+
+
+def test_work_outside_every_group_overlaps_the_exclusive_group_too() -> None:
+    done = outside('on_done', EntityKind.DONE_CALLBACK, writes=updates('Arm.pending', 40))
+    tick = timer('tick', writes=updates('Arm.pending', 30))
+    assert races(unit(threads(2), tick, done)) == ['CC303:30 warning', 'CC304:40 warning']
+    assert races(unit(ONE_THREAD, tick, done)) == []
+    message = only(unit(threads(2), tick, done), 'CC303').message
+    assert message.endswith('on_done is a done-callback and runs outside every callback group')
+
+
+@pytest.mark.parametrize(
+    ('callback', 'expected'),
+    [
+        (subscription('f', 'free', writes=updates('Arm.n', 30)), ['CC304:30 warning']),
+        (subscription('f', 'free', writes=updates('Arm.n', 30, 'Arm.lock')), []),
+        (subscription('f', 'free', writes=writes('Arm.n', 30)), []),
+        (subscription('f', 'other', writes=updates('Arm.n', 30)), []),
+        (timer('f', 'free', writes=updates('Arm.n', 30)), ['CC304:30 note']),
+        (
+            timer('f', 'free', writes=updates('Arm.n', 30), blocking=calls(None)),
+            ['CC304:30 warning'],
+        ),
+        (timer('f', 'free', writes=updates('Arm.n', 30), one_shot=True), []),
+    ],
+)
+def test_a_callback_that_overlaps_itself(callback: Callback, expected: list[str]) -> None:
+    assert races(unit(threads(2), callback)) == expected
+
+
+def test_a_race_is_a_warning_and_not_an_error() -> None:
+    assert only(counter(threads(2)), 'CC301').severity is Severity.WARNING

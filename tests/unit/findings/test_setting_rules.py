@@ -1,0 +1,133 @@
+"""CC2xx and CC4xx: what keeps others waiting, and settings that change nothing."""
+
+from __future__ import annotations
+
+from finding_units import (
+    DEFAULT,
+    FREE,
+    NOT_FOUND,
+    ONE_THREAD,
+    OTHER,
+    at,
+    default_threads,
+    exclusive,
+    found,
+    only,
+    outside,
+    sleeps,
+    subscription,
+    threads,
+    timer,
+    unit,
+)
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, Unresolved
+
+HOLE = Unresolved(subject='tick', fact='topic', reason='a parameter', source=at(3))
+
+
+def test_a_long_sleep_in_the_default_group_stops_parameter_services() -> None:
+    sleeper = subscription('on_dock', blocking=sleeps(5.0))
+    spec = unit(threads(2), sleeper, timer('tick'), timer('free', 'other'))
+    assert only(spec, 'CC201').message == (
+        "on_dock sleeps 5 s and holds the default group of 'arm': tick and the parameter "
+        'services of the node wait that long'
+    )
+    assert found(unit(threads(2), sleeper, timer('free', 'other'), timer('t')))[0][:5] == 'CC201'
+
+
+def test_a_short_sleep_or_one_in_a_group_of_its_own_is_left_alone() -> None:
+    spec = unit(threads(2), timer('a', blocking=sleeps(0.9)), timer('b', 'other'))
+    assert found(spec) == []
+    spec = unit(threads(2), timer('a', 'other', blocking=sleeps(5.0)), timer('b'))
+    assert found(spec) == []
+
+
+def test_a_long_sleep_on_one_thread_stops_everything() -> None:
+    spec = unit(ONE_THREAD, timer('a', 'other', blocking=sleeps(5.0)), timer('b'))
+    assert 'the only thread of the SingleThreadedExecutor' in only(spec, 'CC201').message
+
+
+def test_an_overloaded_group_starves_who_is_served_later() -> None:
+    def codes(period: float, *callbacks: object) -> list[str]:
+        busy = timer('camera', period_s=period, blocking=sleeps(0.2))
+        others = (subscription('on_stop'), timer('free', 'other'))
+        return [f for f in found(unit(threads(2), *others, busy)) if f.startswith('CC2')]
+
+    assert codes(0.1) == ['CC202:50 warning']
+    assert codes(0.2) == ['CC202:50 warning']
+    assert codes(0.25) == []
+
+
+def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:
+    early, late = timer('early'), timer('late', period_s=0.1, blocking=sleeps(0.2))
+    free = timer('free', 'other')
+    assert found(unit(threads(2), early, late, free)) == []
+    assert only(unit(threads(2), late, early, free), 'CC202').message.endswith(
+        'so early, served after them, may never run'
+    )
+
+
+def test_one_exclusive_group_makes_many_threads_useless() -> None:
+    assert found(unit(threads(4), timer('a'), timer('b'))) == ['CC401:90 warning']
+    assert found(unit(default_threads(2), timer('a'), timer('b'))) == ['CC401:90 warning']
+    assert found(unit(threads(4), timer('a'))) == []
+    assert found(unit(threads(2), timer('a'), timer('b', 'other'))) == []
+    assert found(unit(threads(4), timer('a', 'free'), timer('b', 'free'))) == []
+    assert found(unit(NOT_FOUND, timer('a'), timer('b'))) == []
+    task = outside('task', EntityKind.TASK)
+    assert found(unit(threads(4), timer('a'), task)) == []
+
+
+def test_a_hole_in_the_unit_silences_what_rests_on_the_whole() -> None:
+    spec = unit(threads(4), timer('a'), timer('b'), unresolved=(HOLE,))
+    assert found(spec) == ['CC501:3 note']
+
+
+def test_groups_without_effect_on_one_thread() -> None:
+    assert found(unit(ONE_THREAD, timer('a', 'free'), timer('b'))) == ['CC402:6 note']
+    assert found(unit(ONE_THREAD, timer('a'), timer('b'))) == []
+    assert found(unit(ONE_THREAD, timer('a', 'free', coroutine=True), timer('b'))) == []
+
+
+def test_threads_that_never_run() -> None:
+    spec = unit(threads(8), timer('a'), timer('b', 'other'), subscription('c', 'other'))
+    assert only(spec, 'CC403').help == 'num_threads=2 does the same'
+    assert found(unit(default_threads(8), timer('a'), timer('b', 'other'))) == []
+    assert found(unit(threads(8), timer('a'), timer('b', 'free'))) == []
+    looped = timer('b', 'other', count=Unknown('a loop'))
+    assert found(unit(threads(8), timer('a'), looped)) == []
+
+
+def test_a_group_in_which_nothing_is() -> None:
+    spec = unit(threads(2), timer('a'), timer('b', 'other'))
+    empty = exclusive('forgotten', source=at(7))
+    with_empty = type(spec)(**{**vars(spec), 'groups': (DEFAULT, OTHER, empty)})
+    assert found(with_empty) == ['CC404:7 warning']
+    assert found(type(spec)(**{**vars(with_empty), 'unresolved': (HOLE,)})) == ['CC501:3 note']
+    assert FREE.name not in {group.name for group in with_empty.groups}
+
+
+def diagnostic(slug: str, severity: Severity) -> Diagnostic:
+    return Diagnostic(severity=severity, slug=slug, place=Place('a.py', 7), message='so it is')
+
+
+def test_diagnostics_become_findings_by_their_slug() -> None:
+    given = [
+        diagnostic('executor-not-spun', Severity.WARNING),
+        diagnostic('node-taken-out', Severity.WARNING),
+        diagnostic('syntax-error', Severity.ERROR),
+        diagnostic('anything', Severity.NOTE),
+    ]
+    codes = {finding.code for finding in findings_of([], given)}
+    assert codes == {'CC405', 'CC406', 'CC500', 'CC501'}
+
+
+def test_the_order_of_units_does_not_matter() -> None:
+    one = unit(threads(4), timer('a'), timer('b'))
+    other = type(one)(**{**vars(one), 'name': 'leg'})
+    assert findings_of([one, other], []) == findings_of([other, one], [])
+    assert len(findings_of([one, other], [])) == 1
