@@ -36,6 +36,12 @@ schema: $(VENV)/installed
 rules: $(VENV)/installed
 	$(BIN)/python scripts/write-rule-pages
 
+# The published SARIF schema, with which a test validates ours; a 43 MB npm package carries it.
+sarif-schema:
+	mkdir -p .cache && cd .cache && npm pack --silent @microsoft/sarif-multitool-linux@5.7.0 > /dev/null
+	cd .cache && tar xzf microsoft-sarif-multitool-linux-*.tgz --strip-components=1 package/sarif-2.1.0.json
+	rm .cache/microsoft-sarif-multitool-linux-*.tgz
+
 $(VENV)/bin/python:
 	@./scripts/make-venv $(PYTHON) $(VENV)
 

@@ -1,0 +1,46 @@
+"""GitHub annotations and the step summary."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from report_samples import CALL, FINDINGS, RACE, at
+
+from ros2cc_extract.report.github import step_summary, workflow_commands
+
+
+def test_an_annotation_is_one_escaped_line() -> None:
+    assert workflow_commands([CALL]) == (
+        '::error file=src/arm node.py,line=40,col=9,title=CC101::'
+        'drive waits for "plan": <for ever>, 100 %25%0A'
+        'src/arm node.py:20: drive calls from here%0A'
+        'src/arm node.py:10: client is created here%0A'
+        'help: give the client a group\n'
+    )
+
+
+def test_properties_escape_what_separates_them() -> None:
+    text = workflow_commands([replace(RACE, place=at(3, 'a,b:c.py'))])
+    assert text.startswith('::warning file=a%2Cb%3Ac.py,line=3,col=9,title=CC301::')
+
+
+def test_ten_of_a_kind_the_most_important_first() -> None:
+    races = [replace(RACE, place=at(line)) for line in range(30, 10, -1)]
+    first = replace(RACE, code='CC201', place=at(99))
+    lines = workflow_commands([*races, first, CALL]).splitlines()
+    assert len(lines) == 11
+    assert lines[0].startswith('::error ')
+    assert 'title=CC201' in lines[1]
+    assert 'line=11,' in lines[2]
+
+
+def test_the_summary_holds_all_findings() -> None:
+    text = step_summary(FINDINGS, {'files': 2, 'errors': 1})
+    assert '2 files, 1 errors' in text
+    assert 'CC101: 1, CC301: 1, CC501: 1' in text
+    assert '| 🟠 | CC301 | `src/arm node.py:30` | tick updates Arm.count \\| too |  |' in text
+    assert len([line for line in text.splitlines() if line.startswith('| ')]) == 4
+
+
+def test_the_summary_says_when_there_is_nothing() -> None:
+    assert step_summary([], {'files': 2}).endswith('No findings.\n')
