@@ -78,8 +78,11 @@ def start(rclpy_python: str, ros_env: dict[str, str]) -> Iterator[Callable[..., 
         *arguments: str,
         pass_fds: tuple[int, ...] = (),
         recorded_into: Path | None = None,
+        **variables: str,
     ) -> Child:
-        env = hooked_environment(ros_env, recorded_into) if recorded_into else ros_env
+        env = {**ros_env, **variables}
+        if recorded_into:
+            env = hooked_environment(env, recorded_into)
         child = Child([rclpy_python, str(program), *arguments], env, pass_fds)
         children.append(child)
         return child

@@ -177,6 +177,7 @@ class _Unit:
             coroutine=function.coroutine if function else False,
             library=entity.library,
             builtin=entity.builtin,
+            destroyed=entity.destroyed,
             unresolved=unresolved,
             source=entity.created,
             defined=function.defined if function else None,

@@ -9,6 +9,7 @@ than without us.
 from __future__ import annotations
 
 import weakref
+from collections.abc import Sequence
 from typing import Any
 
 from .frames import Creation, FunctionName, RawPlace, class_name, name_function
@@ -24,7 +25,7 @@ _KINDS = {
     'ActionServer': 'action_server',
     'ActionClient': 'action_client',
 }
-WAITABLE_KINDS = frozenset({'qos_event', 'action_server', 'action_client', 'waitable'})
+WAITABLE_KINDS = frozenset({'action_server', 'action_client', 'waitable'})
 # rclpy's modules whose entities nobody wrote, with the kind they are of.
 _BUILTIN_MODULES = {
     'parameter_service': 'parameter_service',
@@ -108,7 +109,9 @@ class EntityRecord:
         self.execute: FunctionName | None = None
         self.builtin = False
         self.library: str | None = None
+        # The object no longer exists; its node has let go of it while living on.
         self.gone = False
+        self.destroyed = False
         self.made = 1
         self.timings = Timings()
 
@@ -163,22 +166,29 @@ def fill_node(record: NodeRecord, node: Any) -> None:
 def fill_entity(record: EntityRecord, entity: Any) -> None:
     creation = record.creation or Creation()
     _fill_key(record, entity, creation)
-    record.function = _function_of(entity)
+    record.function = _function_of(entity) or name_function(creation.callback)
     record.execute = name_function(creation.execute_callback)
-    creation.execute_callback = None
+    creation.callback = creation.execute_callback = None
     record.library = creation.library
-    for module in creation.through:
-        if module in _BUILTIN_MODULES:
-            record.builtin = True
-            if record.kind != 'qos_event':
-                record.kind = _BUILTIN_MODULES[module]
-        elif module in _LIBRARY_MODULES:
-            record.library = record.library or f'rclpy.{module}'
+    _judge_modules(record, creation.through)
     if 'create_rate' in creation.functions:
         record.library = 'rclpy.create_rate'
     if record.function is not None and _is_of_rclpy(record.function):
         record.builtin = record.builtin or record.library is None
     record.complete = True
+
+
+def _judge_modules(record: EntityRecord, through: Sequence[str]) -> None:
+    """Tell by the innermost module that makes entities of its own who has asked for this one."""
+    for module in through:
+        if module in _BUILTIN_MODULES:
+            record.builtin = True
+            if record.kind != 'qos_event':
+                record.kind = _BUILTIN_MODULES[module]
+            return
+        if module in _LIBRARY_MODULES:
+            record.library = record.library or f'rclpy.{module}'
+            return
 
 
 def _function_of(entity: Any) -> FunctionName | None:

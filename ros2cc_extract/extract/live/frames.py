@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import inspect
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import PurePath
@@ -29,7 +30,8 @@ class Creation:
 
     :param through: modules of rclpy passed on the way, innermost first (``node``, ``timer`` …).
     :param functions: functions of rclpy passed on the way.
-    :param seen: values of a few well-known local variables of those frames.
+    :param node: node concerned, if one was passed on the way.
+    :param callback: what a QoS event handler is going to call.
     """
 
     place: RawPlace | None = None
@@ -39,29 +41,38 @@ class Creation:
     in_callback: bool = False
     in_configure: bool = False
     node: Any = None
+    callback: Any = None
     action_name: str | None = None
     execute_callback: Any = None
 
 
-def trace_creation(frame: FrameType | None) -> Creation:
-    """Walk outwards from inside rclpy until the whole way to the program is known."""
+def trace_creation(frame: FrameType | None, made: Any = None) -> Creation:
+    """
+    Walk outwards from inside rclpy until the whole way to the program is known.
+
+    :param made: the object that is being made; its own constructors are passed over.
+    """
     creation = Creation()
     while frame is not None:
         module = str(frame.f_globals.get('__name__', ''))
         package, _, rest = module.partition('.')
         if package == 'rclpy':
             _pass_rclpy(creation, frame, rest)
-        elif creation.place is None:
-            if package in LIBRARIES:
-                creation.library = package
-            else:
-                creation.place = place_of(frame)
-        elif frame.f_code.co_name == 'on_configure':
-            creation.in_configure = True
-        if creation.place is not None and frame.f_code.co_name == 'on_configure':
-            creation.in_configure = True
+        elif package in LIBRARIES and creation.place is None:
+            creation.library = package
+        elif not _is_constructor_of(made, frame):
+            creation.place = creation.place or place_of(frame)
+            creation.in_configure |= frame.f_code.co_name == 'on_configure'
         frame = frame.f_back
     return creation
+
+
+def _is_constructor_of(made: Any, frame: FrameType) -> bool:
+    return (
+        made is not None
+        and frame.f_code.co_name == '__init__'
+        and frame.f_locals.get('self') is made
+    )
 
 
 def _pass_rclpy(creation: Creation, frame: FrameType, module: str) -> None:
@@ -78,9 +89,17 @@ def _pass_rclpy(creation: Creation, frame: FrameType, module: str) -> None:
         creation.node = next(
             (known[name] for name in ('self', 'node') if is_node(known.get(name))), None
         )
-    if module.startswith('action.') and function == '__init__':
-        creation.action_name = frame.f_locals.get('action_name') or creation.action_name
-        creation.execute_callback = frame.f_locals.get('execute_callback')
+    if function == '__init__':
+        _read_arguments(creation, module, frame.f_locals)
+
+
+def _read_arguments(creation: Creation, module: str, arguments: Mapping[str, Any]) -> None:
+    """Keep what an entity of rclpy is told and does not keep, or not yet."""
+    if module.startswith('action.'):
+        creation.action_name = arguments.get('action_name') or creation.action_name
+        creation.execute_callback = arguments.get('execute_callback')
+    elif module == 'event_handler':
+        creation.callback = arguments.get('callback') or creation.callback
 
 
 def is_node(value: Any) -> bool:

@@ -90,7 +90,7 @@ class Hook:
     def _executor_made(self, _result: None, executor: Any, *_: Any, **__: Any) -> None:
         # This method, the wrapper and so on outwards to the class's own __init__.
         frame = sys._getframe(2)
-        record = self.recorder.note_executor(executor, trace_creation(frame).place)
+        record = self.recorder.note_executor(executor, trace_creation(frame, executor).place)
         record.default_threads = frame.f_locals.get('num_threads', ...) is None
         self.writer.start()
 
@@ -113,14 +113,15 @@ class Hook:
         self.recorder.note_task(executor, kind, callback)
 
     def _group_made(self, _result: None, group: Any) -> None:
-        creation = trace_creation(sys._getframe(2))
+        creation = trace_creation(sys._getframe(2), group)
         node, creation.node = creation.node, None
         self.recorder.note_group(group, creation)
         if is_node(node):
             self.recorder.note_node(node)
 
     def _entity_added(self, _result: None, group: Any, entity: Any) -> None:
-        self.recorder.note_entity(group, entity, trace_creation(sys._getframe(2)))
+        creation = trace_creation(sys._getframe(2), entity)
+        self.recorder.note_entity(group, entity, creation)
 
     def _watch_new_groups(self, base: Any) -> None:
         """Wrap group classes that are defined later, when they are defined."""

@@ -37,14 +37,8 @@ Event = tuple[int, int, int, 'EntityRecord | None']
 # Half a minute of 4 kHz, should the writer not get the processor for that long.
 EVENTS_KEPT = 120_000
 
-ENTITY_LISTS = {
-    'timer': 'timers',
-    'subscription': 'subscriptions',
-    'guard_condition': 'guards',
-    'client': 'clients',
-    'service': 'services',
-    'waitable': 'waitables',
-}
+ENTITY_LISTS = ('timers', 'subscriptions', 'guards', 'clients', 'services', 'waitables')
+
 
 class Recorder:
     """All that was seen in this process."""
@@ -59,7 +53,9 @@ class Recorder:
     def forget(self) -> None:
         """Begin anew, as a forked child must: what the parent made is not the child's."""
         self.lock = threading.RLock()
+        # Counted up when something is new, and when something was measured.
         self.changes = 0
+        self.measured = 0
         self.loss_count = 0
         self.executors: dict[int, ExecutorRecord] = {}
         self.nodes: dict[int, NodeRecord] = {}
@@ -146,13 +142,14 @@ class Recorder:
                 )
                 self.entities[id(entity)] = record
                 self.all_entities.append(record)
+            set_up = record.kind not in WAITABLE_KINDS or record.creation is not None
             if creation is not None:
                 node, creation.node = creation.node, None
                 record.creation = creation
                 if node is not None:
                     self._join(record, group, node)
-            # A waitable joins its group before its own class has set it up.
-            if not record.complete and record.kind not in WAITABLE_KINDS:
+            # A waitable joins its group before its own class has set it up, then once more.
+            if set_up and not record.complete:
                 fill_entity(record, entity)
             self.changes += 1
             return record
@@ -173,7 +170,7 @@ class Recorder:
             self.changes += 1
 
     def look_around(self) -> None:
-        """Read the live lists of all nodes that are in an executor, and note what is new."""
+        """Read the live lists of all nodes, and note what is new in them and what has gone."""
         with self.lock:
             for record in list(self.all_nodes):
                 node = record.ref()
@@ -216,7 +213,7 @@ class Recorder:
                 record.timings.end(clock, thread)
             else:
                 record.timings.refused += 1
-            self.changes += 1
+            self.measured += 1
 
     def _taken_events(self) -> Iterator[Event]:
         while True:
@@ -245,7 +242,8 @@ class Recorder:
             yield default
 
     def _look_at(self, owner: NodeRecord, node: Any) -> None:
-        for name in ENTITY_LISTS.values():
+        present = set()
+        for name in ENTITY_LISTS:
             for entity in list(getattr(node, name)):
                 known = self.entities.get(id(entity))
                 if known is None or known.ref() is not entity:
@@ -254,6 +252,16 @@ class Recorder:
                     self._join(known, entity.callback_group, node)
                 if not known.complete:
                     fill_entity(known, entity)
+                present.add(known.number)
+        self._note_destroyed(owner, present)
+
+    def _note_destroyed(self, owner: NodeRecord, present: set[int]) -> None:
+        """Mark what a node that lives on has lost; a destroyed node has lost everything."""
+        if not present:
+            return
+        for record in self.all_entities:
+            if record.node == owner.number and not record.destroyed:
+                record.destroyed = record.complete and record.number not in present
 
     def _look_at_executor(self, record: ExecutorRecord) -> None:
         executor = record.ref()

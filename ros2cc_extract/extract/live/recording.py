@@ -116,7 +116,7 @@ class RecordedEntity:
     builtin: bool
     library: str | None
     late: bool
-    gone: bool
+    destroyed: bool
     made: int
     in_callback: bool
     in_configure: bool
@@ -259,7 +259,7 @@ class _Reader:
             builtin=row['builtin'],
             library=row['library'],
             late=row['late'],
-            gone=row['gone'],
+            destroyed=row['destroyed'],
             made=row['made'],
             in_callback=row['in_callback'],
             in_configure=row['in_configure'],

@@ -131,7 +131,7 @@ def _entity(record: EntityRecord) -> dict[str, Any]:
         'builtin': record.builtin,
         'library': record.library,
         'late': record.late,
-        'gone': record.gone,
+        'destroyed': record.destroyed,
         'made': record.made,
         'measured': record.timings.describe(),
         **_creation(record.creation),

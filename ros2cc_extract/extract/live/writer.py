@@ -39,7 +39,8 @@ class Writer:
         self._path: str | None = None
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
-        self._written_changes = 0
+        self._looked_changes = 0
+        self._written_changes = (0, 0)
         self._not_before = 0.0
         self._complained = False
 
@@ -56,7 +57,7 @@ class Writer:
         self._stop.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout=2.0)
-        if self._recorder.all_executors:
+        if self._recorder.all_executors or self._recorder.loss_count:
             self._recorder.settle()
             self._write(ended=True)
 
@@ -72,12 +73,15 @@ class Writer:
     def update(self) -> None:
         """Write the file if anything has changed since it was written."""
         recorder = self._recorder
-        recorder.look_around()
+        if recorder.changes != self._looked_changes:
+            self._looked_changes = recorder.changes
+            recorder.look_around()
         recorder.settle()
         look_for_spinning_threads(recorder)
-        if recorder.changes == self._written_changes or time.monotonic() < self._not_before:
+        changes = recorder.changes, recorder.measured
+        if changes == self._written_changes or time.monotonic() < self._not_before:
             return
-        self._written_changes = recorder.changes
+        self._written_changes = changes
         started = time.thread_time()
         done = self._write(ended=False)
         spent = time.thread_time() - started

@@ -1,0 +1,39 @@
+"""Two executors: a late entity, a late node, a node that another executor takes over."""
+import threading
+
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+
+rclpy.init()
+pool, single = MultiThreadedExecutor(3), SingleThreadedExecutor()
+arm = rclpy.create_node('arm')
+base = rclpy.create_node('base')
+camera = rclpy.create_node('camera')
+done = threading.Event()
+
+
+def make_late_timer() -> None:
+    starter.cancel()
+    arm.create_timer(0.01, finish, callback_group=ReentrantCallbackGroup())
+
+
+def finish() -> None:
+    done.set()
+
+
+starter = arm.create_timer(0.01, make_late_timer)
+base.create_timer(0.01, base.get_logger)
+camera.create_timer(0.01, camera.get_logger)
+pool.add_node(arm)
+pool.add_node(camera)
+threading.Thread(target=pool.spin, daemon=True).start()
+done.wait(30)
+single.add_node(base)
+single.spin_once(timeout_sec=1)
+rclpy.spin_once(camera, timeout_sec=1)
+print('camera is in its executor:', camera in pool.get_nodes())
+print('arm is in its executor:', arm in pool.get_nodes())
+base.destroy_node()
+print('base is in its executor:', base in single.get_nodes())
+rclpy.shutdown()

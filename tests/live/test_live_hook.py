@@ -1,0 +1,189 @@
+"""The hook on real rclpy: it sees what there is to see, and the program does not notice."""
+
+from __future__ import annotations
+
+import io
+import signal
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from child import Child
+
+from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.run import read_directory
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
+
+PROGRAMS = Path(__file__).with_name('programs')
+Start = Callable[..., Child]
+
+
+@dataclass(frozen=True)
+class Run:
+    """How a program ended and what it said; with the hook also what was recorded of it."""
+
+    status: int
+    text: str
+    recordings: tuple[Recording, ...] = ()
+
+    @property
+    def units(self) -> dict[str, Spec]:
+        specs = (spec for recording in self.recordings for spec in specs_of(recording))
+        return {spec.name: spec for spec in specs}
+
+
+@pytest.fixture
+def run(start: Start, tmp_path: Path) -> Callable[..., Run]:
+    """Run a program with the hook to its end."""
+
+    def run_program(name: str, *arguments: str) -> Run:
+        child = start(PROGRAMS / name, *arguments, recorded_into=tmp_path)
+        status = child.end()
+        return Run(status, child.text, recordings_in(tmp_path))
+
+    return run_program
+
+
+def recordings_in(folder: Path) -> tuple[Recording, ...]:
+    return tuple(read_directory(folder, io.StringIO()))
+
+
+def written(unit: Spec) -> list[Callback]:
+    """Give the callbacks somebody wrote."""
+    return [callback for callback in unit.callbacks if not callback.builtin]
+
+
+def named(unit: Spec, function: str) -> Callback:
+    (found,) = [c for c in written(unit) if (c.function or '').endswith(f'.{function}')]
+    return found
+
+
+@pytest.mark.parametrize(
+    'program',
+    ['moving_nodes.py', 'own_classes.py', 'everything_hidden.py', 'forking.py', 'churning.py'],
+)
+def test_program_behaves_the_same_with_the_hook(program: str, start: Start, run: Run) -> None:
+    child = start(PROGRAMS / program)
+    without = Run(child.end(), child.text)
+    recorded = run(program)
+    assert (recorded.status, recorded.text) == (without.status, without.text)
+    assert {recording.losses for recording in recorded.recordings} == {0}
+
+
+def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: Run) -> None:
+    child = start(PROGRAMS / 'raising.py')
+    status = child.end()
+    recorded = run('raising.py')
+    assert recorded.status == status == 1
+    assert recorded.text.splitlines()[-1] == child.lines[-1].strip()
+    assert [c.display_name for c in written(recorded.units['stuck'])] == ['tick']
+
+
+def test_nodes_are_told_by_the_executor_they_stayed_in(run: Run) -> None:
+    units = run('moving_nodes.py').units
+    assert {name: (unit.executor.kind, unit.nodes) for name, unit in units.items()} == {
+        'moving_nodes': ('MultiThreadedExecutor', ('arm', 'camera')),
+        'base': ('SingleThreadedExecutor', ('base',)),
+    }
+    late = named(units['moving_nodes'], 'finish')
+    assert (late.when, late.conditional) == (When.CALLBACK, True)
+
+
+def test_own_classes_are_named_and_unresolved(run: Run) -> None:
+    (unit,) = run('own_classes.py').units.values()
+    (timer,) = written(unit)
+    own = unit.group_of(timer)
+    source = 'tests/live/programs/own_classes.py'
+    assert own.cls == 'CountingGroup'
+    assert own.unresolved == Unknown('own group class CountingGroup', Place(source, 29, 9))
+    assert unit.executor.unresolved == Unknown(
+        'own executor class PatientExecutor', Place(source, 31, 12)
+    )
+
+
+def test_group_that_calls_its_base_is_counted_once(run: Run) -> None:
+    (recording,) = run('own_classes.py').recordings
+    (timer,) = [entity for entity in recording.entities if entity.kind == 'timer']
+    assert (timer.measured.count, timer.measured.running, timer.measured.threads) == (5, 0, 1)
+    assert timer.measured.period is not None
+    assert timer.measured.duration is not None
+
+
+def test_hidden_entities_and_groupless_work_are_recorded(run: Run) -> None:
+    (unit,) = run('everything_hidden.py').units.values()
+    assert {(c.entity, c.display_name, c.key, c.when) for c in written(unit)} == {
+        (EntityKind.TIMER, 'blink', None, When.CONFIGURE),
+        (EntityKind.TIMER, 'rate_', None, When.START),
+        (EntityKind.SERVICE, 'on_press', 'press', When.START),
+        (EntityKind.CLIENT, 'press_client', 'press', When.START),
+        (EntityKind.SUBSCRIPTION, 'on_log', 'log', When.START),
+        (EntityKind.DONE_CALLBACK, 'on_answer', None, When.START),
+        (EntityKind.TASK, 'work_later', None, When.START),
+    }
+    assert named(unit, 'on_press').coroutine
+    assert unit.group_of(named(unit, 'work_later')).groupless
+
+
+def test_rclpys_own_entities_are_marked(run: Run) -> None:
+    (unit,) = run('everything_hidden.py').units.values()
+    kinds = [c.entity for c in unit.callbacks if c.builtin and c.node == 'lamp']
+    assert kinds.count(EntityKind.PARAMETER_SERVICE) == 6
+    assert kinds.count(EntityKind.LIFECYCLE_SERVICE) == 5
+    assert kinds.count(EntityKind.SERVICE) == 1
+
+
+def test_each_process_has_a_file_of_its_own(run: Run) -> None:
+    recorded = run('forking.py')
+    assert set(recorded.units) == {'parent', 'forked', 'spawned'}
+    assert len({recording.pid for recording in recorded.recordings}) == 3
+
+
+def test_entities_made_again_and_again_are_one_entry_with_a_count(run: Run) -> None:
+    unit = run('churning.py').units['churning']
+    idle = [c for c in written(unit) if c.display_name == 'idle' and c.node == 'churning']
+    assert sum(c.count for c in idle if isinstance(c.count, int)) == 40
+
+
+def test_killed_process_leaves_a_whole_recording(start: Start, tmp_path: Path) -> None:
+    child = start(PROGRAMS / 'waiting.py', '50', '40', recorded_into=tmp_path)
+    child.wait_for(lambda: sum(len(r.entities) for r in recordings_in(tmp_path)) > 2000)
+    assert child.end(signal.SIGKILL) == -signal.SIGKILL
+    (recording,) = recordings_in(tmp_path)
+    (unit,) = specs_of(recording)
+    assert not recording.ended
+    assert (len(unit.nodes), len(written(unit))) == (50, 2001)
+
+
+def test_recording_that_cannot_be_written_is_told_once(start: Start, tmp_path: Path) -> None:
+    child = start(PROGRAMS / 'waiting.py', '1', '1', recorded_into=tmp_path / 'missing')
+    complaint = 'the node runs on, its recording is tried again every 5 s'
+    child.read_until(lambda lines: any(complaint in line for line in lines))
+    ticks = child.text.count('tick')
+    child.read_until(lambda lines: sum('tick' in line for line in lines) > ticks + 3)
+    assert child.end(signal.SIGINT) != 0
+    assert child.text.count(complaint) == 1
+
+
+def test_failing_hook_changes_nothing_but_the_count_of_losses(
+    start: Start, tmp_path: Path
+) -> None:
+    without = start(PROGRAMS / 'moving_nodes.py')
+    without.end()
+    child = start(PROGRAMS / 'broken_hook.py', 'moving_nodes.py', recorded_into=tmp_path)
+    assert (child.end(), child.text) == (0, without.text)
+    (recording,) = recordings_in(tmp_path)
+    assert recording.losses > 20
+    assert recording.last_losses[-1] == "RuntimeError('broken on purpose')"
+
+
+def test_sitecustomize_of_the_user_still_runs(start: Start, tmp_path: Path) -> None:
+    own = tmp_path / 'own'
+    own.mkdir()
+    (own / 'sitecustomize.py').write_text('print("the user\'s own", __name__)\n')
+    child = start(PROGRAMS / 'own_classes.py', recorded_into=tmp_path, PYTHONPATH=str(own))
+    assert child.end() == 0
+    assert child.lines == ["the user's own sitecustomize\n", 'begun 5\n']
+    assert len(recordings_in(tmp_path)) == 1
