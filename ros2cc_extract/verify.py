@@ -56,7 +56,7 @@ class Options:
     verifyta: Path | None = None
     runs: Runs = Runs.TOGETHER
     profile: build.Profile = build.Profile.PAPER
-    text: build.Text = build.Text.PLAIN
+    text: build.Text = build.Text.COMPACT
     max_cycle: int = 1
     engine: EngineKind = EngineKind.AUTO
     fairness: Fairness = Fairness.NONE

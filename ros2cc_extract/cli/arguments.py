@@ -34,14 +34,16 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
     )
 
 
-def add_model_arguments(group: argparse._ActionsContainer, *, ranges: bool = False) -> None:
-    """Add which model of a unit is meant."""
+def add_model_arguments(
+    group: argparse._ActionsContainer, *, text: str, ranges: bool = False
+) -> None:
+    """Add which model of a unit is meant; ``text`` is the default text."""
     group.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
     group.add_argument(
         '--text',
         choices=['plain', 'compact'],
-        default='plain',
-        help='plain: the published text; compact: same verdicts, fewer states',
+        default=text,
+        help='plain: as published; compact: same verdicts, fewer states (default %(default)s)',
     )
     group.add_argument(
         '--max-cycle',
@@ -57,7 +59,7 @@ def add_search_arguments(
 ) -> None:
     """Add profile, limits and the choice of the engine; ``seconds`` is the default limit."""
     group = parser.add_argument_group('verification')
-    add_model_arguments(group, ranges=ranges)
+    add_model_arguments(group, text='compact', ranges=ranges)
     group.add_argument(
         '--checker',
         choices=['embedded', 'verifyta'],

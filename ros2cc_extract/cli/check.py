@@ -65,19 +65,20 @@ def _keep(
     closed_units: Sequence[ClosedSpec],
     stderr: TextIO,
 ) -> None:
-    from ros2cc_extract.cli.model import model_files
+    from ros2cc_extract.cli.model import model_files, unit_folders
     from ros2cc_extract.cli.output import write_atomically
     from ros2cc_extract.generator.build import render
     from ros2cc_extract.spec.yaml_io import write_specs
 
     options = options_of(args)
-    for unit, closed in zip(extraction.units, closed_units, strict=True):
-        write_atomically(args.output / f'{unit.name}.spec.yaml', write_specs([unit]))
+    folders = unit_folders([unit.name for unit in extraction.units], args.output)
+    for unit, closed, folder in zip(extraction.units, closed_units, folders, strict=True):
+        write_atomically(folder / f'{unit.name}.spec.yaml', write_specs([unit]))
         rendered = render(
             closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
         )
         for name, text in model_files(rendered).items():
-            write_atomically(args.output / name, text)
+            write_atomically(folder / name, text)
     print(f'kept {len(closed_units)} units in {args.output}', file=stderr)
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -25,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--svg', action='store_true', help='also draw each automaton as UPPAAL shows it'
     )
     add_unit_arguments(parser)
-    add_model_arguments(parser.add_argument_group('model'))
+    add_model_arguments(parser.add_argument_group('model'), text='plain')
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -36,7 +37,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     policy = policy_of(args)
     closed_units = [close(unit, policy) for unit in load_units(args.path, stderr)]
-    for closed in closed_units:
+    folders = unit_folders([closed.spec.name for closed in closed_units], args.output)
+    for closed, folder in zip(closed_units, folders, strict=True):
         rendered = render(
             closed,
             profile=Profile(args.profile),
@@ -47,9 +49,18 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
             print(f'{rendered.name}: assumed: {assumption}', file=stderr)
         files = {**model_files(rendered), **(_drawings(rendered) if args.svg else {})}
         for name, text in files.items():
-            write_atomically(args.output / name, text)
-            print(args.output / name, file=stdout)
+            write_atomically(folder / name, text)
+            print(folder / name, file=stdout)
     return EXIT_CLEAN
+
+
+def unit_folders(names: Sequence[str], output: Path) -> list[Path]:
+    """One folder per unit: ``output`` itself, but for units that share their name."""
+    uses = Counter(names)
+    return [
+        output if uses[name] == 1 else output / f'{number}_{name}'
+        for number, name in enumerate(names, start=1)
+    ]
 
 
 def model_files(rendered: RenderedModel) -> Mapping[str, str]:

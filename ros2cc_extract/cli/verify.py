@@ -104,7 +104,7 @@ def _print_text(
     console = console_for(stdout)
     for verification in verifications:
         console.print(f'model {verification.model}', style='bold')
-        print_table(verification, console, formulas=True)
+        print_table(verification, console, details=True)
         print_evidence(_shown(verification, args.trace), console, changes=args.trace)
 
 

@@ -1,4 +1,4 @@
-"""Summary of a unit: executor, groups, callbacks, and what is not known."""
+"""Summary of a unit: executor, groups and callbacks."""
 
 from __future__ import annotations
 
@@ -18,9 +18,6 @@ def print_spec(spec: Spec, console: Console) -> None:
         console.print(f'  entry: {spec.entry}')
     _print_groups(spec, console)
     _print_callbacks(spec, console)
-    for fact in spec.unresolved:
-        where = f'{fact.source}: ' if fact.source else ''
-        console.print(f'  unresolved: {where}{fact.subject}: {fact.fact}: {fact.reason}')
 
 
 def describe_executor(executor: Executor) -> str:
@@ -80,7 +77,7 @@ def _subject(callback: Callback) -> str:
     if value is None:
         return '-'
     if isinstance(value, Unknown):
-        return '?'
+        return 'every ? s' if callback.key is None else '?'
     return f'every {value:g} s' if isinstance(value, float) else value
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 from rich.padding import Padding
@@ -12,21 +12,20 @@ from ros2cc_extract.report.style import table, verdict_text
 from ros2cc_extract.verify import QueryResult, Verdict, Verification
 
 
-def print_table(verification: Verification, console: Console, *, formulas: bool) -> None:
-    """Print one row per query, in the order of the ``.q`` file."""
-    columns = ['  #', 'query', *(['expression'] if formulas else []), 'verdict', 'time']
-    rows = table(*columns)
+def print_table(verification: Verification, console: Console, *, details: bool) -> None:
+    """
+    Print one row per query, in the order of the ``.q`` file.
+
+    :param details: with expression and time, as the paper's table has them.
+    """
+    rows = table('  #', 'query', *(['expression', 'verdict', 'time'] if details else ['verdict']))
     for number, result in enumerate(verification.results, start=1):
-        rows.add_row(
-            f'{number:3}',
-            result.words,
-            *([result.formula] if formulas else []),
-            verdict_text(result.verdict, result.reason),
-            f'{result.seconds:.3f} s',
-        )
+        verdict = verdict_text(result.verdict, result.reason)
+        expert = [result.formula, verdict, f'{result.seconds:.3f} s']
+        rows.add_row(f'{number:3}', result.words, *(expert if details else [verdict]))
     console.print(rows)
     console.print(f'  {_cost(verification)}')
-    for note in verification.notes:
+    for note in (*verification.notes, *_caveats(verification)):
         console.print(f'  note: {note}')
     for assumption in verification.assumptions:
         console.print(f'  assumed: {assumption}')
@@ -41,6 +40,17 @@ def print_evidence(
             word = 'witness' if _is_witness(result) else 'counterexample'
             console.print(f'{word} for {number}: {result.words}: {result.verdict.value}')
             _print_run(result.evidence, console, changes=changes)
+
+
+def _caveats(verification: Verification) -> Iterator[str]:
+    starving = (r for r in verification.results if r.family == 'starvation')
+    if verification.profile == 'paper' and any(
+        r.verdict is Verdict.NOT_SATISFIED for r in starving
+    ):
+        yield (
+            'starvation is judged as published, where data that is not served may vanish; '
+            'rclpy keeps it (docs/model.md)'
+        )
 
 
 def _is_witness(result: QueryResult) -> bool:
@@ -79,7 +89,8 @@ def _print_run(evidence: Evidence, console: Console, *, changes: bool) -> None:
 
 
 def _places(moment: Moment) -> str:
-    return ', '.join(dict.fromkeys(str(place) for _, place in moment.places))
+    lines = (f'{place.file}:{place.line}' for _, place in moment.places)
+    return ', '.join(dict.fromkeys(lines))
 
 
 _ENDS = {

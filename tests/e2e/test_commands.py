@@ -60,7 +60,9 @@ def test_model_draws_its_automata_on_request(run: Run, tmp_path: Path) -> None:
 
 def test_verify_reads_the_model_that_model_wrote(run: Run) -> None:
     run('model', CASE_1, '-o', 'out')
-    from_source = json.loads(run('verify', CASE_1, '--output-format', 'json').out)
+    from_source = json.loads(
+        run('verify', CASE_1, '--text', 'plain', '--output-format', 'json').out
+    )
     outcome = run(
         'verify',
         'out/paper_case1.xml',
