@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from child import Child
+from conftest import ROOT
 
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.recording import Recording
@@ -19,6 +20,7 @@ from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
 
 PROGRAMS = Path(__file__).with_name('programs')
 Start = Callable[..., Child]
+RunProgram = Callable[[str], 'Run']
 
 
 @dataclass(frozen=True)
@@ -35,14 +37,19 @@ class Run:
         return {spec.name: spec for spec in specs}
 
 
-@pytest.fixture
-def run(start: Start, tmp_path: Path) -> Callable[..., Run]:
-    """Run a program with the hook to its end."""
+_RUNS: dict[str, Run] = {}
 
-    def run_program(name: str, *arguments: str) -> Run:
-        child = start(PROGRAMS / name, *arguments, recorded_into=tmp_path)
-        status = child.end()
-        return Run(status, child.text, recordings_in(tmp_path))
+
+@pytest.fixture
+def run(start: Start, tmp_path: Path) -> Callable[[str], Run]:
+    """Run a program with the hook to its end, once for all tests."""
+
+    def run_program(name: str) -> Run:
+        if name not in _RUNS:
+            child = start(PROGRAMS / name, recorded_into=tmp_path)
+            status = child.end()
+            _RUNS[name] = Run(status, child.text, recordings_in(tmp_path))
+        return _RUNS[name]
 
     return run_program
 
@@ -65,7 +72,9 @@ def named(unit: Spec, function: str) -> Callback:
     'program',
     ['moving_nodes.py', 'own_classes.py', 'everything_hidden.py', 'forking.py', 'churning.py'],
 )
-def test_program_behaves_the_same_with_the_hook(program: str, start: Start, run: Run) -> None:
+def test_program_behaves_the_same_with_the_hook(
+    program: str, start: Start, run: RunProgram
+) -> None:
     child = start(PROGRAMS / program)
     without = Run(child.end(), child.text)
     recorded = run(program)
@@ -73,7 +82,7 @@ def test_program_behaves_the_same_with_the_hook(program: str, start: Start, run:
     assert {recording.losses for recording in recorded.recordings} == {0}
 
 
-def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: Run) -> None:
+def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: RunProgram) -> None:
     child = start(PROGRAMS / 'raising.py')
     status = child.end()
     recorded = run('raising.py')
@@ -82,7 +91,7 @@ def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: R
     assert [c.display_name for c in written(recorded.units['stuck'])] == ['tick']
 
 
-def test_nodes_are_told_by_the_executor_they_stayed_in(run: Run) -> None:
+def test_nodes_are_told_by_the_executor_they_stayed_in(run: RunProgram) -> None:
     units = run('moving_nodes.py').units
     assert {name: (unit.executor.kind, unit.nodes) for name, unit in units.items()} == {
         'moving_nodes': ('MultiThreadedExecutor', ('arm', 'camera')),
@@ -92,7 +101,7 @@ def test_nodes_are_told_by_the_executor_they_stayed_in(run: Run) -> None:
     assert (late.when, late.conditional) == (When.CALLBACK, True)
 
 
-def test_own_classes_are_named_and_unresolved(run: Run) -> None:
+def test_own_classes_are_named_and_unresolved(run: RunProgram) -> None:
     (unit,) = run('own_classes.py').units.values()
     (timer,) = written(unit)
     own = unit.group_of(timer)
@@ -104,7 +113,7 @@ def test_own_classes_are_named_and_unresolved(run: Run) -> None:
     )
 
 
-def test_group_that_calls_its_base_is_counted_once(run: Run) -> None:
+def test_group_that_calls_its_base_is_counted_once(run: RunProgram) -> None:
     (recording,) = run('own_classes.py').recordings
     (timer,) = [entity for entity in recording.entities if entity.kind == 'timer']
     assert (timer.measured.count, timer.measured.running, timer.measured.threads) == (5, 0, 1)
@@ -112,7 +121,7 @@ def test_group_that_calls_its_base_is_counted_once(run: Run) -> None:
     assert timer.measured.duration is not None
 
 
-def test_hidden_entities_and_groupless_work_are_recorded(run: Run) -> None:
+def test_hidden_entities_and_groupless_work_are_recorded(run: RunProgram) -> None:
     (unit,) = run('everything_hidden.py').units.values()
     assert {(c.entity, c.display_name, c.key, c.when) for c in written(unit)} == {
         (EntityKind.TIMER, 'blink', None, When.CONFIGURE),
@@ -127,7 +136,7 @@ def test_hidden_entities_and_groupless_work_are_recorded(run: Run) -> None:
     assert unit.group_of(named(unit, 'work_later')).groupless
 
 
-def test_rclpys_own_entities_are_marked(run: Run) -> None:
+def test_rclpys_own_entities_are_marked(run: RunProgram) -> None:
     (unit,) = run('everything_hidden.py').units.values()
     kinds = [c.entity for c in unit.callbacks if c.builtin and c.node == 'lamp']
     assert kinds.count(EntityKind.PARAMETER_SERVICE) == 6
@@ -135,13 +144,13 @@ def test_rclpys_own_entities_are_marked(run: Run) -> None:
     assert kinds.count(EntityKind.SERVICE) == 1
 
 
-def test_each_process_has_a_file_of_its_own(run: Run) -> None:
+def test_each_process_has_a_file_of_its_own(run: RunProgram) -> None:
     recorded = run('forking.py')
     assert set(recorded.units) == {'parent', 'forked', 'spawned'}
     assert len({recording.pid for recording in recorded.recordings}) == 3
 
 
-def test_entities_made_again_and_again_are_one_entry_with_a_count(run: Run) -> None:
+def test_entities_made_again_and_again_are_one_entry_with_a_count(run: RunProgram) -> None:
     unit = run('churning.py').units['churning']
     idle = [c for c in written(unit) if c.display_name == 'idle' and c.node == 'churning']
     assert sum(c.count for c in idle if isinstance(c.count, int)) == 40
@@ -177,6 +186,16 @@ def test_failing_hook_changes_nothing_but_the_count_of_losses(
     (recording,) = recordings_in(tmp_path)
     assert recording.losses > 20
     assert recording.last_losses[-1] == "RuntimeError('broken on purpose')"
+
+
+def test_import_of_one_module_is_enough(start: Start, tmp_path: Path) -> None:
+    program = tmp_path / 'importing.py'
+    source = (PROGRAMS / 'own_classes.py').read_text()
+    program.write_text(f'import ros2cc_extract.live\n{source}')
+    child = start(program, PYTHONPATH=str(ROOT), ROS2CC_LIVE_DIR=str(tmp_path))
+    assert (child.end(), child.text) == (0, 'begun 5\n')
+    (recording,) = recordings_in(tmp_path)
+    assert [spec.nodes for spec in specs_of(recording)] == [('careful',)]
 
 
 def test_sitecustomize_of_the_user_still_runs(start: Start, tmp_path: Path) -> None:

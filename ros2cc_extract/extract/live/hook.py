@@ -171,7 +171,8 @@ class Hook:
     def _at_exit(self) -> None:
         try:
             self.writer.finish()
-        except Exception as error:
+        except (Exception, KeyboardInterrupt) as error:
+            # A Ctrl-C that arrives only now would be shown as ours; the program is over anyway.
             self.recorder.lose(error)
 
 

@@ -1,0 +1,128 @@
+"""``run`` starts a command as if we were not there, and writes what its processes held."""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+from child import Child
+from conftest import EXAMPLES, ROOT
+
+from ros2cc_extract.errors import InputError, ToolNotFoundError
+from ros2cc_extract.extract.live.environment import hooked_environment, shell_commands
+from ros2cc_extract.extract.live.run import run_command
+from ros2cc_extract.spec.yaml_io import load_specs
+
+OURSELVES = (
+    'import sys; from pathlib import Path; from ros2cc_extract.extract.live.run import '
+    'run_command; sys.exit(run_command(sys.argv[2:], Path(sys.argv[1]), sys.stderr))'
+)
+
+
+@pytest.fixture
+def start_run(ros_env: dict[str, str], tmp_path: Path) -> Callable[..., Child]:
+    """Start ``run -o tmp_path/live.yaml -- …`` in a process of its own."""
+
+    def start(*command: str) -> Child:
+        output = str(tmp_path / 'live.yaml')
+        env = {**ros_env, 'PYTHONPATH': str(ROOT)}
+        return Child([sys.executable, '-c', OURSELVES, output, *command], env)
+
+    return start
+
+
+def run_here(command: Sequence[str], output: Path, env: dict[str, str]) -> tuple[int, str]:
+    stderr = io.StringIO()
+    return run_command(command, output, stderr, environment=env), stderr.getvalue()
+
+
+def test_exit_status_passes_through(start_run: Callable[..., Child]) -> None:
+    assert start_run('sh', '-c', 'exit 7').end() == 7
+
+
+def test_end_by_a_signal_passes_through(start_run: Callable[..., Child]) -> None:
+    assert start_run('sh', '-c', 'kill -USR1 $$').end() == -signal.SIGUSR1
+
+
+@pytest.mark.parametrize('name', ['INT', 'TERM', 'HUP', 'USR1'])
+def test_signal_sent_to_us_reaches_the_command(
+    name: str, start_run: Callable[..., Child]
+) -> None:
+    waits = f'trap "echo got {name}; exit 5" {name}; echo up; while :; do sleep 0.05; done'
+    child = start_run('sh', '-c', waits)
+    child.read_until(lambda lines: 'up\n' in lines)
+    assert child.end(signal.Signals[f'SIG{name}']) == 5
+    assert child.lines[1] == f'got {name}\n'
+
+
+def test_standard_streams_pass_through(ros_env: dict[str, str], tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, '-c', OURSELVES, str(tmp_path / 'out'), 'sh', '-c', 'cat; echo e >&2'],
+        input='through', capture_output=True, text=True, check=False,
+        env={**ros_env, 'PYTHONPATH': str(ROOT)},
+    )
+    assert (done.stdout, done.stderr.splitlines()[0]) == ('through', 'e')
+
+
+def test_command_that_is_not_there_is_told(ros_env: dict[str, str], tmp_path: Path) -> None:
+    with pytest.raises(ToolNotFoundError, match="'no-such-command' cannot be started"):
+        run_here(['no-such-command'], tmp_path / 'live.yaml', ros_env)
+
+
+def test_output_in_a_missing_folder_is_refused_before_the_start(
+    ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    trace = tmp_path / 'started'
+    with pytest.raises(InputError, match='folder does not exist; create it first'):
+        run_here(['touch', str(trace)], tmp_path / 'no' / 'live.yaml', ros_env)
+    assert not trace.exists()
+
+
+def test_full_disk_is_told_and_the_old_file_kept(
+    ros_env: dict[str, str], tmp_path: Path, rclpy_python: str
+) -> None:
+    output = tmp_path / 'live.yaml'
+    output.write_text('what was there')
+    (tmp_path / 'live.yaml.new').symlink_to('/dev/full')
+    node = str(EXAMPLES / 'default_group_only' / 'node.py')
+    status, told = run_here([rclpy_python, node, '--seconds', '1'], output, ros_env)
+    assert status == 2
+    assert told == f'{output}: cannot be written: No space left on device\n'
+    assert output.read_text() == 'what was there'
+
+
+def test_shell_script_with_two_nodes_gives_a_file_each(
+    ros_env: dict[str, str], tmp_path: Path, rclpy_python: str
+) -> None:
+    script = tmp_path / 'both.sh'
+    script.write_text(
+        f'{rclpy_python} {EXAMPLES}/paper_publisher/node.py --seconds 1 &\n'
+        f'{rclpy_python} {EXAMPLES}/default_group_only/node.py --seconds 1\nwait\n'
+    )
+    folder = tmp_path / 'specs'
+    folder.mkdir()
+    assert run_here(['sh', str(script)], folder, ros_env) == (0, '')
+    units = [spec.name for path in folder.glob('*.spec.yaml') for spec in load_specs(path)]
+    assert sorted(units) == ['battery_watch', 'paper_publisher']
+
+
+def test_command_without_a_node_is_told(ros_env: dict[str, str], tmp_path: Path) -> None:
+    output = tmp_path / 'live.yaml'
+    status, told = run_here(['true'], output, ros_env)
+    assert (status, output.exists()) == (0, False)
+    assert told.startswith('ros2cc-extract: no process of this command has put a node into')
+
+
+def test_variables_for_a_shell_are_those_of_a_run(tmp_path: Path) -> None:
+    before = {'PYTHONPATH': f'first{os.pathsep}{os.pathsep}second', 'HOME': '/home/it is'}
+    hooked = hooked_environment(before, tmp_path)
+    script = f"{shell_commands(before, tmp_path)}printf '%s|%s' $PYTHONPATH $ROS2CC_LIVE_DIR"
+    shown = subprocess.run(['sh', '-c', script], capture_output=True, text=True, check=True).stdout
+    assert shown == f'{hooked["PYTHONPATH"]}|{tmp_path}'
+    assert hooked['PYTHONPATH'].split(os.pathsep)[1:] == ['first', 'second']
