@@ -57,7 +57,7 @@ BLOCKING = record(
     Blocking,
     (
         Plain('call', 'call', TEXT),
-        Open(('on',), 'on', TEXT, ('on_resolved', False), 'on_', None),
+        Open(('waits_for',), 'on', TEXT, ('waits_for_resolved', False), 'waits_for_', None),
         Open(('seconds',), 'seconds', SECONDS, ('seconds_resolved', False), 'seconds_', None),
         *plain_rows(Blocking, (_SOURCE, _CHAIN)),
     ),
