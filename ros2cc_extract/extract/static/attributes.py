@@ -61,7 +61,8 @@ class Attributes(Machine):
         if isinstance(value, Module):
             return self._of_module(value, name, place)
         if isinstance(value, Library):
-            return self.library(f'{value.name}.{name}')
+            member = self.library_member(value, None, name, place)
+            return member or self.library(f'{value.name}.{name}')
         if isinstance(value, Super):
             return self._of_super(value, name, place)
         if isinstance(value, (Sequence, Mapping, Const)):

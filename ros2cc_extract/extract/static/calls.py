@@ -45,7 +45,9 @@ class Calls(Machine):
     def call(self, function: Value, call: Call) -> Value:
         """The result of a call, after its effects."""
         if isinstance(function, Choice):
-            acts = [partial(self.call, option, call) for option in options_of(function)]
+            options = options_of(function)
+            able = [option for option in options if not isinstance(option, Const)] or options
+            acts = [partial(self.call, option, call) for option in able]
             return self.branch(acts, call.place) if len(acts) > 1 else acts[0]()
         handler = _CALLABLE.get(type(function))
         if handler is not None:
@@ -203,6 +205,11 @@ class Calls(Machine):
         function = Function(node, frame.module, qualname, scope)
         function.owner = in_class
         function.defaults = tuple(self.evaluate(d, frame) for d in node.args.defaults)
+        parameters = (*node.args.posonlyargs, *node.args.args)
+        for parameter, value in zip(
+            reversed(parameters), reversed(function.defaults), strict=False
+        ):
+            self.name_value(value, parameter.arg)
         for parameter, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
                 function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)

@@ -17,12 +17,22 @@ from ros2cc_extract.extract.static.values import (
     Module,
     Mystery,
     Native,
+    Scope,
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import EntityRef, EntityState, ExecutorState, PlainState
+from ros2cc_extract.extract.static.world import (
+    AccessKind,
+    EntityRef,
+    EntityState,
+    ExecutorState,
+    PlainState,
+)
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking
+
+# A loop that is unrolled meets the same access again and again.
+_RECENT = 40
 
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
@@ -30,23 +40,50 @@ _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 class Effects(Machine):
     """Notes for the callback that is being followed; nothing while there is none."""
 
-    def note_attribute(self, owner: Value, name: str, is_write: bool, place: Place) -> None:
-        """An attribute is read or written."""
+    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """An attribute is touched; methods, entities and locks are no shared data."""
+        if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
+            return
+        cls = owner.cls if isinstance(owner, Instance) else owner
+        if not isinstance(cls, Class) or self._is_behaviour(owner, name):
+            return
+        self._note_access(f'{cls.name}.{name}', kind, place)
+
+    def _note_access(self, name: str, kind: AccessKind, place: Place) -> None:
         deeds = self.world.deeds
-        if deeds is None or not isinstance(owner, (Instance, Class)):
-            return
-        if not isinstance(owner.slots.get(name, NONE), Value) or self._is_behaviour(owner, name):
-            return
-        class_name = owner.class_name if isinstance(owner, Instance) else owner.name
-        if isinstance(owner, Instance) and not isinstance(owner.cls, Class):
+        if deeds is None:
             return
         access = Access(
-            name=f'{class_name}.{name}',
+            name=name,
             source=place,
             locks=self.world.held,
+            update=kind is AccessKind.UPDATE,
             chain=self.world.chain[1:],
         )
-        (deeds.writes if is_write else deeds.reads).append(access)
+        accesses = deeds.reads if kind is AccessKind.READ else deeds.writes
+        if access not in accesses[-_RECENT:]:
+            accesses.append(access)
+
+    def note_update(self, target: ast.expr, frame: Frame) -> None:
+        """The object in a name or attribute is changed in place."""
+        if self.world.deeds is None:
+            return
+        place = frame.place(target)
+        if isinstance(target, ast.Subscript):
+            self.note_update(target.value, frame)
+        elif isinstance(target, ast.Attribute):
+            for owner in options_of(self.evaluate(target.value, frame)):
+                self.note_attribute(owner, target.attr, AccessKind.UPDATE, place)
+        elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
+            self.note_global(frame.module, target.id, AccessKind.UPDATE, place)
+
+    def _is_global(self, name: str, frame: Frame) -> bool:
+        scope: Scope | None = frame.scope
+        while scope is not None:
+            if name in scope.slots and name not in scope.global_names:
+                return False
+            scope = scope.parent
+        return name in frame.module.slots
 
     def _is_behaviour(self, owner: Instance | Class, name: str) -> bool:
         """Methods, entities and locks are no shared data."""
@@ -65,24 +102,14 @@ class Effects(Machine):
             for option in options_of(value)
         )
 
-    def note_global(self, module: Module, name: str, is_write: bool, place: Place) -> None:
-        """A global is read or written."""
-        deeds = self.world.deeds
-        if deeds is None:
+    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
+        """A global is touched; only those count that some function changes."""
+        if self.world.deeds is None or name not in self.changed_globals(module):
             return
         value = module.slots.get(name)
-        if not is_write and not self._is_written_global(module, name, value):
+        if isinstance(value, Instance) and value.state is not None:
             return
-        access = Access(
-            name=f'{module.name}.{name}',
-            source=place,
-            locks=self.world.held,
-            chain=self.world.chain[1:],
-        )
-        (deeds.writes if is_write else deeds.reads).append(access)
-
-    def _is_written_global(self, module: Module, name: str, value: object) -> bool:
-        return name in self.world.written_globals.get(module.name, ())
+        self._note_access(f'{module.name}.{name}', kind, place)
 
     def note_loop(self, node: ast.While, frame: Frame) -> None:
         """A ``while`` loop begins; one that only waits for a future is a busy wait."""

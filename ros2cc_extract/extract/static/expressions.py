@@ -9,6 +9,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.relevance import CHANGING_METHODS
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
@@ -32,6 +33,7 @@ from ros2cc_extract.extract.static.values import (
     choice,
     options_of,
 )
+from ros2cc_extract.extract.static.world import AccessKind
 from ros2cc_extract.places import Unknown
 
 _DEPTH_LIMIT = 120
@@ -100,6 +102,24 @@ class Expressions(Machine):
             return None
         return True
 
+    def operate(
+        self, op: ast.operator, left: Value, right: Value, frame: Frame, node: ast.AST
+    ) -> Value:
+        """``left op right``."""
+        if isinstance(left, Sequence) and isinstance(right, Sequence) and isinstance(op, ast.Add):
+            rest = left.rest or right.rest
+            return Sequence((*left.items, *right.items), left.kind, rest)
+        if isinstance(left, Sequence) and isinstance(op, ast.Mult):
+            return _repeated(left, right, frame, node)
+        folded = folding.binary(op, left, right)
+        if folded is not None:
+            return folded
+        for side in (left, right):
+            if isinstance(side, Mystery):
+                text = _text(node) if isinstance(node, ast.BinOp) else side.text
+                return Mystery(side.unknown, text)
+        return self.mystery('an expression that could not be folded', frame.place(node))
+
     def _has_truth_method(self, value: Instance) -> bool:
         return isinstance(value.cls, Class) and any(
             name in cls.slots
@@ -138,7 +158,7 @@ def _note_free_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
         if node.id in inner.slots:
             return
         inner = inner.parent
-    machine.note_global(frame.module, node.id, False, frame.place(node))
+    machine.note_global(frame.module, node.id, AccessKind.READ, frame.place(node))
 
 
 def _constant(machine: Expressions, node: ast.Constant, frame: Frame) -> Value:
@@ -150,7 +170,7 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     place = frame.place(node)
     if machine.world.deeds is not None:
         for option in options_of(owner):
-            machine.note_attribute(option, node.attr, False, place)
+            machine.note_attribute(option, node.attr, AccessKind.READ, place)
     text = _text(node) if isinstance(owner, Mystery) else ''
     if isinstance(owner, Choice):
         options = options_of(owner)
@@ -171,13 +191,29 @@ def _text(node: ast.expr) -> str:
 def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     if isinstance(node.func, ast.Name) and node.func.id == 'super' and not node.args:
         return machine.zero_argument_super(frame)
-    function = machine.evaluate(node.func, frame)
+    function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
     if isinstance(function, Mystery):
         call.text = _text(node)
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     return machine.call(function, call)
+
+
+def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
+    """The function of a call; a method that changes its owner in place is an update of it."""
+    if (
+        machine.world.deeds is None
+        or not isinstance(node, ast.Attribute)
+        or node.attr not in CHANGING_METHODS
+        or not isinstance(node.value, (ast.Attribute, ast.Name))
+    ):
+        return machine.evaluate(node, frame)
+    noted, machine.world.deeds = machine.world.deeds, None
+    function = machine.evaluate(node, frame)
+    machine.world.deeds = noted
+    machine.note_update(node.value, frame)
+    return function
 
 
 def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
@@ -345,20 +381,10 @@ def _unary(machine: Expressions, node: ast.UnaryOp, frame: Frame) -> Value:
 def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
     left = machine.evaluate(node.left, frame)
     right = machine.evaluate(node.right, frame)
-    if isinstance(left, Sequence) and isinstance(right, Sequence) and isinstance(node.op, ast.Add):
-        return Sequence((*left.items, *right.items), left.kind, left.rest or right.rest)
-    if isinstance(left, Sequence) and isinstance(node.op, ast.Mult):
-        return _repeated(left, right, frame, node)
-    folded = folding.binary(node.op, left, right)
-    if folded is not None:
-        return folded
-    for side in (left, right):
-        if isinstance(side, Mystery):
-            return Mystery(side.unknown, _text(node))
-    return machine.mystery('an expression that could not be folded', frame.place(node))
+    return machine.operate(node.op, left, right, frame, node)
 
 
-def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.BinOp) -> Value:
+def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.AST) -> Value:
     if isinstance(right, Const) and isinstance(right.value, int) and right.value <= 1000:
         return Sequence(left.items * right.value, left.kind, left.rest)
     return Sequence(left.items, left.kind, Unknown('unknown length', frame.place(node)))

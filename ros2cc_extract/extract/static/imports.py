@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.project import Project
+from ros2cc_extract.extract.static.relevance import changed_globals
 from ros2cc_extract.extract.static.source import SourceFile
 from ros2cc_extract.extract.static.values import Const, Instance, Library, Module, Scope, Value
 from ros2cc_extract.places import Place
@@ -16,6 +17,7 @@ class Imports(Machine):
 
     project: Project
     modules: dict[str, Module]
+    _changed: dict[str, frozenset[str]]
 
     def import_module(self, name: str, place: Place) -> Value:
         """A scanned module, or a library of that name."""
@@ -60,6 +62,16 @@ class Imports(Machine):
         if self.project.module(f'{module_name}.{name}', place.file) is not None:
             return self.import_module(f'{module_name}.{name}', place)
         return self.attribute(module, name, place)
+
+    def changed_globals(self, module: Module) -> frozenset[str]:
+        """Names of globals that some function of the module rebinds or changes in place."""
+        known = self._changed.get(module.file)
+        if known is None:
+            source = next((s for s in self.project.files if s.shown == module.file), None)
+            tree = source.tree if source else None
+            known = changed_globals(tree) if tree else frozenset()
+            self._changed[module.file] = known
+        return known
 
     def submodule(self, module: Module, name: str, place: Place) -> Value | None:
         """A module of a scanned package."""

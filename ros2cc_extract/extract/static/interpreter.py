@@ -27,3 +27,4 @@ class Interpreter(
         self.stack = []
         self.project = project
         self.modules = {}
+        self._changed = {}

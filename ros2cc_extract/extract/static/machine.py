@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
 )
-from ros2cc_extract.extract.static.world import World
+from ros2cc_extract.extract.static.world import AccessKind, World
 from ros2cc_extract.places import Place, Unknown
 
 
@@ -74,6 +74,12 @@ class Machine(ABC):
     @abstractmethod
     def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
         """Run statements; returns how the block may end, see ``statements.py``."""
+
+    @abstractmethod
+    def operate(
+        self, op: ast.operator, left: Value, right: Value, frame: Frame, node: ast.AST
+    ) -> Value:
+        """``left op right``."""
 
     @abstractmethod
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
@@ -128,12 +134,20 @@ class Machine(ABC):
         """What ``with value as x`` binds to ``x``."""
 
     @abstractmethod
-    def note_attribute(self, owner: Value, name: str, is_write: bool, place: Place) -> None:
-        """An attribute is read or written; matters while a callback runs."""
+    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """An attribute is touched; matters while a callback runs."""
 
     @abstractmethod
-    def note_global(self, module: Module, name: str, is_write: bool, place: Place) -> None:
-        """A global is read or written; matters while a callback runs."""
+    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
+        """A global is touched; matters while a callback runs."""
+
+    @abstractmethod
+    def note_update(self, target: ast.expr, frame: Frame) -> None:
+        """The object in a name or attribute is changed in place."""
+
+    @abstractmethod
+    def changed_globals(self, module: Module) -> frozenset[str]:
+        """Names of globals that some function of the module rebinds or changes in place."""
 
     @abstractmethod
     def note_loop(self, node: ast.While, frame: Frame) -> None:

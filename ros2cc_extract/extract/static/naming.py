@@ -140,17 +140,17 @@ def _tell_apart(wanted: Sequence[Wanted], members: list[int], taken: set[str]) -
     entries = [wanted[index] for index in members]
     for parts in (('key',), ('node',), ('node', 'key')):
         names = [_prefixed(entry, parts) for entry in entries]
-        if None in names:
+        if len(parts) == 1 and None in names:
             continue
-        mended = [mend(name or '') for name in names]
+        mended = [mend(name or entry.label) for name, entry in zip(names, entries, strict=True)]
         if len(set(mended)) == len(mended) and not taken & set(mended):
             return mended
     return [_best_prefixed(entry, len(entries)) for entry in entries]
 
 
 def _prefixed(entry: Wanted, parts: Sequence[str]) -> str | None:
-    texts = [getattr(entry, part) for part in parts]
-    return None if None in texts else '_'.join([*texts, entry.label])
+    texts = [text for part in parts if (text := getattr(entry, part)) is not None]
+    return '_'.join([*texts, entry.label]) if texts else None
 
 
 def _best_prefixed(entry: Wanted, number: int) -> str:

@@ -1,4 +1,4 @@
-"""Whether a piece of text can make ROS entities at all: a cheap question, asked first."""
+"""Cheap questions about a piece of text, asked before it is followed."""
 
 from __future__ import annotations
 
@@ -29,6 +29,28 @@ _NAMES = frozenset(
     ]
 )
 
+CHANGING_METHODS = frozenset(
+    {
+        'append',
+        'appendleft',
+        'add',
+        'clear',
+        'discard',
+        'extend',
+        'extendleft',
+        'insert',
+        'pop',
+        'popitem',
+        'popleft',
+        'remove',
+        'reverse',
+        'setdefault',
+        'sort',
+        'update',
+    }
+)
+"""Methods of Python's collections that change their owner in place."""
+
 _CACHE: dict[int, tuple[ast.AST, bool]] = {}
 
 
@@ -44,3 +66,23 @@ def creates_entities(node: ast.AST) -> bool:
     )
     _CACHE[id(node)] = (node, answer)
     return answer
+
+
+def changed_globals(tree: ast.Module) -> frozenset[str]:
+    """Names that a function of the module declares global or changes in place."""
+    found: set[str] = set()
+    for function in ast.walk(tree):
+        if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            for part in ast.walk(function):
+                found.update(_changed_names(part))
+    return frozenset(found)
+
+
+def _changed_names(part: ast.AST) -> list[str]:
+    if isinstance(part, ast.Global):
+        return part.names
+    if isinstance(part, ast.Subscript) and isinstance(part.ctx, (ast.Store, ast.Del)):
+        return [part.value.id] if isinstance(part.value, ast.Name) else []
+    if isinstance(part, ast.Attribute) and part.attr in CHANGING_METHODS:
+        return [part.value.id] if isinstance(part.value, ast.Name) else []
+    return []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import io
+import re
 import tokenize
 import warnings
 from dataclasses import dataclass, field
@@ -15,7 +16,7 @@ from ros2cc_extract.places import Place
 
 SIZE_LIMIT_BYTES = 16_000_000
 
-_PYTHON_2 = ('print ', 'exec ', 'except', 'raise')
+_CREATES = re.compile(rb'\.create_(?:subscription|timer|service|client)\(')
 
 
 @dataclass(eq=False)
@@ -51,8 +52,8 @@ class SourceFile:
 
     @property
     def mentions_ros(self) -> bool:
-        """Whether the text names rclpy at all."""
-        return b'rclpy' in self.data
+        """Whether the text names rclpy, or calls what a node of an unseen base class has."""
+        return b'rclpy' in self.data or _CREATES.search(self.data) is not None
 
     @cached_property
     def tree(self) -> ast.Module | None:

@@ -29,7 +29,12 @@ from ros2cc_extract.extract.static.values import (
     choice,
 )
 from ros2cc_extract.extract.static.values import Sequence as Items
-from ros2cc_extract.extract.static.world import ExecutorState, GroupState, PlainState
+from ros2cc_extract.extract.static.world import (
+    AccessKind,
+    ExecutorState,
+    GroupState,
+    PlainState,
+)
 from ros2cc_extract.places import Place, Unknown
 
 NEXT, RETURN, BREAK, CONTINUE, DEAD = 1, 2, 4, 8, 16
@@ -87,7 +92,7 @@ class Statements(Machine):
         scope = frame.scope
         if name in scope.global_names:
             self.store.write(scope.module, name, value)
-            self.note_global(scope.module, name, True, frame.place(target))
+            self.note_global(scope.module, name, AccessKind.WRITE, frame.place(target))
         elif name in scope.nonlocal_names:
             self.store.write(_owner_of(name, scope), name, value)
         elif frame.function is None and not scope.parent and frame.qualname == '':
@@ -101,7 +106,7 @@ class Statements(Machine):
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
-            self.note_attribute(option, target.attr, True, place)
+            self.note_attribute(option, target.attr, AccessKind.WRITE, place)
             if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
                 old = option.slots.get(target.attr)  # type: ignore[attr-defined]
                 new = value if len(options) == 1 or old is None else choice([old, value])
@@ -110,6 +115,7 @@ class Statements(Machine):
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
+        self.note_update(target.value, frame)
         if isinstance(owner, Mapping):
             if loops.is_key(key):
                 _hint(value, loops.key_text(key))
@@ -147,6 +153,8 @@ class Statements(Machine):
         for target in node.targets:
             if isinstance(target, ast.Name):
                 self.store.remove(frame.scope, target.id)
+            elif isinstance(target, ast.Subscript):
+                self.note_update(target.value, frame)
         return NEXT
 
     def branches(
@@ -222,16 +230,21 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
 
 
 def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
-    load = ast.copy_location(_as_load(node.target), node.target)
-    whole = ast.copy_location(ast.BinOp(load, node.op, node.value), node)
     target = node.target
+    load = ast.copy_location(_as_load(target), target)
+    noted, machine.world.deeds = machine.world.deeds, None
     old = machine.evaluate(load, frame)
+    machine.world.deeds = noted
+    machine.note_update(load, frame)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.store.write(old, 'items', (*old.items, *items))
         machine.store.write(old, 'open', old.rest or rest)
         return NEXT
-    machine.assign(target, machine.evaluate(whole, frame), frame)
+    value = machine.evaluate(node.value, frame)
+    machine.world.deeds = None
+    machine.assign(target, machine.operate(node.op, old, value, frame, node), frame)
+    machine.world.deeds = noted
     return NEXT
 
 

@@ -78,7 +78,7 @@ class UnitBuilder:
     def build(self, entry: str | None) -> Spec:
         """The specification."""
         names = self._name_nodes()
-        name = mend(names[0] if len(names) == 1 else self._unit_label(entry))
+        name = mend(_unit_label(names))
         self._taken.add(name)
         threads = self._thread_names()
         entities = self._entities()
@@ -103,11 +103,6 @@ class UnitBuilder:
             entry=entry,
             unresolved=tuple(self._facts),
         )
-
-    def _unit_label(self, entry: str | None) -> str:
-        place = self._spin.place if self._spin else self._nodes[0].place
-        stem = place.file.rpartition('/')[2].removesuffix('.py')
-        return stem or 'unit'
 
     def _name_nodes(self) -> list[str]:
         names: list[str] = []
@@ -170,7 +165,7 @@ class UnitBuilder:
         if entity.kind in (EntityKind.CLIENT, EntityKind.ACTION_CLIENT, EntityKind.ACTION_SERVER):
             return self._server_or_client_facts(entity)
         if entity.library is not None and entity.callback is None:
-            label = entity.label or 'rate'
+            label = entity.label or 'rate_timer'
             return FunctionFacts(label)
         return describe(entity.callback, entity.place)
 
@@ -252,7 +247,7 @@ class UnitBuilder:
             cls=node.class_name if isinstance(node.cls, Class) else None,
             key=key if entity.kind.key_name else None,
             period_s=period if entity.kind is EntityKind.TIMER else None,
-            count=entity.count if entity.count != node.state.count else 1,
+            count=entity.count,
             when=entity.when,
             conditional=bool(path) or entity.when is When.CALLBACK,
             alternative=self._alternative(entity, path),
@@ -417,3 +412,10 @@ def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
 
 
 __all__ = ['GroupType', 'UnitBuilder']
+
+
+def _unit_label(nodes: Sequence[str]) -> str:
+    """Name a unit by its nodes; a file is often called ``node.py`` and tells nothing."""
+    if len(nodes) > 2:
+        return f'{nodes[0]}_and_{len(nodes) - 1}_more'
+    return '_and_'.join(nodes) or 'unit'

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.ros_executors import nodes_of
 from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
 from ros2cc_extract.extract.static.values import Class, Instance, Path, options_of
@@ -32,9 +33,22 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
     """The specifications of one run."""
     found = []
     for unit in units_of(world):
+        if entry is not None and unit.executor is not None and unit.spin is None:
+            world.diagnostics.append(_not_spun(unit.executor))
         spec = UnitBuilder(world, unit.executor, unit.nodes, unit.spin).build(entry)
         found.append(_with_unresolved(spec))
     return found
+
+
+def _not_spun(executor: Instance) -> Diagnostic:
+    name = executor.hint or 'executor'
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='executor-not-spun',
+        place=executor.place,
+        message=f'{name} has nodes, and no call in sight spins it',
+        help=f'call {name}.spin()',
+    )
 
 
 def _with_unresolved(spec: Spec) -> Spec:

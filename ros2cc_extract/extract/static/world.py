@@ -8,6 +8,7 @@ into the frozen values of the specification.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
@@ -95,6 +96,14 @@ class EntityState:
     extra_callbacks: tuple[Value, ...] = ()
     deeds: Deeds | None = None
     argument: Value | None = None
+
+
+class AccessKind(Enum):
+    """How a callback touches shared state; an update needs the old value."""
+
+    READ = 'read'
+    WRITE = 'write'
+    UPDATE = 'update'
 
 
 class EntityRef(str):
@@ -197,6 +206,5 @@ class World:
     shutting_down: bool = False
     followed: int = 0
     cut: list[tuple[str, Place]] = field(default_factory=list)
-    written_globals: dict[str, frozenset[str]] = field(default_factory=dict)
     global_executor: Instance | None = None
     groupless: Instance | None = None

@@ -1,0 +1,23 @@
+"""P23: rclpy.create_node with keyword and namespace."""
+
+import rclpy
+
+
+def tick():
+    pass
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node(node_name='a', namespace='/ns')
+    node.create_timer(0.5, tick)
+    rclpy.spin(node)
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+#   group a_default EXCLUSIVE default
+#   timer tick in a_default every 0.5

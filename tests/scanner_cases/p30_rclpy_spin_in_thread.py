@@ -1,0 +1,32 @@
+"""P30: rclpy.spin as the target, the node through args."""
+
+import threading
+
+import rclpy
+from rclpy.node import Node
+
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        pass
+
+
+def main():
+    rclpy.init()
+    node = A()
+    thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+    thread.start()
+    thread.join()
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit a: SingleThreadedExecutor x1 rclpy.spin in thread, main
+#   group a_default EXCLUSIVE default
+#   timer tick in a_default every 0.5

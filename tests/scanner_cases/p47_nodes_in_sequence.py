@@ -1,0 +1,40 @@
+"""P47: rclpy.spin of two nodes, one after the other: two units."""
+
+import rclpy
+from rclpy.node import Node
+
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        pass
+
+
+class B(Node):
+    def __init__(self):
+        super().__init__('b')
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        pass
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(A())
+    rclpy.spin(B())
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+#   group a_default EXCLUSIVE default
+#   timer tick in a_default every 0.5
+# unit b: SingleThreadedExecutor x1 rclpy.spin, main
+#   group b_default EXCLUSIVE default
+#   timer tick in b_default every 0.5

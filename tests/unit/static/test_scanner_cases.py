@@ -1,0 +1,43 @@
+"""Every file of ``tests/scanner_cases`` is scanned and compared whole with its expectation."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from scanner_rendering import rendered
+
+CASES = Path(__file__).parents[2] / 'scanner_cases'
+MARK = '\n# expect:\n'
+
+
+def case_paths() -> list[Path]:
+    """Cases of one file, and the folders of those with several."""
+    files = sorted(CASES.glob('*.py'))
+    return [*files, *sorted(path for path in CASES.iterdir() if (path / 'expect.txt').is_file())]
+
+
+def expectation(path: Path) -> str:
+    if path.is_dir():
+        return (path / 'expect.txt').read_text(encoding='utf-8').rstrip('\n')
+    text = path.read_text(encoding='utf-8')
+    lines = text.partition(MARK)[2].rstrip('\n').split('\n')
+    return '\n'.join(line.removeprefix('# ') for line in lines)
+
+
+@pytest.mark.parametrize('path', case_paths(), ids=lambda path: path.stem)
+def test_scanner_case(path: Path) -> None:
+    assert rendered(scan([path], root=CASES)) == expectation(path)
+
+
+def test_every_row_of_the_pattern_table_has_a_case() -> None:
+    texts = [path.read_text(encoding='utf-8').split('\n', 1)[0] for path in CASES.glob('*.py')]
+    mentioned = {word.strip('".,:;') for text in texts for word in text.split()}
+    missing = [f'P{row}' for row in range(1, 63) if f'P{row}' not in mentioned]
+    assert missing == []
