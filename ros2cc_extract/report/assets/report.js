@@ -1,0 +1,263 @@
+'use strict';
+(() => {
+  const root = document.documentElement;
+  const wanted = new URLSearchParams(location.search).get('theme');
+  const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  root.dataset.theme = wanted || system;
+  document.querySelector('.theme').addEventListener('click', () => {
+    root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
+  });
+
+  function make(name, className, text) {
+    const element = document.createElement(name);
+    if (className) element.className = className;
+    if (text !== undefined) element.textContent = text;
+    return element;
+  }
+
+  function filterFindings(button) {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    for (const other of document.querySelectorAll('.tile')) {
+      other.setAttribute('aria-pressed', String(on && other === button));
+    }
+    for (const card of document.querySelectorAll('.finding')) {
+      card.hidden = on && card.dataset.kind !== button.dataset.filter;
+    }
+  }
+  for (const button of document.querySelectorAll('.tile')) {
+    button.addEventListener('click', () => filterFindings(button));
+  }
+
+  const SVG = 'http://www.w3.org/2000/svg';
+  function svg(name, attributes) {
+    const element = document.createElementNS(SVG, name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    return element;
+  }
+
+  function arrowHead(id, className) {
+    const marker = svg('marker', {
+      id, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 7, markerHeight: 7,
+      orient: 'auto', markerUnits: 'userSpaceOnUse',
+    });
+    marker.append(svg('path', { d: 'M0 0L8 4L0 8z', class: className }));
+    return marker;
+  }
+
+  function drawArrows(executor, number) {
+    executor.querySelector('.arrows')?.remove();
+    const layer = svg('svg', { class: 'arrows', 'aria-hidden': 'true' });
+    layer.append(arrowHead(`head-${number}`, ''), arrowHead(`bad-${number}`, 'bad'));
+    const frame = executor.getBoundingClientRect();
+    for (const from of executor.querySelectorAll('[data-waits]')) {
+      for (const id of from.dataset.waits.split(' ')) {
+        const to = id && document.getElementById(id);
+        if (to) layer.append(arrow(from, to, frame, number));
+      }
+    }
+    executor.append(layer);
+  }
+
+  function arrow(from, to, frame, number) {
+    const a = from.getBoundingClientRect();
+    const b = to.getBoundingClientRect();
+    const bad = from.querySelector('.badge.error') !== null;
+    const sameColumn = Math.abs(a.left - b.left) < 20;
+    const goesRight = a.left < b.left;
+    const x1 = (sameColumn || goesRight ? a.right : a.left) - frame.left;
+    const x2 = (sameColumn || !goesRight ? b.right : b.left) - frame.left;
+    const y1 = a.top + a.height / 2 - frame.top;
+    const y2 = b.top + b.height / 2 - frame.top;
+    const bend = sameColumn ? 26 : Math.max(18, Math.abs(x2 - x1) / 2);
+    const c1 = x1 + (sameColumn || goesRight ? bend : -bend);
+    const c2 = x2 + (sameColumn || !goesRight ? bend : -bend);
+    return svg('path', {
+      d: `M${x1} ${y1}C${c1} ${y1} ${c2} ${y2} ${x2} ${y2}`,
+      class: bad ? 'bad' : '',
+      'marker-end': `url(#${bad ? 'bad' : 'head'}-${number})`,
+    });
+  }
+
+  const executors = [...document.querySelectorAll('.executor')];
+  const drawAll = () => executors.forEach(drawArrows);
+  addEventListener('resize', drawAll);
+  drawAll();
+
+  const runs = JSON.parse(document.getElementById('runs').textContent);
+
+  class Timeline {
+    constructor(place, run) {
+      this.run = run;
+      this.last = run.steps.length;
+      this.current = 0;
+      this.timer = null;
+      this.stays = [];
+      this.numbers = [];
+      place.replaceChildren(this.lanes(), this.player(), this.says = make('div', 'says'));
+      place.tabIndex = 0;
+      place.addEventListener('keydown', (event) => this.onKey(event));
+      this.show(this.last ? 1 : 0);
+    }
+
+    lanes() {
+      const outer = make('div', 'lanes');
+      const grid = make('div', 'grid');
+      const rows = this.run.lanes.length + 1;
+      grid.style.gridTemplateColumns = `150px repeat(${this.last + 1}, minmax(58px, 1fr))`;
+      const corner = make('div', 'lane-name', 'step');
+      corner.style.gridArea = '1 / 1';
+      grid.append(corner);
+      for (let step = 0; step <= this.last; step += 1) grid.append(this.number(step));
+      this.run.lanes.forEach((lane, row) => this.addLane(grid, lane, row + 2));
+      this.cursor = make('div', 'cursor');
+      grid.append(this.cursor);
+      this.cursor.dataset.rows = String(rows + 1);
+      if (this.run.cycleFrom !== null) {
+        const cycle = make('div', 'cycle');
+        cycle.title = 'repeats for ever';
+        cycle.style.gridArea = `1 / ${this.run.cycleFrom + 2} / ${rows + 1} / ${this.last + 3}`;
+        grid.append(cycle);
+      }
+      outer.append(grid);
+      return outer;
+    }
+
+    number(step) {
+      const button = make('button', 'step-number', step === 0 ? 'start' : String(step));
+      button.style.gridArea = `1 / ${step + 2}`;
+      button.addEventListener('click', () => this.show(step));
+      this.numbers.push(button);
+      return button;
+    }
+
+    addLane(grid, lane, row) {
+      const name = make('div', 'lane-name', lane.name);
+      name.style.gridArea = `${row} / 1`;
+      grid.append(name);
+      for (const stay of lane.stays) {
+        const bar = make('div', stay.rest ? 'stay rest' : 'stay', stay.text);
+        bar.title = stay.text;
+        bar.style.gridArea = `${row} / ${stay.since + 2} / auto / ${stay.until + 2}`;
+        if (stay.colour !== null) bar.dataset.colour = stay.colour;
+        grid.append(bar);
+        this.stays.push([stay, bar]);
+      }
+    }
+
+    player() {
+      const bar = make('div', 'player');
+      const button = (text, title, act) => {
+        const made = make('button', '', text);
+        made.title = title;
+        made.addEventListener('click', act);
+        bar.append(made);
+        return made;
+      };
+      button('⏮', 'to the start', () => this.show(0));
+      button('◀', 'one step back', () => this.show(this.current - 1));
+      this.play = button('▶', 'play', () => this.toggle());
+      button('▶❘', 'one step on', () => this.next());
+      this.slider = make('input');
+      this.slider.type = 'range';
+      this.slider.min = 0;
+      this.slider.max = this.last;
+      this.slider.setAttribute('aria-label', 'step');
+      this.slider.addEventListener('input', () => this.show(Number(this.slider.value)));
+      bar.append(this.slider);
+      return bar;
+    }
+
+    next() {
+      if (this.current < this.last) this.show(this.current + 1);
+      else if (this.run.cycleFrom !== null) this.show(this.run.cycleFrom);
+      else this.stop();
+    }
+
+    toggle() {
+      if (this.timer) return this.stop();
+      if (this.current === this.last) this.show(0);
+      this.play.textContent = '⏸';
+      this.timer = setInterval(() => this.next(), 900);
+      return undefined;
+    }
+
+    stop() {
+      clearInterval(this.timer);
+      this.timer = null;
+      this.play.textContent = '▶';
+    }
+
+    onKey(event) {
+      const moves = { ArrowLeft: -1, ArrowRight: 1 };
+      if (event.target === this.slider || !(event.key in moves)) return;
+      event.preventDefault();
+      this.show(this.current + moves[event.key]);
+    }
+
+    show(step) {
+      this.current = Math.min(Math.max(step, 0), this.last);
+      this.slider.value = this.current;
+      const column = this.current + 2;
+      this.cursor.style.gridArea = `1 / ${column} / ${this.cursor.dataset.rows} / ${column + 1}`;
+      for (const [stay, bar] of this.stays) {
+        bar.classList.toggle('future', stay.since > this.current);
+      }
+      this.numbers.forEach((button, number) => {
+        if (number === this.current) button.setAttribute('aria-current', 'step');
+        else button.removeAttribute('aria-current');
+      });
+      this.tell();
+      this.scroll();
+    }
+
+    scroll() {
+      const outer = this.cursor.closest('.lanes');
+      const number = this.numbers[this.current];
+      if (!outer || !number.offsetParent) return;
+      const left = number.offsetLeft - 160;
+      const right = number.offsetLeft + number.offsetWidth - outer.clientWidth;
+      if (outer.scrollLeft > left) outer.scrollLeft = left;
+      if (outer.scrollLeft < right) outer.scrollLeft = right + 20;
+    }
+
+    tell() {
+      const step = this.run.steps[this.current - 1];
+      this.says.replaceChildren();
+      if (!step) {
+        this.says.append(make('div', '', 'The start: nothing has happened yet.'));
+        return;
+      }
+      const head = `${this.current}. ${step.says.map(([, text]) => text).join('; ')}`;
+      const line = make('div', '', head);
+      for (const [, place] of step.places) line.append(' ', make('span', 'place', place));
+      this.says.append(line);
+      if (step.changes.length) this.says.append(make('div', 'changes', step.changes.join(', ')));
+      const end = this.current === this.last ? this.ending() : '';
+      if (end) this.says.append(make('b', '', end));
+    }
+
+    ending() {
+      if (this.run.cycleFrom !== null) {
+        return `And from step ${this.run.cycleFrom} on for ever.`;
+      }
+      const words = {
+        deadlock: 'There nothing can move any more.', idle: 'There it may stay for ever.',
+      };
+      return words[this.run.ends] || '';
+    }
+  }
+
+  function build(place) {
+    if (place.dataset.run !== undefined && !place.dataset.built) {
+      place.dataset.built = 'yes';
+      new Timeline(place, runs[Number(place.dataset.run)]);
+    }
+  }
+  for (const place of document.querySelectorAll('.timeline')) {
+    const closed = place.closest('.verdict-table');
+    if (!closed) build(place);
+  }
+  for (const row of document.querySelectorAll('.verdicts details')) {
+    row.addEventListener('toggle', () => row.querySelectorAll('.timeline').forEach(build));
+  }
+})();
