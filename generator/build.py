@@ -9,40 +9,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import Enum
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from ros2cc_extract.generator.queries import Family, Query, build_queries, write_query_file
+from ros2cc_extract.generator.queries import (
+    Family,
+    Query,
+    paper_queries,
+    rclpy_queries,
+    write_query_file,
+)
+from ros2cc_extract.generator.sources import PUBLISHED, Profile, Sources, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
+
+__all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
 
 #: What the compact text lets move; docs/model.md shows that more would change no verdict.
 CALLBACKS_IN_PLAY = 2
 THREADS_IN_PLAY = 2
-
-__all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
-
-
-class Profile(Enum):
-    """Whose executor the model describes."""
-
-    PAPER = 'paper'
-
-
-class Text(Enum):
-    """
-    Which text of a profile: as published, or one with few states and the same verdicts.
-
-    The compact text answers the queries it is rendered with, no others: it lets only so many
-    callbacks move as one of these queries names.
-    """
-
-    PLAIN = 'plain'
-    COMPACT = 'compact'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,51 +68,20 @@ def render(
     if max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
-    queries = build_queries(unit)
+    published = paper_queries(unit)
+    queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
     return RenderedModel(
         name=unit.name,
-        xml=_write_xml(unit, queries, _SOURCES[profile, text]),
+        xml=_write_xml(unit, queries, choose_sources(profile, text, unit.kind)),
         queries=queries,
         q=write_query_file(queries),
-        published=_write_published_files(unit, queries),
+        published=_write_published_files(unit, published),
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Sources:
-    """The template files of one text."""
-
-    declarations: str
-    system: str
-    automata: tuple[str, ...]
-
-
-_SOURCES = {
-    (Profile.PAPER, Text.PLAIN): _Sources(
-        declarations='paper/declarations.c.j2',
-        system='paper/system.c.j2',
-        automata=(
-            'paper/plain/callback.xml.j2',
-            'paper/callback_group.xml.j2',
-            'paper/plain/thread.xml.j2',
-            'paper/plain/executor.xml.j2',
-        ),
-    ),
-    (Profile.PAPER, Text.COMPACT): _Sources(
-        declarations='paper/compact/declarations.c.j2',
-        system='paper/compact/system.c.j2',
-        automata=(
-            'paper/callback_group.xml.j2',
-            'paper/compact/thread.xml.j2',
-            'paper/compact/executor.xml.j2',
-        ),
-    ),
-}
-
-
-def _write_xml(unit: Unit, queries: tuple[Query, ...], sources: _Sources) -> str:
+def _write_xml(unit: Unit, queries: tuple[Query, ...], sources: Sources) -> str:
     return _fill(
-        'paper/model.xml.j2',
+        'shared/model.xml.j2',
         unit=unit,
         queries=queries,
         automata=sources.automata,
@@ -138,8 +95,8 @@ def _write_xml(unit: Unit, queries: tuple[Query, ...], sources: _Sources) -> str
 def _write_published_files(unit: Unit, queries: tuple[Query, ...]) -> Mapping[str, str]:
     return MappingProxyType(
         {
-            f'{unit.name}_declarations.c': _fill('paper/declarations.c.j2', unit=unit),
-            f'{unit.name}_system.c': _fill('paper/system.c.j2', unit=unit),
+            f'{unit.name}_declarations.c': _fill(PUBLISHED.declarations, unit=unit),
+            f'{unit.name}_system.c': _fill(PUBLISHED.system, unit=unit),
             f'{unit.name}_query.q': write_query_file(queries),
         }
     )

@@ -1,12 +1,14 @@
 """
-The seven query families of the published method, in its generator's order, with words.
+The query families of each profile, with words.
 
-Formulas are those of the published tool (DOI 10.1142/S0218194026500439); its table lists the
-last but one family per callback, its generator per group, as here.
+Those of profile paper are the seven of the published method, in its generator's order and with
+its formulas (DOI 10.1142/S0218194026500439); its table lists the last but one family per
+callback, its generator per group, as here.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
@@ -24,6 +26,7 @@ class Family(Enum):
     CAN_OVERLAP = 'can_overlap'
     GROUP_OPEN = 'group_always_open'
     STARVATION = 'starvation'
+    SELF_OVERLAP = 'self_overlap'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,20 +46,34 @@ class Query:
     groups: tuple[str, ...] = ()
 
 
-def build_queries(unit: Unit) -> tuple[Query, ...]:
-    """List all queries on ``unit`` in the order of the published generator."""
+def paper_queries(unit: Unit) -> tuple[Query, ...]:
+    """List the queries of profile paper in the order of the published generator."""
     return (
         Query(
             family=Family.DEADLOCK,
             formula='A[] not deadlock',
             words='there is no dead-lock: some step is always possible',
         ),
-        *(_executable(callback) for callback in unit.callbacks),
-        *(_never_together(a, b) for a, b in combinations(unit.callbacks, 2)),
-        *(_group_closed(callback, unit.group_of(callback)) for callback in unit.callbacks),
-        *(_can_overlap(a, b) for a, b in combinations(unit.callbacks, 2)),
-        *(_group_open(group) for group in unit.groups),
-        *(_starvation(callback, unit.executor) for callback in unit.callbacks),
+        *_occupation_queries(unit),
+        *(_starvation_in_rounds(callback, unit.executor) for callback in unit.callbacks),
+    )
+
+
+def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
+    """
+    List the queries of profile rclpy: the same families, then those the published lack.
+
+    A spinning executor that has nothing to do is no dead-lock, so the first asks what is left.
+    """
+    return (
+        Query(
+            family=Family.DEADLOCK,
+            formula='A[] (deadlock imply cb_all_served())',
+            words='there is no dead-lock: whatever arrives can be served',
+        ),
+        *_occupation_queries(unit),
+        *(_starvation_of_data(callback) for callback in unit.callbacks),
+        *(_self_overlap(callback) for callback in unit.callbacks),
     )
 
 
@@ -67,6 +84,16 @@ def write_query_file(queries: tuple[Query, ...]) -> str:
 
 def _file_entry(query: Query) -> str:
     return f'/*\n{query.words}\n*/\n{query.formula}\n'
+
+
+def _occupation_queries(unit: Unit) -> Iterator[Query]:
+    """The families on which callbacks run, and which groups are closed."""
+    pairs = tuple(combinations(unit.callbacks, 2))
+    yield from (_executable(callback) for callback in unit.callbacks)
+    yield from (_never_together(a, b) for a, b in pairs)
+    yield from (_group_closed(callback, unit.group_of(callback)) for callback in unit.callbacks)
+    yield from (_can_overlap(a, b) for a, b in pairs)
+    yield from (_group_open(group) for group in unit.groups)
 
 
 def _executable(callback: UnitCallback) -> Query:
@@ -116,12 +143,31 @@ def _group_open(group: UnitGroup) -> Query:
     )
 
 
-def _starvation(callback: UnitCallback, executor: str) -> Query:
+def _starvation_in_rounds(callback: UnitCallback, executor: str) -> Query:
     c = callback.index
     seen_ready = f'{executor}.schedule_start and {executor}.ready_set_copy[{c}]'
     return Query(
         family=Family.STARVATION,
         formula=f'({seen_ready} and !cb_running({c})) --> cb_running({c})',
         words=f'{callback.name} never starves: once a poll has seen it ready, it runs',
+        callbacks=(callback.name,),
+    )
+
+
+def _starvation_of_data(callback: UnitCallback) -> Query:
+    c = callback.index
+    return Query(
+        family=Family.STARVATION,
+        formula=f'(cb_waiting[{c}] > 0 and !cb_running({c})) --> cb_running({c})',
+        words=f'{callback.name} never starves: once something has arrived for it, it runs',
+        callbacks=(callback.name,),
+    )
+
+
+def _self_overlap(callback: UnitCallback) -> Query:
+    return Query(
+        family=Family.SELF_OVERLAP,
+        formula=f'A[] cb_runs({callback.index}) <= 1',
+        words=f'{callback.name} never overlaps itself',
         callbacks=(callback.name,),
     )

@@ -28,7 +28,9 @@ _MODEL_NAME_TEXT = """
 NUM_CB NUM_CB_GROUP NUM_THREAD MAX_CYCLE CbId GroupId ThreadId CbType GroupType TMR SUB SRV
 CLT REENTRANT EXCLUSIVE cb_group_table cb_type_table group_closed group_close group_open
 ready_set cb_assign_signal thread_free thread_running thread_cb_assign_table cb_running
-get_thread_running_cb get_thread_running_group Callback CallbackGroup Thread Executor
+get_thread_running_cb get_thread_running_group NUM_NODE NUM_EVENT QUEUE_DEPTH NodeId cb_node_table
+cb_rank_table cb_waiting cb_queued cb_runs cb_all_served pool_queue pool_size event_queue
+event_count hurry Callback CallbackGroup Thread Executor
 """
 
 KEYWORDS = frozenset(_KEYWORD_TEXT.split())

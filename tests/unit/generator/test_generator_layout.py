@@ -3,9 +3,9 @@
 from itertools import combinations
 
 import pytest
-from generator_units import closed_unit
+from generator_units import closed_unit, every_text
 
-from ros2cc_extract.generator.build import Text, render
+from ros2cc_extract.generator.build import render
 from ros2cc_extract.generator.svg import (
     RADIUS,
     Caption,
@@ -15,11 +15,11 @@ from ros2cc_extract.generator.svg import (
     read_drawings,
 )
 
-ARM = closed_unit('tick:TMR:a scan:SUB:b', 'a:EXCLUSIVE b:REENTRANT', 2)
+ARM = ('tick:TMR:a scan:SUB:b', 'a:EXCLUSIVE b:REENTRANT')
 DRAWINGS = [
-    pytest.param(drawing, id=f'{text.value}-{drawing.name}')
-    for text in Text
-    for drawing in read_drawings(render(ARM, text=text).xml)
+    pytest.param(drawing, id=f'{text}-{drawing.name}')
+    for text, xml in every_text(*ARM).items()
+    for drawing in read_drawings(xml)
 ]
 Box = tuple[float, float, float, float]
 
@@ -85,7 +85,7 @@ def test_rows_are_straight(drawing: Drawing):
 
 
 def test_drawing_shows_marks_names_and_labels():
-    picture = draw(render(ARM).xml)['Thread']
+    picture = draw(render(closed_unit(*ARM, 2)).xml)['Thread']
     assert picture.count('>C</text>') == 2
     assert picture.count('>U</text>') == 1
     assert picture.count('<circle') == 4 + 1
@@ -96,4 +96,4 @@ def test_drawing_shows_marks_names_and_labels():
 
 
 def test_drawing_escapes_what_xml_reserves():
-    assert 'cycle_count &lt; MAX_CYCLE' in draw(render(ARM).xml)['Callback']
+    assert 'cycle_count &lt; MAX_CYCLE' in draw(render(closed_unit(*ARM, 2)).xml)['Callback']
