@@ -101,6 +101,16 @@ def test_nodes_are_told_by_the_executor_they_stayed_in(run: RunProgram) -> None:
     assert (late.when, late.conditional) == (When.CALLBACK, True)
 
 
+def test_events_executor_is_seen(run: RunProgram) -> None:
+    recorded = run('events_executor.py')
+    if recorded.text == 'no EventsExecutor\n':
+        pytest.skip('this rclpy has no EventsExecutor')
+    (unit,) = recorded.units.values()
+    assert recorded.text == 'ticks 3\n'
+    assert (unit.executor.kind, len(unit.executor.threads)) == ('EventsExecutor', 1)
+    assert {c.display_name for c in written(unit)} == {'tick', 'work'}
+
+
 def test_own_classes_are_named_and_unresolved(run: RunProgram) -> None:
     (unit,) = run('own_classes.py').units.values()
     (timer,) = written(unit)

@@ -52,11 +52,25 @@ class Hook:
         self._replace(base, 'remove_node', self._node_removed)
         self._replace(base, 'wake', self._woken)
         self._replace(base, 'create_task', self._task_created)
+        self._wrap_events_executor(executors)
         self._replace(groups.CallbackGroup, '__init__', self._group_made)
         self._replace(groups.CallbackGroup, 'add_entity', self._entity_added)
         for group in _subclasses(groups.CallbackGroup):
             self._wrap_group(group)
         self._watch_new_groups(groups.CallbackGroup)
+
+    def _wrap_events_executor(self, executors: Any) -> None:
+        """
+        Wrap the executor written in C++, which has no Python base class.
+
+        rclpy 7.1.4 and later, ``rclpy/experimental/events_executor.py``. It never asks callback
+        groups, so nothing can be measured of its callbacks.
+        """
+        events = getattr(getattr(executors, '_rclpy', None), 'EventsExecutor', None)
+        if events is not None:
+            self._replace(events, 'add_node', self._node_added)
+            self._replace(events, 'remove_node', self._node_removed)
+            self._replace(events, 'create_task', self._task_created)
 
     def unwrap(self) -> None:
         """Put everything back."""
