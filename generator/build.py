@@ -57,15 +57,19 @@ def render(
     *,
     profile: Profile = Profile.PAPER,
     text: Text = Text.PLAIN,
-    max_cycle: int = 1,
+    max_cycle: int | None = 1,
 ) -> RenderedModel:
     """
     Write the model of ``closed``.
 
-    :param max_cycle: how often each callback may become ready, at least 1.
-    :raises ValueError: when ``max_cycle`` is below 1.
+    :param max_cycle: how often each callback may become ready, at least 1; ``None`` for no
+        bound, in profile rclpy.
+    :raises ValueError: when ``max_cycle`` is none of these.
     """
-    if max_cycle < 1:
+    if max_cycle is None:
+        if profile is Profile.PAPER:
+            raise ValueError('profile paper needs a bound on arrivals')
+    elif max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
     published = paper_queries(unit)

@@ -92,3 +92,8 @@ def test_published_files_do_not_depend_on_the_text():
 def test_a_bound_on_arrivals_below_one_is_refused():
     with pytest.raises(ValueError, match='max_cycle must be at least 1, not 0'):
         render(ALONE, max_cycle=0)
+
+
+def test_profile_paper_needs_a_bound_on_arrivals():
+    with pytest.raises(ValueError, match='profile paper needs a bound on arrivals'):
+        render(ALONE, max_cycle=None)
