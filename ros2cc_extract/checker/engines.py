@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
-from ros2cc_extract.checker import reference
+from ros2cc_extract.checker import native, reference
 from ros2cc_extract.checker.limits import Limits, Progress
 from ros2cc_extract.checker.network import Network, Property
 from ros2cc_extract.checker.search import Fairness, SearchResult
+from ros2cc_extract.errors import ToolNotFoundError
+
+_MEND = 'install a C++ compiler and Python.h, then install this package again'
 
 
 class Search(Protocol):
@@ -37,5 +41,19 @@ class Engine:
 
 
 def choose(wanted: str) -> Engine:
-    """Return the engine for ``auto``, ``reference`` or ``native``."""
-    return Engine(reference.NAME, reference.search)
+    """
+    Return the engine for ``auto``, ``reference`` or ``native``.
+
+    :raises ToolNotFoundError: the native core was asked for by name and is not built.
+    """
+    slow = Engine(reference.NAME, reference.search)
+    if wanted == reference.NAME:
+        return slow
+    try:
+        importlib.import_module('ros2cc_extract.checker._core')
+    except ImportError as error:
+        if wanted == native.NAME:
+            what = f'the native core of the checker is not built ({error})'
+            raise ToolNotFoundError(what, None, _MEND) from None
+        return replace(slow, note=f'the native core is not built, so this is slow; {_MEND}')
+    return Engine(native.NAME, native.search)

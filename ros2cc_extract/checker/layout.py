@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.checker.network import AtLocation, Call, Element, Expr, Network, Var
+from ros2cc_extract.checker.network import Expr, Network
+from ros2cc_extract.checker.reads import reads_of
 from ros2cc_extract.checker.semantics import State
-from ros2cc_extract.checker.walks import function_expressions, walk
 
 
 @dataclass(frozen=True)
@@ -69,16 +69,10 @@ class Layout:
 
     def support(self, expr: Expr) -> int:
         """Return the bits of the packed state that the value may depend on."""
+        reads = reads_of(expr, self._network)
+        fields = [self.variables[slot] for slot in reads.variables]
+        fields += [self.locations[process] for process in reads.processes]
         bits = 0
-        for node in walk(expr):
-            if isinstance(node, Var):
-                bits |= self.variables[node.slot].mask
-            elif isinstance(node, Element):
-                for slot in range(node.base, node.base + node.length):
-                    bits |= self.variables[slot].mask
-            elif isinstance(node, AtLocation):
-                bits |= self.locations[node.process].mask
-            elif isinstance(node, Call):
-                for inner in function_expressions(self._network.functions[node.function].body):
-                    bits |= self.support(inner)
+        for field in fields:
+            bits |= field.mask
         return bits

@@ -56,15 +56,28 @@ class Watch:
         """Return the time since the search began."""
         return time.monotonic() - self._start
 
-    def broken(self, states: int, transitions: int) -> str | None:
-        """Report progress; return the reason to give up, or None to go on."""
+    def out_of_time(self) -> str | None:
+        """Return the reason to give up if the time is over."""
+        limit = self._limits.seconds
+        if limit is not None and self.seconds() > limit:
+            return f'the limit of {limit:g} s was reached'
+        return None
+
+    def broken(self, states: int, transitions: int, more_bytes: int = 0) -> str | None:
+        """
+        Report progress; return the reason to give up, or None to go on.
+
+        :param more_bytes: what is about to be allocated.
+        """
         seconds = self.seconds()
         if self._progress:
             self._progress(Progress(states=states, transitions=transitions, seconds=seconds))
         limits = self._limits
-        if limits.seconds is not None and seconds > limits.seconds:
-            return f'the limit of {limits.seconds:g} s was reached'
-        if limits.memory_mb is not None and memory_mb() > limits.memory_mb:
+        late = self.out_of_time()
+        if late:
+            return late
+        limit = limits.memory_mb
+        if limit is not None and memory_mb() + more_bytes / _MB > limit:
             return f'the limit of {limits.memory_mb:g} MB was reached'
         if limits.states is not None and states >= limits.states:
             return f'the limit of {limits.states} states was reached'

@@ -23,11 +23,12 @@ from ros2cc_extract.checker.search import (
     SearchResult,
     StatePath,
     found,
+    goal_of,
+    inside_of,
     not_found,
     positions,
 )
 from ros2cc_extract.checker.semantics import Semantics
-from ros2cc_extract.checker.uppaal.arithmetic import negation
 from ros2cc_extract.checker.walks import mentions_deadlock
 
 NAME = 'reference'
@@ -113,16 +114,10 @@ class _Exploration:
         self._outcomes: dict[int, Outcome] = {}
 
     def _formulas(self) -> list[Expr]:
-        exprs: list[Expr] = []
-        for i in self._reachability:
-            prop = self._properties[i]
-            is_goal = prop.kind is QueryKind.REACHABLE
-            exprs.append(prop.formula if is_goal else negation(prop.formula))
+        exprs = [goal_of(self._properties[i]) for i in self._reachability]
         for i in self._liveness:
             prop = self._properties[i]
-            is_kept = prop.kind is QueryKind.POSSIBLY_ALWAYS
-            exprs.append(prop.formula if is_kept else negation(prop.formula))
-            exprs.append(prop.premise or exprs[-1])
+            exprs += [inside_of(prop), prop.premise or inside_of(prop)]
         return exprs
 
     # -- exploration ---------------------------------------------------------------------
@@ -224,7 +219,9 @@ class _Exploration:
         return not (stopped_early and self._properties)
 
     def _liveness_outcome(self, k: int, prop: Property) -> Outcome:
-        if self._reason and self._reason_forbids_more_work():
+        late = INTERRUPTED if self._reason == INTERRUPTED else self._watch.out_of_time()
+        if late:
+            self._reason = self._reason or late
             return not_found(prop, self._watch.seconds(), self._reason)
         try:
             lasso = self._lasso(k, prop)
@@ -238,10 +235,6 @@ class _Exploration:
         start = None if lasso.cycle_start is None else len(prefix) + lasso.cycle_start
         path = self._state_path([*prefix, *lasso.states], start, lasso)
         return found(prop, seconds, path)
-
-    def _reason_forbids_more_work(self) -> bool:
-        """Whether the user or the clock asked to stop, rather than the size of the model."""
-        return self._reason == INTERRUPTED or ' s was' in (self._reason or '')
 
     def _lasso(self, k: int, prop: Property) -> Lasso | None:
         masks, graph = self._graph.masks, self._graph

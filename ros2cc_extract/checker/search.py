@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from ros2cc_extract.checker.network import Property, QueryKind
+from ros2cc_extract.checker.network import Expr, Property, QueryKind
 from ros2cc_extract.checker.semantics import State
+from ros2cc_extract.checker.uppaal.arithmetic import negation
 
 
 class Verdict(Enum):
@@ -82,6 +83,16 @@ class SearchResult:
 def refutes(kind: QueryKind) -> bool:
     """Whether a path that is found makes the answer *not satisfied*."""
     return kind in (QueryKind.INVARIANT, QueryKind.EVENTUALLY, QueryKind.LEADS_TO)
+
+
+def goal_of(prop: Property) -> Expr:
+    """Return what a state must fulfil to decide an invariant or a reachability query."""
+    return prop.formula if prop.kind is QueryKind.REACHABLE else negation(prop.formula)
+
+
+def inside_of(prop: Property) -> Expr:
+    """Return what all states of a lasso must fulfil to decide a liveness query."""
+    return prop.formula if prop.kind is QueryKind.POSSIBLY_ALWAYS else negation(prop.formula)
 
 
 def is_reachability(prop: Property) -> bool:

@@ -1,0 +1,39 @@
+from collections.abc import Callable, Sequence
+
+from ros2cc_extract.checker.nativecode import Predicate
+
+OPERATIONS: list[str]
+
+class CheckFailed(Exception): ...
+class Endless(Exception): ...
+
+class Answer:
+    path: list[list[int]]
+    cycle_start: int
+    end: int
+    seconds: float
+    is_stopped: bool
+
+class Result:
+    states: int
+    transitions: int
+    is_complete: bool
+    goals: list[Answer]
+    lassos: list[Answer]
+
+def search(
+    *,
+    nodes: list[int],
+    lists: list[int],
+    ranges: list[int],
+    functions: list[int],
+    edges: list[int],
+    channels: list[int],
+    variables: list[int],
+    initial: list[int],
+    locations: list[list[int]],
+    goals: Sequence[Predicate],
+    lassos: Sequence[tuple[Predicate, Predicate | None]],
+    is_fair: bool,
+    watch: Callable[[int, int, int, bool], bool],
+) -> Result: ...

@@ -1,0 +1,163 @@
+// Successors of the state in a machine, in the order of semantics.py.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "machine.hpp"
+
+namespace core {
+
+// The edges that move together, sender first.
+using Edges = std::vector<int32_t>;
+
+class Moves {
+ public:
+  Moves(const Model& model, Machine& machine) : model_(model), machine_(machine) {
+    leaving_.resize(model.locations.size());
+    for (size_t p = 0; p < model.locations.size(); ++p) {
+      leaving_[p].resize(model.locations[p].size());
+    }
+    receivers_.resize(model.channels.size());
+    for (size_t e = 0; e < model.edges.size(); ++e) {
+      const Edge& edge = model.edges[e];
+      const int32_t number = static_cast<int32_t>(e);
+      if (edge.sync != RECEIVE) {
+        leaving_[edge.process][edge.source].push_back(number);
+      } else {
+        for (int32_t c = 0; c < edge.length; ++c) {
+          receivers_[edge.channel + c].push_back(number);
+        }
+      }
+    }
+  }
+
+  // Calls visit(edges) for each transition while its target is in the machine; the machine is
+  // back in the state `words`, which was loaded before, afterwards.
+  template <class Visit>
+  void each(const uint64_t* words, Visit&& visit) {
+    any_committed_ = false;
+    for (size_t p = 0; p < machine_.at.size(); ++p) {
+      if (flags(p) & COMMITTED) any_committed_ = true;
+    }
+    for (size_t p = 0; p < machine_.at.size(); ++p) {
+      // Moves change the location while they are visited, so it is read once.
+      const auto& edges = leaving_[p][machine_.at[p]];
+      for (const int32_t number : edges) from(number, words, visit);
+    }
+  }
+
+  bool stops_time() const {
+    for (size_t p = 0; p < machine_.at.size(); ++p) {
+      if (flags(p)) return true;
+    }
+    return false;
+  }
+
+  bool is_urgent(const Edges& edges) const {
+    const Edge& edge = model_.edges[edges[0]];
+    return edge.sync != NO_SYNC && (model_.channels[edge.channel] & URGENT_CHANNEL);
+  }
+
+ private:
+  int32_t flags(size_t process) const {
+    return model_.locations[process][machine_.at[process]];
+  }
+
+  bool leaves_committed(int32_t edge) const {
+    return flags(model_.edges[edge].process) & COMMITTED;
+  }
+
+  bool enabled(const Edge& edge) {
+    return edge.guard < 0 || machine_.evaluate(edge.guard) != 0;
+  }
+
+  int32_t channel(const Edge& edge) {
+    if (edge.index < 0) return edge.channel;
+    return static_cast<int32_t>(edge.channel + machine_.evaluate(edge.index));
+  }
+
+  template <class Visit>
+  void from(int32_t number, const uint64_t* words, Visit&& visit) {
+    const Edge& edge = model_.edges[number];
+    if (edge.sync == NO_SYNC) {
+      if (any_committed_ && !leaves_committed(number)) return;
+      if (!enabled(edge)) return;
+      moving_.assign(1, number);
+      take(words, visit);
+      return;
+    }
+    if (!enabled(edge)) return;
+    const int32_t at = channel(edge);
+    if (model_.channels[at] & BROADCAST) {
+      broadcast(number, at, words, visit);
+    } else {
+      binary(number, at, words, visit);
+    }
+  }
+
+  bool can_receive(int32_t number, int32_t sender, int32_t at) {
+    const Edge& edge = model_.edges[number];
+    if (edge.process == model_.edges[sender].process) return false;
+    if (machine_.at[edge.process] != edge.source || !enabled(edge)) return false;
+    return edge.index < 0 || channel(edge) == at;
+  }
+
+  template <class Visit>
+  void binary(int32_t sender, int32_t at, const uint64_t* words, Visit&& visit) {
+    for (const int32_t receiver : receivers_[at]) {
+      if (any_committed_ && !leaves_committed(sender) && !leaves_committed(receiver)) continue;
+      if (!can_receive(receiver, sender, at)) continue;
+      moving_.assign(1, sender);
+      moving_.push_back(receiver);
+      take(words, visit);
+    }
+  }
+
+  template <class Visit>
+  void broadcast(int32_t sender, int32_t at, const uint64_t* words, Visit&& visit) {
+    // Receivers that are ready, grouped by process; one of each group takes part.
+    std::vector<std::vector<int32_t>> ready;
+    int32_t last = -1;
+    for (const int32_t receiver : receivers_[at]) {
+      if (!can_receive(receiver, sender, at)) continue;
+      const int32_t process = model_.edges[receiver].process;
+      if (process != last) ready.emplace_back();
+      last = process;
+      ready.back().push_back(receiver);
+    }
+    std::vector<size_t> chosen(ready.size(), 0);
+    while (true) {
+      moving_.assign(1, sender);
+      bool is_allowed = !any_committed_ || leaves_committed(sender);
+      for (size_t i = 0; i < ready.size(); ++i) {
+        moving_.push_back(ready[i][chosen[i]]);
+        is_allowed = is_allowed || leaves_committed(moving_.back());
+      }
+      if (is_allowed) take(words, visit);
+      size_t i = ready.size();
+      while (i > 0 && ++chosen[i - 1] == ready[i - 1].size()) chosen[--i] = 0;
+      if (i == 0) return;
+    }
+  }
+
+  template <class Visit>
+  void take(const uint64_t* words, Visit&& visit) {
+    for (const int32_t number : moving_) {
+      const Edge& edge = model_.edges[number];
+      if (edge.source != edge.target) machine_.move(edge.process, edge.target);
+      if (edge.updates >= 0) machine_.run(edge.updates);
+    }
+    visit(moving_);
+    machine_.restore(words);
+  }
+
+  const Model& model_;
+  Machine& machine_;
+  std::vector<std::vector<std::vector<int32_t>>> leaving_;  // by process and location
+  std::vector<std::vector<int32_t>> receivers_;             // by channel
+  Edges moving_;
+  bool any_committed_ = false;
+};
+
+}  // namespace core

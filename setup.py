@@ -1,0 +1,24 @@
+"""Builds the native core of the checker; everything else stands in ``pyproject.toml``."""
+
+import pybind11
+from setuptools import Extension, setup
+
+setup(
+    ext_modules=[
+        Extension(
+            'ros2cc_extract.checker._core',
+            sources=['ros2cc_extract/checker/native/binding.cpp'],
+            depends=[
+                f'ros2cc_extract/checker/native/{name}.hpp'
+                for name in (
+                    'model', 'layout', 'machine', 'moves', 'store', 'predicates', 'explore', 'lasso'
+                )
+            ],
+            include_dirs=[pybind11.get_include()],
+            language='c++',
+            extra_compile_args=['-std=c++17', '-O3', '-fvisibility=hidden', '-g0'],
+            # Without a compiler the package still works: the checker then is pure Python.
+            optional=True,
+        )
+    ]
+)
