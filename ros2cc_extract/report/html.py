@@ -70,7 +70,7 @@ def html_report(
     for number, finding in _by_weight(numbered):
         runs.callbacks = names.get(finding.unit or '', ())
         cards.append(finding_card(number, finding, sources, runs.timeline))
-    verdicts = verifications or [None] * len(units)
+    verdicts: Sequence[Verification | None] = verifications or [None] * len(units)
     sections = []
     for unit, verification in zip(units, verdicts, strict=True):
         runs.callbacks = names[unit.name]
@@ -127,6 +127,7 @@ def _unit_section(
         entry,
         unit_picture(unit, findings),
         _verdicts(verification, runs) if verification else '',
+        id=f'unit-{unit.name}',
     )
 
 

@@ -64,7 +64,7 @@ def _callback_of(moment: Moment, process: str, callbacks: set[str]) -> str | Non
     for sentence in moment.sentences:
         words = re.findall(r'\w+', sentence.text)
         if process in words or sentence.lane == process:
-            found = next((word for word in words if word in callbacks and word != process), None)
-            if found:
-                return found
+            named = [word for word in words if word in callbacks and word != process]
+            if named:
+                return str(named[0])
     return None

@@ -59,23 +59,35 @@
   }
 
   function arrow(from, to, frame, number) {
-    const a = from.getBoundingClientRect();
-    const b = to.getBoundingClientRect();
     const bad = from.querySelector('.badge.error') !== null;
-    const sameColumn = Math.abs(a.left - b.left) < 20;
-    const goesRight = a.left < b.left;
-    const x1 = (sameColumn || goesRight ? a.right : a.left) - frame.left;
-    const x2 = (sameColumn || !goesRight ? b.right : b.left) - frame.left;
-    const y1 = a.top + a.height / 2 - frame.top;
-    const y2 = b.top + b.height / 2 - frame.top;
-    const bend = sameColumn ? 26 : Math.max(18, Math.abs(x2 - x1) / 2);
-    const c1 = x1 + (sameColumn || goesRight ? bend : -bend);
-    const c2 = x2 + (sameColumn || !goesRight ? bend : -bend);
     return svg('path', {
-      d: `M${x1} ${y1}C${c1} ${y1} ${c2} ${y2} ${x2} ${y2}`,
+      d: curve(from.getBoundingClientRect(), to.getBoundingClientRect(), frame),
       class: bad ? 'bad' : '',
       'marker-end': `url(#${bad ? 'bad' : 'head'}-${number})`,
     });
+  }
+
+  /** Beside the boxes within a column, below them within a row, else straight across. */
+  function curve(a, b, frame) {
+    const ax = a.left + a.width / 2 - frame.left;
+    const bx = b.left + b.width / 2 - frame.left;
+    if (Math.abs(ax - bx) < 20) {
+      const x = Math.max(a.right, b.right) - frame.left;
+      const ay = a.top + a.height / 2 - frame.top;
+      const by = b.top + b.height / 2 - frame.top;
+      return `M${x} ${ay}C${x + 26} ${ay} ${x + 26} ${by} ${x} ${by}`;
+    }
+    if (a.top < b.bottom && b.top < a.bottom) {
+      const ay = a.bottom - frame.top;
+      const by = b.bottom - frame.top;
+      const low = Math.max(ay, by) + 44;
+      return `M${ax} ${ay}C${ax} ${low} ${bx} ${low} ${bx} ${by}`;
+    }
+    const down = a.top < b.top;
+    const ay = (down ? a.bottom : a.top) - frame.top;
+    const by = (down ? b.top : b.bottom) - frame.top;
+    const middle = (ay + by) / 2;
+    return `M${ax} ${ay}C${ax} ${middle} ${bx} ${middle} ${bx} ${by}`;
   }
 
   const executors = [...document.querySelectorAll('.executor')];
@@ -96,7 +108,7 @@
       place.replaceChildren(this.lanes(), this.player(), this.says = make('div', 'says'));
       place.tabIndex = 0;
       place.addEventListener('keydown', (event) => this.onKey(event));
-      this.show(this.last ? 1 : 0);
+      this.show(this.last);
     }
 
     lanes() {
@@ -153,10 +165,10 @@
         bar.append(made);
         return made;
       };
-      button('⏮', 'to the start', () => this.show(0));
+      button('|◀', 'to the start', () => this.show(0));
       button('◀', 'one step back', () => this.show(this.current - 1));
       this.play = button('▶', 'play', () => this.toggle());
-      button('▶❘', 'one step on', () => this.next());
+      button('▶|', 'one step on', () => this.next());
       this.slider = make('input');
       this.slider.type = 'range';
       this.slider.min = 0;
@@ -176,7 +188,7 @@
     toggle() {
       if (this.timer) return this.stop();
       if (this.current === this.last) this.show(0);
-      this.play.textContent = '⏸';
+      this.play.textContent = '■';
       this.timer = setInterval(() => this.next(), 900);
       return undefined;
     }

@@ -1,0 +1,68 @@
+"""The result of a check in every format but the one for terminals; one text per format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.report.github import workflow_commands
+from ros2cc_extract.report.html import html_report
+from ros2cc_extract.report.json_report import check_data, to_text
+from ros2cc_extract.report.junit import junit
+from ros2cc_extract.report.sarif import sarif
+from ros2cc_extract.report.unit_mermaid import unit_diagram
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify import Verification
+
+
+@dataclass(frozen=True, kw_only=True)
+class Checked:
+    """
+    What a check found.
+
+    :param verifications: of the units, in their order.
+    :param files: every file that was looked at.
+    :param sources: text of those files that could be read, by the path that places name.
+    :param root: absolute path of the repository; paths below it become relative.
+    :param package: name of the test suite.
+    """
+
+    units: Sequence[Spec]
+    verifications: Sequence[Verification]
+    findings: Sequence[Finding]
+    summary: Mapping[str, int]
+    files: Sequence[str]
+    sources: Mapping[str, str]
+    root: str = ''
+    package: str = 'ros2cc'
+
+
+def write(checked: Checked, format: str) -> str:
+    """Write ``checked`` in one of the formats of ``WRITERS``."""
+    return WRITERS[format](checked)
+
+
+def _json(checked: Checked) -> str:
+    data = check_data(checked.units, checked.verifications, checked.findings, checked.summary)
+    return to_text(data)
+
+
+def _html(checked: Checked) -> str:
+    return html_report(
+        checked.units, checked.verifications, checked.findings, checked.summary, checked.sources
+    )
+
+
+def _mermaid(checked: Checked) -> str:
+    return '\n'.join(unit_diagram(unit) for unit in checked.units)
+
+
+WRITERS: Mapping[str, Callable[[Checked], str]] = {
+    'json': _json,
+    'sarif': lambda checked: sarif(checked.findings, root=checked.root),
+    'junit': lambda checked: junit(checked.findings, checked.files, checked.package),
+    'github': lambda checked: workflow_commands(checked.findings, root=checked.root),
+    'html': _html,
+    'mermaid': _mermaid,
+}
