@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,10 +26,12 @@ if TYPE_CHECKING:
 
     from ros2cc_extract.extract.extraction import Extraction
     from ros2cc_extract.findings.model import Finding
+    from ros2cc_extract.report.formats import Checked
     from ros2cc_extract.spec.close import ClosedSpec
     from ros2cc_extract.verify import QueryResult, Verification
 
 DEFAULT_SECONDS = 20.0
+FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '-o', '--output', type=Path, metavar='DIR', help='keep specification, model and queries'
     )
     parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
-    parser.add_argument('--output-format', choices=['text', 'json'], default='text')
+    parser.add_argument('--output-format', choices=FORMATS, default='text')
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=DEFAULT_SECONDS)
 
@@ -52,10 +55,10 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         _keep(args, extraction, closed_units, stderr)
     verifications = _verify(args, closed_units, stderr)
     findings = findings_of(extraction.units, extraction.diagnostics, verifications)
-    if args.output_format == 'json':
-        _print_json(extraction, verifications, findings, stdout)
-    else:
+    if args.output_format == 'text':
         _print_text(extraction, verifications, findings, stdout)
+    else:
+        _print_report(args.output_format, extraction, verifications, findings, stdout)
     return _status(args, extraction, verifications, findings)
 
 
@@ -95,16 +98,48 @@ def _verify(
     return verifications
 
 
-def _print_json(
+def _print_report(
+    format: str,
     extraction: Extraction,
     verifications: Sequence[Verification],
     findings: Sequence[Finding],
     stdout: TextIO,
 ) -> None:
-    from ros2cc_extract.report.json_report import check_data, to_text
+    from ros2cc_extract.report.formats import Checked, write
 
-    summary = _summary(extraction, verifications, findings)
-    stdout.write(to_text(check_data(extraction.units, verifications, findings, summary)))
+    checked = Checked(
+        units=extraction.units,
+        verifications=verifications,
+        findings=findings,
+        summary=_summary(extraction, verifications, findings),
+        files=extraction.files_seen,
+        sources=_sources(extraction.files_seen),
+        root=Path.cwd().as_posix(),
+        package=Path.cwd().name,
+    )
+    stdout.write(write(checked, format))
+    if format == 'github':
+        _append_step_summary(checked)
+
+
+def _append_step_summary(checked: Checked) -> None:
+    """GitHub names the file in which a step's summary is kept."""
+    from ros2cc_extract.report.github import step_summary
+
+    name = os.environ.get('GITHUB_STEP_SUMMARY')
+    if name:
+        with Path(name).open('a', encoding='utf-8') as stream:
+            stream.write(step_summary(checked.findings, checked.summary, root=checked.root))
+
+
+def _sources(files: Sequence[str]) -> dict[str, str]:
+    texts = {}
+    for file in files:
+        try:
+            texts[file] = Path(file).read_text(encoding='utf-8', errors='replace')
+        except OSError:
+            continue
+    return texts
 
 
 def _print_text(
