@@ -125,12 +125,14 @@ class EntityRecord:
 class TaskRecord:
     """Work outside every group: created tasks, done-callbacks."""
 
-    def __init__(self, kind: str, function: FunctionName, executor: int) -> None:
+    def __init__(self, number: int, kind: str, function: FunctionName, executor: int) -> None:
+        self.number = number
         self.kind = kind
         self.function = function
         self.executor = executor
         self.node: int | None = None
         self.count = 0
+        self.timings = Timings()
 
 
 def has_waited(executor: Any) -> bool:
@@ -216,4 +218,7 @@ def _fill_key(record: EntityRecord, entity: Any, creation: Creation) -> None:
         if isinstance(value, str):
             record.resolved_key = value
     if record.kind == 'timer':
-        record.period_ns = entity.timer_period_ns
+        try:
+            record.period_ns = entity.timer_period_ns
+        except Exception:  # a destroyed one raises InvalidHandle, which cannot be imported here
+            return

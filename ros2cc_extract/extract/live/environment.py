@@ -7,12 +7,14 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
-from ros2cc_extract.extract.live.hook import OUTPUT_VARIABLE
+from ros2cc_extract.extract.live.hook import OUTPUT_VARIABLE, TRACE_VARIABLE
 
 BOOTSTRAP = Path(__file__).resolve().parent / 'bootstrap'
 
 
-def hooked_environment(environment: Mapping[str, str], directory: Path) -> dict[str, str]:
+def hooked_environment(
+    environment: Mapping[str, str], directory: Path, *, traced: bool = False
+) -> dict[str, str]:
     """
     Give ``environment`` with what makes every Python process below it record itself.
 
@@ -25,11 +27,14 @@ def hooked_environment(environment: Mapping[str, str], directory: Path) -> dict[
         **environment,
         'PYTHONPATH': os.pathsep.join(paths),
         OUTPUT_VARIABLE: str(directory.resolve()),
+        TRACE_VARIABLE: '1' if traced else '0',
     }
 
 
-def shell_commands(environment: Mapping[str, str], directory: Path) -> str:
+def shell_commands(
+    environment: Mapping[str, str], directory: Path, *, traced: bool = False
+) -> str:
     """Give the commands that set these variables in a POSIX shell."""
-    hooked = hooked_environment(environment, directory)
-    names = ('PYTHONPATH', OUTPUT_VARIABLE)
+    hooked = hooked_environment(environment, directory, traced=traced)
+    names = ('PYTHONPATH', OUTPUT_VARIABLE, TRACE_VARIABLE)
     return ''.join(f'export {name}={shlex.quote(hooked[name])}\n' for name in names)

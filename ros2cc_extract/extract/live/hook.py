@@ -17,20 +17,27 @@ from collections.abc import Callable
 from threading import get_ident
 from typing import Any
 
+from .entries import TaskRecord
 from .frames import is_node, trace_creation
-from .record import BEGIN, END, REFUSED, Recorder
+from .record import BEGIN, END, REFUSED, TASK, Recorder
+from .steps import report, trace_runs, trace_takes
 from .writer import Writer
 
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
+TRACE_VARIABLE = 'ROS2CC_LIVE_TRACE'
 WATCHED_MODULE = 'rclpy.executors'
 
 
 class Hook:
     """The recorder of this process, its writer, and what is wrapped."""
 
-    def __init__(self, directory: str) -> None:
+    def __init__(self, directory: str, *, traced: bool = False) -> None:
         self.recorder = Recorder()
-        self.writer = Writer(self.recorder, lambda: _file_of_process(directory))
+        self.writer = Writer(
+            self.recorder, lambda: _file_of_process(directory), traced=traced
+        )
+        self._traced = traced
+        self._task_records: dict[int, TaskRecord] = {}
         self._wrapped: list[tuple[type, str, Any]] = []
 
     def install(self) -> None:
@@ -58,6 +65,9 @@ class Hook:
         for group in _subclasses(groups.CallbackGroup):
             self._wrap_group(group)
         self._watch_new_groups(groups.CallbackGroup)
+        if self._traced:
+            trace_takes(self.recorder, base, self._set)
+            trace_runs(self.recorder, self._task_records, executors.Task, self._set)
 
     def _wrap_events_executor(self, executors: Any) -> None:
         """
@@ -120,11 +130,14 @@ class Hook:
         self.recorder.changes += 1
 
     def _task_created(
-        self, _result: Any, executor: Any, callback: Any, *_: Any, **__: Any
+        self, task: Any, executor: Any, callback: Any, *_: Any, **__: Any
     ) -> None:
         asked_by = sys._getframe(2).f_globals.get('__name__')
         kind = 'done_callback' if asked_by == 'rclpy.task' else 'task'
-        self.recorder.note_task(executor, kind, callback)
+        record = self.recorder.note_task(executor, kind, callback)
+        if self._traced and record is not None:
+            self._task_records[id(task)] = record
+            report(self.recorder, TASK, record)
 
     def _group_made(self, _result: None, group: Any) -> None:
         creation = trace_creation(sys._getframe(2), group)
@@ -223,9 +236,9 @@ class _Finder:
         loader.exec_module = exec_module
 
 
-def install(directory: str) -> Hook:
+def install(directory: str, *, traced: bool = False) -> Hook:
     """Install the hook; recordings go into ``directory``, one file for each process."""
-    hook = Hook(directory)
+    hook = Hook(directory, traced=traced)
     hook.install()
     return hook
 
@@ -233,7 +246,8 @@ def install(directory: str) -> Hook:
 def install_from_environment() -> Hook | None:
     """Install the hook if the environment asks for it."""
     directory = os.environ.get(OUTPUT_VARIABLE)
-    return install(directory) if directory else None
+    traced = os.environ.get(TRACE_VARIABLE) == '1'
+    return install(directory, traced=traced) if directory else None
 
 
 def _file_of_process(directory: str) -> str:

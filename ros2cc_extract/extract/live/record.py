@@ -31,8 +31,11 @@ from .entries import (
 )
 from .frames import Creation, RawPlace, is_node, name_function
 
-BEGIN, REFUSED, END = 0, 1, 2
-Event = tuple[int, int, int, 'EntityRecord | None']
+# What happened; the first three are always recorded, the others for a trace.
+EVENT_NAMES = ('begin', 'refused', 'end', 'collect', 'take', 'task', 'run', 'pause')
+BEGIN, REFUSED, END, COLLECT, TAKE, TASK, RUN, PAUSE = range(len(EVENT_NAMES))
+# Monotonic clock in nanoseconds, thread, what, and whose.
+Event = tuple[int, int, int, 'EntityRecord | TaskRecord']
 
 # Half a minute of 4 kHz, should the writer not get the processor for that long.
 EVENTS_KEPT = 120_000
@@ -154,20 +157,23 @@ class Recorder:
             self.changes += 1
             return record
 
-    def note_task(self, executor: Any, kind: str, callback: Any) -> None:
+    def note_task(self, executor: Any, kind: str, callback: Any) -> TaskRecord | None:
+        """Record work outside every group; ``None`` for work of rclpy's own."""
         function = name_function(callback)
         if function is None or function.module.partition('.')[0] == 'rclpy':
-            return
+            return None
         with self.lock:
             home = self.note_executor(executor).number
             key = kind, function.name, function.defined, home
             record = self.tasks.get(key)
             if record is None:
-                record = self.tasks[key] = TaskRecord(kind, function, home)
+                record = TaskRecord(next(self._numbers), kind, function, home)
+                self.tasks[key] = record
                 owner = getattr(callback, '__self__', None)
                 record.node = self.note_node(owner).number if is_node(owner) else None
             record.count += 1
             self.changes += 1
+            return record
 
     def look_around(self) -> None:
         """Read the live lists of all nodes, and note what is new in them and what has gone."""
@@ -179,22 +185,13 @@ class Recorder:
                     self._look_at(record, node)
 
     def settle(self) -> None:
-        """Bring timings up to date; fold away entities that are gone and were made again."""
-        self._drain()
+        """Complete what was only begun; fold away entities that are gone and were made again."""
         with self.lock:
-            for record in self.all_executors:
-                self._look_at_executor(record)
-            folded: dict[tuple[Any, ...], EntityRecord] = {}
-            kept = []
+            for executor in self.all_executors:
+                self._look_at_executor(executor)
             for entity in self.all_entities:
                 self._settle_entity(entity)
-                first = folded.get(entity.signature())
-                if entity.gone and first is not None and first.gone:
-                    first.made += 1
-                    continue
-                folded.setdefault(entity.signature(), entity)
-                kept.append(entity)
-            self.all_entities = kept
+            self._fold()
 
     def _settle_entity(self, record: EntityRecord) -> None:
         entity = record.ref()
@@ -203,24 +200,38 @@ class Recorder:
         elif not record.complete:
             fill_entity(record, entity)
 
-    def _drain(self) -> None:
-        for clock, thread, what, record in self._taken_events():
-            if record is None:
-                continue
+    def _fold(self) -> None:
+        """Let memory depend on what the program's text makes, not on how often it makes it."""
+        folded: dict[tuple[Any, ...], EntityRecord] = {}
+        kept = []
+        for entity in self.all_entities:
+            first = folded.setdefault(entity.signature(), entity)
+            if first is not entity and first.gone and entity.gone:
+                first.made += 1
+            else:
+                kept.append(entity)
+        self.all_entities = kept
+        used = {entity.group for entity in kept}
+        self.all_groups = [g for g in self.all_groups if g.number in used or g.ref() is not None]
+        for known in (self.entities, self.groups, self.nodes, self.executors):
+            for key in [key for key, record in known.items() if record.ref() is None]:
+                del known[key]
+
+    def take_events(self) -> list[Event]:
+        """Take what has happened since the last time, and bring the timings up to date."""
+        taken = []
+        for _ in range(len(self.events)):
+            event = self.events.popleft()
+            clock, thread, what, record = event
             if what == BEGIN:
                 record.timings.begin(clock, thread)
             elif what == END:
                 record.timings.end(clock, thread)
-            else:
+            elif what == REFUSED:
                 record.timings.refused += 1
-            self.measured += 1
-
-    def _taken_events(self) -> Iterator[Event]:
-        while True:
-            try:
-                yield self.events.popleft()
-            except IndexError:
-                return
+            taken.append(event)
+        self.measured += len(taken)
+        return taken
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)

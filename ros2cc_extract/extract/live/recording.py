@@ -126,6 +126,7 @@ class RecordedEntity:
 
 @dataclass(frozen=True, kw_only=True)
 class RecordedTask:
+    number: int
     kind: str
     executor: int
     node: int | None
@@ -271,6 +272,7 @@ class _Reader:
         function = self._function(row['function'])
         assert function is not None, 'tasks without a function are not recorded'
         return RecordedTask(
+            number=row['number'],
             kind=row['kind'],
             executor=row['executor'],
             node=row['node'],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -14,6 +15,7 @@ from ros2cc_extract.extract.live.child import end_alike, run_child
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.recording import Recording, read_recording
+from ros2cc_extract.extract.live.trace import Trace, read_trace, to_chrome, write_lines
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import write_specs
@@ -29,6 +31,7 @@ class Recorded:
 
     status: int
     recordings: tuple[Recording, ...]
+    traces: tuple[Trace, ...] = ()
 
     @property
     def specs(self) -> tuple[Spec, ...]:
@@ -40,6 +43,7 @@ def run_command(
     output: Path,
     stderr: TextIO,
     *,
+    trace: Path | None = None,
     environment: Mapping[str, str] = os.environ,
     finish: Finish | None = None,
 ) -> int:
@@ -49,6 +53,7 @@ def run_command(
     A process that a signal ended ends us by the same signal, after the output is written.
 
     :param output: a file, or an existing directory, which gets a file for each process.
+    :param trace: file for the execution trace; another for Perfetto is written beside it.
     :param finish: called with all units when everything is written; its status is given back
         where the command itself ended well.
     :return: the command's exit status; 2 if that is 0 and the output could not be written.
@@ -56,10 +61,14 @@ def run_command(
     :raises ToolNotFoundError: when the command cannot be started.
     """
     check_output(output)
-    recorded = record(command, environment, stderr)
+    if trace is not None:
+        check_trace(trace)
+    recorded = record(command, environment, stderr, traced=trace is not None)
     report_losses(recorded.recordings, stderr)
     try:
         write_output(recorded, output, stderr)
+        if trace is not None:
+            write_traces(recorded.traces, trace)
     except Ros2ccError as error:
         print(error, file=stderr)
         return end_alike(recorded.status) or EXIT_ERROR
@@ -67,11 +76,20 @@ def run_command(
     return end_alike(recorded.status) or finished
 
 
-def record(command: Sequence[str], environment: Mapping[str, str], stderr: TextIO) -> Recorded:
+def record(
+    command: Sequence[str],
+    environment: Mapping[str, str],
+    stderr: TextIO,
+    *,
+    traced: bool = False,
+) -> Recorded:
     """Run ``command`` with the hook; say what could not be read of its recordings."""
     with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as directory:
-        status = run_child(command, hooked_environment(environment, Path(directory)))
-        return Recorded(status, tuple(read_directory(Path(directory), stderr)))
+        folder = Path(directory)
+        status = run_child(command, hooked_environment(environment, folder, traced=traced))
+        recordings = read_directory(folder, stderr)
+        traces = (read_trace(recording) for recording in recordings) if traced else ()
+        return Recorded(status, tuple(recordings), tuple(filter(None, traces)))
 
 
 def read_directory(directory: Path, stderr: TextIO) -> list[Recording]:
@@ -123,13 +141,41 @@ def write_output(recorded: Recorded, output: Path, stderr: TextIO) -> None:
 
 def write_specs_to(path: Path, specs: Sequence[Spec]) -> None:
     """
-    Write by way of a temporary file, so that a half-written one never stands there.
+    Write specifications.
 
-    :raises InputError: when writing fails.
+    :raises InputError: when writing fails; what was there before is kept.
     """
+    _write_whole(path, lambda stream: stream.write(write_specs(specs)))
+
+
+def check_trace(trace: Path) -> None:
+    """
+    Refuse a trace that can only fail, before anything runs.
+
+    :raises InputError: when it is a directory, or its folder cannot be written to.
+    """
+    if trace.is_dir():
+        raise InputError('is a directory', Place(str(trace)), 'name a file for the trace')
+    check_output(trace)
+
+
+def write_traces(traces: Sequence[Trace], path: Path) -> None:
+    """
+    Write the trace as JSON lines, and for Perfetto beside it (``NAME.perfetto.json``).
+
+    :raises InputError: when writing fails; what was there before is kept.
+    """
+    _write_whole(path, lambda stream: write_lines(traces, stream))
+    for_perfetto = path.with_name(f'{path.stem}.perfetto.json')
+    _write_whole(for_perfetto, lambda stream: json.dump(to_chrome(traces), stream))
+
+
+def _write_whole(path: Path, write: Callable[[TextIO], object]) -> None:
+    """Write by way of a temporary file, so that a half-written one never stands there."""
     temporary = path.with_name(f'{path.name}.new')
     try:
-        temporary.write_text(write_specs(specs), encoding='utf-8')
+        with temporary.open('w', encoding='utf-8') as stream:
+            write(stream)
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)

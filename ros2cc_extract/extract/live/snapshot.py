@@ -140,6 +140,7 @@ def _entity(record: EntityRecord) -> dict[str, Any]:
 
 def _task(record: TaskRecord) -> dict[str, Any]:
     return {
+        'number': record.number,
         'kind': record.kind,
         'executor': record.executor,
         'node': record.node,

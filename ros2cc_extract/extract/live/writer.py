@@ -18,6 +18,7 @@ from collections.abc import Callable
 from .record import Recorder
 from .snapshot import snapshot
 from .spinning import look_for_spinning_threads
+from .tracefile import TraceFile
 
 # The file is at most this old, twice: once to notice a change, once for a slow write.
 INTERVAL_S = 0.2
@@ -29,14 +30,18 @@ RETRY_S = 5.0
 class Writer:
     """Rewrites one file, by way of a temporary one, whenever the recorder has changed."""
 
-    def __init__(self, recorder: Recorder, path: Callable[[], str]) -> None:
+    def __init__(
+        self, recorder: Recorder, path: Callable[[], str], *, traced: bool = False
+    ) -> None:
         self._recorder = recorder
         self._path_of_process = path
+        self._traced = traced
         self.forget()
 
     def forget(self) -> None:
         """Begin anew, as a forked child must: its parent's thread does not exist there."""
-        self._path: str | None = None
+        self._path = self._path_of_process()
+        self._trace = TraceFile(f'{self._path}l') if self._traced else None
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._looked_changes = 0
@@ -58,8 +63,11 @@ class Writer:
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout=2.0)
         if self._recorder.all_executors or self._recorder.loss_count:
+            self._take_events()
             self._recorder.settle()
             self._write(ended=True)
+        if self._trace is not None:
+            self._trace.close()
 
     def _run(self) -> None:
         # No signal is to be delivered here that the program awaits in a thread of its own.
@@ -73,10 +81,11 @@ class Writer:
     def update(self) -> None:
         """Write the file if anything has changed since it was written."""
         recorder = self._recorder
+        self._take_events()
         if recorder.changes != self._looked_changes:
             self._looked_changes = recorder.changes
             recorder.look_around()
-        recorder.settle()
+            recorder.settle()
         look_for_spinning_threads(recorder)
         changes = recorder.changes, recorder.measured
         if changes == self._written_changes or time.monotonic() < self._not_before:
@@ -88,11 +97,15 @@ class Writer:
         wait = spent / LARGEST_SHARE if done else RETRY_S
         self._not_before = time.monotonic() + max(0.0, wait - INTERVAL_S)
 
+    def _take_events(self) -> None:
+        events = self._recorder.take_events()
+        if self._trace is not None:
+            self._trace.write(events)
+
     def _write(self, *, ended: bool) -> bool:
         with self._recorder.lock:
             text = snapshot(self._recorder, ended=ended)
-        path = self._path or self._path_of_process()
-        self._path = path
+        path = self._path
         temporary = f'{path}.new'
         try:
             with open(temporary, 'w', encoding='utf-8') as stream:  # noqa: PTH123
