@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from ros2cc_extract.verify import QueryResult, Verification
 
 DEFAULT_SECONDS = 20.0
+LONGEST_TABLE = 40
+OF_NO_INTEREST = {'group_closed_while_running', 'group_always_open'}
+"""Families whose runs show no more than that a callback can start."""
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
 
@@ -164,9 +167,12 @@ def _print_text(
 
 
 def _print_verification(verification: Verification, console: Console) -> None:
-    from ros2cc_extract.report.verdict_text import print_evidence, print_table
+    from ros2cc_extract.report.verdict_text import print_digest, print_evidence, print_table
 
-    print_table(verification, console, details=False)
+    if len(verification.results) <= LONGEST_TABLE:
+        print_table(verification, console, details=False)
+    else:
+        print_digest(verification, console)
     shown, left_out = _first_of_each_family(verification)
     print_evidence(shown, console)
     if left_out:
@@ -181,7 +187,8 @@ def _first_of_each_family(
     shown: dict[str | None, tuple[int, QueryResult]] = {}
     runs = 0
     for number, result in enumerate(verification.results, start=1):
-        if result.verdict is Verdict.NOT_SATISFIED and result.evidence is not None:
+        told = result.evidence is not None and result.family not in OF_NO_INTEREST
+        if result.verdict is Verdict.NOT_SATISFIED and told:
             runs += 1
             shown.setdefault(result.family, (number, result))
     return list(shown.values()), runs - len(shown)

@@ -1,23 +1,34 @@
-"""Summary of a unit: executor, groups and callbacks."""
+"""Summary of a unit: its executor, and under each group the callbacks that share it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
 from rich.console import Console
+from rich.padding import Padding
 
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.report.style import table
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec, When
+from ros2cc_extract.spec.model import (
+    Callback,
+    CallbackGroup,
+    Executor,
+    GroupType,
+    Spec,
+    When,
+)
 
 
 def print_spec(spec: Spec, console: Console) -> None:
     """Print the summary of one unit."""
     console.print(f'unit {spec.name}: {describe_executor(spec.executor)}', style='bold')
     if spec.entry:
-        console.print(f'  entry: {spec.entry}')
-    _print_groups(spec, console)
-    _print_callbacks(spec, console)
+        console.print(f'  entry {spec.entry}, nodes {", ".join(spec.nodes)}')
+    for group in spec.groups:
+        members = [callback for callback in spec.callbacks if callback.group == group.name]
+        if members:
+            console.print(f'  {describe_group(group)}')
+            _print_members(members, console)
 
 
 def describe_executor(executor: Executor) -> str:
@@ -32,44 +43,46 @@ def describe_executor(executor: Executor) -> str:
     return f'{executor.kind or "executor"}, {threads}{source}{spun}{thread}'
 
 
+def describe_group(group: CallbackGroup) -> str:
+    """Say name and type, and what is special about a group, on one line."""
+    if group.groupless:
+        return 'in no group, not held back by any:'
+    kind = 'mutually exclusive' if group.type is GroupType.EXCLUSIVE else 'reentrant'
+    remarks = [
+        *([f'default group of {group.node}'] if group.default else []),
+        *([f'not resolved: {group.unresolved.reason}'] if group.unresolved else []),
+        *([f'made by {group.library}'] if group.library else []),
+        *([short(group.source)] if group.source else []),
+    ]
+    return ', '.join([f'group {group.name}: {kind}', *remarks])
+
+
+def short(place: Place) -> str:
+    """Write a place by the last part of its path; findings give the whole path."""
+    name = place.file.rpartition('/')[2]
+    return f'{name}:{place.line}' if place.line else name
+
+
 def _threads_source(executor: Executor) -> str:
     if executor.threads_source == 'default_cpu_count':
         return ' assumed (default: the number of CPUs at run time)'
-    return f' ({executor.threads_source})' if executor.threads_source else ''
+    if not executor.threads_source:
+        return ''
+    return f' ({short(Place.parse(executor.threads_source))})'
 
 
-def _print_groups(spec: Spec, console: Console) -> None:
-    rows = table('  group', 'type', 'members')
-    for group in spec.groups:
-        members = [c.name for c in spec.callbacks if c.group == group.name and not c.builtin]
-        rows.add_row(f'  {group.name}', _group_type(group), ', '.join(members) or '-')
-    console.print(rows)
-
-
-def _group_type(group: CallbackGroup) -> str:
-    if group.groupless:
-        return 'in no group'
-    remarks = [
-        *(['default'] if group.default else []),
-        *(['unresolved'] if group.unresolved else []),
-        *([group.library] if group.library else []),
-    ]
-    remark = f' ({", ".join(remarks)})' if remarks else ''
-    return f'{group.type.value}{remark}'
-
-
-def _print_callbacks(spec: Spec, console: Console) -> None:
-    rows = table('  callback', 'type', 'group', 'on', 'created at', 'remarks')
-    for callback in spec.callbacks:
+def _print_members(members: Iterable[Callback], console: Console) -> None:
+    rows = table('', '', '', '', '')
+    rows.show_header = False
+    for callback in members:
         rows.add_row(
-            f'  {callback.name}',
-            callback.entity.value if callback.entity else callback.type.value,
-            '-' if callback.groupless else callback.group,
+            callback.entity.value.replace('_', ' ') if callback.entity else callback.type.value,
+            callback.name,
             _subject(callback),
-            str(callback.source or '-'),
+            short(callback.source) if callback.source else '-',
             ', '.join(_remarks(callback)),
         )
-    console.print(rows)
+    console.print(Padding(rows, (0, 0, 0, 4)))
 
 
 def _subject(callback: Callback) -> str:

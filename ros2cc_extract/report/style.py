@@ -12,7 +12,7 @@ from rich.text import Text
 
 from ros2cc_extract.verify import Verdict
 
-LOG_WIDTH = 120
+LOG_WIDTH = 160
 _LINE_END_BLANKS = re.compile(r'[ \t]+(?=\n)')
 
 _COLOURS = {

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 from rich.padding import Padding
 
 from ros2cc_extract.evidence import Evidence, Moment
+from ros2cc_extract.report.spec_text import short
 from ros2cc_extract.report.style import table, verdict_text
 from ros2cc_extract.verify import QueryResult, Verdict, Verification
+
+LISTED_SUBJECTS = 20
+_LISTED = (
+    ('can never run', 'executable', Verdict.NOT_SATISFIED),
+    ('can run at the same time', 'can overlap', Verdict.SATISFIED),
+    ('may starve', 'starvation', Verdict.NOT_SATISFIED),
+)
 
 
 def print_table(verification: Verification, console: Console, *, details: bool) -> None:
@@ -24,11 +33,46 @@ def print_table(verification: Verification, console: Console, *, details: bool) 
         expert = [result.formula, verdict, f'{result.seconds:.3f} s']
         rows.add_row(f'{number:3}', result.words, *(expert if details else [verdict]))
     console.print(rows)
+    _print_footer(verification, console)
+
+
+def _print_footer(verification: Verification, console: Console) -> None:
     console.print(f'  {_cost(verification)}')
     for note in (*verification.notes, *_caveats(verification)):
         console.print(f'  note: {note}')
     for assumption in verification.assumptions:
         console.print(f'  assumed: {assumption}')
+
+
+def print_digest(verification: Verification, console: Console) -> None:
+    """Print what a table of hundreds of rows says, family by family."""
+    rows = table('  claim', 'satisfied', 'not satisfied', 'undecided')
+    for family, results in _by_family(verification).items():
+        counts = Counter(result.verdict for result in results)
+        rows.add_row(f'  {family}', *(str(counts[verdict] or '-') for verdict in Verdict))
+    console.print(rows)
+    for title, family, verdict in _LISTED:
+        subjects = [
+            ' with '.join(result.callbacks)
+            for result in _by_family(verification).get(family, ())
+            if result.verdict is verdict
+        ]
+        if subjects:
+            console.print(f'  {title}: {_shortened(subjects)}')
+    _print_footer(verification, console)
+
+
+def _by_family(verification: Verification) -> dict[str, list[QueryResult]]:
+    families: dict[str, list[QueryResult]] = {}
+    for result in verification.results:
+        families.setdefault((result.family or 'query').replace('_', ' '), []).append(result)
+    return families
+
+
+def _shortened(subjects: list[str]) -> str:
+    shown = '; '.join(subjects[:LISTED_SUBJECTS])
+    left_out = len(subjects) - LISTED_SUBJECTS
+    return f'{shown} and {left_out} more' if left_out > 0 else shown
 
 
 def print_evidence(
@@ -89,8 +133,7 @@ def _print_run(evidence: Evidence, console: Console, *, changes: bool) -> None:
 
 
 def _places(moment: Moment) -> str:
-    lines = (f'{place.file}:{place.line}' for _, place in moment.places)
-    return ', '.join(dict.fromkeys(lines))
+    return ', '.join(dict.fromkeys(short(place) for _, place in moment.places))
 
 
 _ENDS = {

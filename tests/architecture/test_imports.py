@@ -21,6 +21,7 @@ ALLOWED = {
     'extract': {'spec'},
     'extract.static': {'spec', 'extract'},
     'extract.live': {'spec', 'extract'},
+    'live': {'extract.live'},
 }
 ROOM_OF_MODULE = {'evidence': 'verify', 'verifyta': 'verify', 'sweep': 'verify'}
 LONGEST_MODULE = 800
@@ -51,14 +52,16 @@ def room(module: str) -> str:
     return ROOM_OF_MODULE.get(parts[0], parts[0])
 
 
-def imports(path: Path, *, top_level: bool) -> Iterator[str]:
+def imports(module: str, path: Path, *, top_level: bool) -> Iterator[str]:
     tree = ast.parse(path.read_text(encoding='utf-8'))
     nodes = tree.body if top_level else ast.walk(tree)
     for node in nodes:
         if isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f'{path}: relative import'
-            yield node.module or ''
-            yield from (f'{node.module}.{alias.name}' for alias in node.names)
+            # Only what also runs inside a user's process, under another name, is relative.
+            package = '.'.join(module.split('.')[: -node.level]) if node.level else ''
+            base = f'{package}.{node.module or ""}'.strip('.')
+            yield base
+            yield from (f'{base}.{alias.name}' for alias in node.names)
         elif isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
 
@@ -66,7 +69,7 @@ def imports(path: Path, *, top_level: bool) -> Iterator[str]:
 def edges(*, top_level: bool) -> Iterator[tuple[str, str]]:
     known = modules()
     for module, path in known.items():
-        for imported in imports(path, top_level=top_level):
+        for imported in imports(module, path, top_level=top_level):
             if imported in known and imported != module:
                 yield module, imported
 
