@@ -29,7 +29,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p22_node_name_default_argument: SingleThreadedExecutor x1 spin, main
+# unit arm_and_arm_one: SingleThreadedExecutor x1 spin, main
 #   nodes arm, arm_one
 #   group arm_default EXCLUSIVE default
 #   group arm_one_default EXCLUSIVE default

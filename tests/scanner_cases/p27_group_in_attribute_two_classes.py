@@ -38,7 +38,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p27_group_in_attribute_two_classes: MultiThreadedExecutor x2 spin, main
+# unit a_and_b: MultiThreadedExecutor x2 spin, main
 #   nodes a, b
 #   group group EXCLUSIVE
 #   group group_2 REENTRANT

@@ -35,7 +35,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p30_thread_function_with_nodes: ex=SingleThreadedExecutor x1 spin in thread, main
+# unit a_and_b: ex=SingleThreadedExecutor x1 spin in thread, main
 #   nodes a, b
 #   group a_default EXCLUSIVE default
 #   group b_default EXCLUSIVE default

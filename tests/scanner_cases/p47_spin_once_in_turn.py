@@ -34,7 +34,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p47_spin_once_in_turn: SingleThreadedExecutor x1 rclpy.spin_once, main
+# unit a_and_b: SingleThreadedExecutor x1 rclpy.spin_once, main
 #   nodes a, b
 #   group a_default EXCLUSIVE default
 #   group b_default EXCLUSIVE default

@@ -31,7 +31,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p47_two_instances: SingleThreadedExecutor x1 spin, main
+# unit left_and_right: SingleThreadedExecutor x1 spin, main
 #   nodes left, right
 #   group left_default EXCLUSIVE default
 #   group right_default EXCLUSIVE default

@@ -35,7 +35,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p47_two_nodes_one_executor: MultiThreadedExecutor x2 spin, main
+# unit a_and_b: MultiThreadedExecutor x2 spin, main
 #   nodes a, b
 #   group a_default EXCLUSIVE default
 #   group b_default EXCLUSIVE default

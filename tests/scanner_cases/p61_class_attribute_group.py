@@ -29,7 +29,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p61_class_attribute_group: MultiThreadedExecutor x2 spin, main
+# unit one_and_two: MultiThreadedExecutor x2 spin, main
 #   nodes one, two
 #   group G REENTRANT
 #   timer one_tick in G (A.tick) every 1 node=one

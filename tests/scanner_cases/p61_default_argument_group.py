@@ -32,7 +32,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p61_default_argument_group: MultiThreadedExecutor x2 spin, main
+# unit one_and_two: MultiThreadedExecutor x2 spin, main
 #   nodes one, two
 #   group g EXCLUSIVE
 #   subscription one_x_cb in g (A.cb) key=x node=one

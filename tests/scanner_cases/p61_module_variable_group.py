@@ -30,7 +30,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit p61_module_variable_group: MultiThreadedExecutor x2 spin, main
+# unit one_and_two: MultiThreadedExecutor x2 spin, main
 #   nodes one, two
 #   group GROUP EXCLUSIVE
 #   timer one_tick in GROUP (A.tick) every 1 node=one

@@ -28,7 +28,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit q06_default_group_of_another_node: MultiThreadedExecutor x2 spin, main
+# unit one_and_two: MultiThreadedExecutor x2 spin, main
 #   nodes one, two
 #   group one_default EXCLUSIVE default
 #   timer one_tick in one_default (A.tick) every 0.5 node=one

@@ -28,7 +28,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit q06_group_shared_across_nodes: MultiThreadedExecutor x2 spin, main
+# unit one_and_two: MultiThreadedExecutor x2 spin, main
 #   nodes one, two
 #   group group EXCLUSIVE
 #   timer one_tick in group (A.tick) every 0.5 node=one

@@ -27,7 +27,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit q11_nodes_in_a_loop: SingleThreadedExecutor x1 spin, main
+# unit arm_0_and_arm_1: SingleThreadedExecutor x1 spin, main
 #   nodes arm_0, arm_1
 #   group arm_0_default EXCLUSIVE default
 #   group arm_1_default EXCLUSIVE default

@@ -37,7 +37,7 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit q14_equal_names_in_two_classes: MultiThreadedExecutor x2 spin, main
+# unit a_and_b: MultiThreadedExecutor x2 spin, main
 #   nodes a, b
 #   group a_default EXCLUSIVE default
 #   group b_default EXCLUSIVE default

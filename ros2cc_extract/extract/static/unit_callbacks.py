@@ -35,7 +35,6 @@ from ros2cc_extract.spec.model import (
     CallbackGroup,
     EntityKind,
     Executor,
-    GroupType,
     Origin,
     Spec,
     Unresolved,
@@ -409,9 +408,6 @@ def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
     if isinstance(on, EntityRef):
         return names.get(on.number) or Unknown('an entity of another executor')
     return on if isinstance(on, (str, Unknown)) else None
-
-
-__all__ = ['GroupType', 'UnitBuilder']
 
 
 def _unit_label(nodes: Sequence[str]) -> str:
