@@ -71,16 +71,14 @@ def _turning_point(graph: Graph, start: int, inside: Inside, colours: bytearray)
 
 
 def _nearest_lasso(graph: Graph, start: int, known: int, inside: Inside) -> Lasso:
-    """Improve on a known turning point: the first one in breadth-first order that is cheap."""
-    best = _lasso_through(graph, start, known, inside)
+    """Turn at the first state in breadth-first order that is cheap, else at the known one."""
     for candidate in _breadth_first(graph, start, inside, limit=_CANDIDATES):
         if graph.ends[candidate]:
             return _lasso_through(graph, start, candidate, inside)
         cycle = shortest_path(graph, candidate, {candidate}, inside, limit=_CYCLE_EFFORT)
         if cycle is not None:
-            found = _lasso_through(graph, start, candidate, inside)
-            return min(best, found, key=lambda lasso: len(lasso.states))
-    return best
+            return _lasso_through(graph, start, candidate, inside)
+    return _lasso_through(graph, start, known, inside)
 
 
 #: How many states near the start are tried as turning points, and how far round each.
@@ -195,37 +193,37 @@ def _fair_lasso(
     return Lasso((*stem, *cycle[1:-1]), len(stem) - 1, None)
 
 
-def _fair_goals(graph: Graph, members: set[int], movers: Movers) -> list[tuple[int, int]] | None:
-    """
-    Return for each process a state or step that makes the cycle fair to it, if all have one.
+#: State, successor and label of a step; a successor of -1 stands for the state alone.
+Goal = tuple[int, int, int]
 
-    A goal is (state, successor), or (state, -1) where the process is disabled.
-    """
-    goals: dict[int, tuple[int, int]] = {}
+
+def _fair_goals(graph: Graph, members: set[int], movers: Movers) -> list[Goal] | None:
+    """Return for each process a state or step that makes the cycle fair to it, if all have one."""
+    goals: dict[int, Goal] = {}
     for state in sorted(members):
         enabled = 0
         for k in range(graph.offsets[state], graph.offsets[state + 1]):
             moving = movers.of_label[graph.labels[k]]
             enabled |= moving
             if graph.targets[k] in members:
-                _note(goals, moving, (state, graph.targets[k]))
-        _note(goals, movers.all & ~enabled, (state, -1))
+                _note(goals, moving, (state, graph.targets[k], graph.labels[k]))
+        _note(goals, movers.all & ~enabled, (state, -1, -1))
     if len(goals) < movers.all.bit_count():
         return None
     return list(dict.fromkeys(goals.values()))
 
 
-def _note(goals: dict[int, tuple[int, int]], bits: int, goal: tuple[int, int]) -> None:
+def _note(goals: dict[int, Goal], bits: int, goal: Goal) -> None:
     while bits:
         lowest = bits & -bits
         goals.setdefault(lowest, goal)
         bits ^= lowest
 
 
-def _tour(graph: Graph, turn: int, goals: list[tuple[int, int]], members: set[int]) -> list[int]:
+def _tour(graph: Graph, turn: int, goals: list[Goal], members: set[int]) -> list[int]:
     """Return a closed walk from ``turn`` through all goals, inside one component."""
     walk = [turn]
-    for state, successor in goals:
+    for state, successor, _ in goals:
         if walk[-1] != state:
             walk += _path(graph, walk[-1], state, members.__contains__)[1:]
         if successor >= 0:
