@@ -137,12 +137,15 @@ class Access:
     :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
     :param locks: locks held at that place, outermost first.
     :param update: true when the old value is read for the new one (``+=``, ``append`` …).
+    :param in_place: true for an update by one operation on the object itself (``append``,
+        ``d[k] = v``), which CPython does in one piece.
     """
 
     name: str
     source: Place | None = None
     locks: tuple[str, ...] = ()
     update: bool = False
+    in_place: bool = False
     chain: tuple[Place, ...] = ()
 
 

@@ -70,7 +70,13 @@ ACCESS = record(
         Plain('name', 'name', TEXT),
         *plain_rows(
             Access,
-            (('update', 'update', FLAG), ('locks', 'locks', listing(TEXT)), _SOURCE, _CHAIN),
+            (
+                ('update', 'update', FLAG),
+                ('in_place', 'in_place', FLAG),
+                ('locks', 'locks', listing(TEXT)),
+                _SOURCE,
+                _CHAIN,
+            ),
         ),
     ),
     required=('name',),

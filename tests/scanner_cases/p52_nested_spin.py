@@ -29,8 +29,8 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer ask in a_default every 1
-#     blocks rclpy.spin_until_future_complete @16
-#     blocks rclpy.spin_once @17
+#     blocks rclpy.spin_until_future_complete on a @16
+#     blocks rclpy.spin_once on a @17
 #     changes rclpy.spin_until_future_complete @16
 #     changes rclpy.spin_once @17
 #   client other_client in a_default key=other

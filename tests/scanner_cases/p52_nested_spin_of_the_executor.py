@@ -31,5 +31,5 @@ if __name__ == '__main__':
 # unit a: MultiThreadedExecutor x2 spin, main
 #   group a_default EXCLUSIVE default
 #   timer ask in a_default every 1
-#     blocks executor.spin_until_future_complete @17
+#     blocks executor.spin_until_future_complete on executor @17
 #   client other_client in a_default key=other

@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.world import (
     EntityRef,
     EntityState,
     ExecutorState,
+    NodeState,
     PlainState,
 )
 from ros2cc_extract.places import Place, Unknown
@@ -57,25 +58,26 @@ class Effects(Machine):
             name=name,
             source=place,
             locks=self.world.held,
-            update=kind is AccessKind.UPDATE,
+            update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
+            in_place=kind is AccessKind.UPDATE_IN_PLACE,
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if kind is AccessKind.READ else deeds.writes
         if access not in accesses[-_RECENT:]:
             accesses.append(access)
 
-    def note_update(self, target: ast.expr, frame: Frame) -> None:
-        """The object in a name or attribute is changed in place."""
+    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
+        """The object in a name or attribute gets a new content or value from its old one."""
         if self.world.deeds is None:
             return
         place = frame.place(target)
         if isinstance(target, ast.Subscript):
-            self.note_update(target.value, frame)
+            self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
             for owner in options_of(self.evaluate(target.value, frame)):
-                self.note_attribute(owner, target.attr, AccessKind.UPDATE, place)
+                self.note_attribute(owner, target.attr, kind, place)
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
-            self.note_global(frame.module, target.id, AccessKind.UPDATE, place)
+            self.note_global(frame.module, target.id, kind, place)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
         scope: Scope | None = frame.scope
@@ -153,6 +155,8 @@ class Effects(Machine):
             source = state.of if isinstance(state, PlainState) and state.of else value
             if isinstance(source, Instance) and isinstance(source.state, EntityState):
                 return EntityRef.to(source.state)
+            if isinstance(value.state, (NodeState, ExecutorState)):
+                return EntityRef.to_object(value, value.hint or value.class_name)
             return value.hint or value.class_name
         return None
 
@@ -201,7 +205,7 @@ class Effects(Machine):
         """Whether a spin stands in a callback; then it is noted there and is no set-up."""
         if self.world.deeds is None:
             return False
-        self.note_blocking(how, None, None, place)
+        self.note_blocking(how, executor if node is None else node, None, place)
         if node is not None:
             self.note_change(how, node, place)
         return True

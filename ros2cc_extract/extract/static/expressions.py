@@ -116,7 +116,7 @@ class Expressions(Machine):
             return folded
         for side in (left, right):
             if isinstance(side, Mystery):
-                text = _text(node) if isinstance(node, ast.BinOp) else side.text
+                text = node if isinstance(node, ast.BinOp) else side.text
                 return Mystery(side.unknown, text)
         return self.mystery('an expression that could not be folded', frame.place(node))
 
@@ -171,21 +171,12 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     if machine.world.deeds is not None:
         for option in options_of(owner):
             machine.note_attribute(option, node.attr, AccessKind.READ, place)
-    text = _text(node) if isinstance(owner, Mystery) else ''
+    text: str | ast.expr = node if isinstance(owner, Mystery) else ''
     if isinstance(owner, Choice):
         options = options_of(owner)
         able = [o for o in options if machine.has_attribute(o, node.attr) is not False]
         return choice([machine.attribute(o, node.attr, place) for o in able or options])
     return machine.attribute(owner, node.attr, place, text)
-
-
-def _text(node: ast.expr) -> str:
-    """Short source of an expression, for messages and to tell mysteries apart."""
-    try:
-        text = ast.unparse(node)
-    except RecursionError:
-        return '…'
-    return text if len(text) <= 60 else f'{text[:57]}…'
 
 
 def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
@@ -194,7 +185,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
     if isinstance(function, Mystery):
-        call.text = _text(node)
+        call.text = node
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     return machine.call(function, call)
@@ -212,7 +203,7 @@ def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
     noted, machine.world.deeds = machine.world.deeds, None
     function = machine.evaluate(node, frame)
     machine.world.deeds = noted
-    machine.note_update(node.value, frame)
+    machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
     return function
 
 
@@ -290,7 +281,7 @@ def _subscript(machine: Expressions, node: ast.Subscript, frame: Frame) -> Value
     place = frame.place(node)
     found = choice(
         [_item(machine, option, key, node, frame) for option in options_of(owner)]
-        or [machine.mystery('item that could not be followed', place, _text(node))]
+        or [machine.mystery('item that could not be followed', place, node)]
     )
     return choice(list(options_of(found))) if isinstance(found, Choice) else found
 
@@ -303,16 +294,14 @@ def _item(
         if key in owner.entries if loops.is_key(key) else False:
             return owner.entries[key]
         reason = owner.rest.reason if owner.rest else 'key that could not be followed'
-        return machine.mystery(f'{_text(node)}: {reason}', place, _text(node))
+        return machine.mystery(reason, place, node)
     if isinstance(owner, Sequence):
         if isinstance(node.slice, ast.Slice):
             return _slice(machine, owner, node.slice, frame)
         index = loops.index_of(key, len(owner.items))
         if index is not None and owner.rest is None:
             return owner.items[index]
-        return machine.mystery(
-            f'{_text(node)}: index that could not be followed', place, _text(node)
-        )
+        return machine.mystery('index that could not be followed', place, node)
     if isinstance(owner, Const) and isinstance(key, Const):
         return folding.subscript(owner, key) or machine.mystery('bad subscript', place)
     if isinstance(owner, (Class, Library)):
@@ -322,7 +311,7 @@ def _item(
         if isinstance(method, Bound):
             return machine.call(method, Call(place, [key]))
     reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
-    return machine.mystery(reason, place, _text(node))
+    return machine.mystery(reason, place, node)
 
 
 def _slice(machine: Expressions, owner: Sequence, node: ast.Slice, frame: Frame) -> Value:
@@ -419,7 +408,7 @@ def _formatted(machine: Expressions, node: ast.JoinedStr, frame: Frame) -> Value
             mystery = value if isinstance(value, Mystery) else None
             mystery = mystery or machine.mystery('f-string part not followed', frame.place(part))
     if mystery is not None:
-        return Mystery(mystery.unknown, _text(node), mystery.default and None)
+        return Mystery(mystery.unknown, node, mystery.default and None)
     return Const(''.join(parts))
 
 

@@ -86,7 +86,7 @@ class Machine(ABC):
         """Store ``value`` in a name, attribute, item or pattern of them."""
 
     @abstractmethod
-    def attribute(self, value: Value, name: str, place: Place, text: str = '') -> Value:
+    def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
         """``value.name``."""
 
     @abstractmethod
@@ -142,8 +142,8 @@ class Machine(ABC):
         """A global is touched; matters while a callback runs."""
 
     @abstractmethod
-    def note_update(self, target: ast.expr, frame: Frame) -> None:
-        """The object in a name or attribute is changed in place."""
+    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
+        """The object in a name or attribute gets a new content or value from its old one."""
 
     @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:
@@ -257,7 +257,7 @@ class Machine(ABC):
         """The program ends here on this branch (``sys.exit``)."""
         self.world.stopped = True
 
-    def mystery(self, reason: str, place: Place | None, text: str = '') -> Mystery:
+    def mystery(self, reason: str, place: Place | None, text: str | ast.expr = '') -> Mystery:
         """A value that cannot be followed."""
         return Mystery(Unknown(reason, place), text)
 

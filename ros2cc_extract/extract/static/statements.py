@@ -40,7 +40,7 @@ from ros2cc_extract.places import Place, Unknown
 NEXT, RETURN, BREAK, CONTINUE, DEAD = 1, 2, 4, 8, 16
 _LEAVING = RETURN | BREAK | CONTINUE
 
-STEP_LIMIT = 1_500_000
+STEP_LIMIT = 600_000
 
 
 class Statements(Machine):
@@ -115,7 +115,7 @@ class Statements(Machine):
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
-        self.note_update(target.value, frame)
+        self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
         if isinstance(owner, Mapping):
             if loops.is_key(key):
                 _hint(value, loops.key_text(key))
@@ -145,8 +145,7 @@ class Statements(Machine):
                 self.assign(target, items[index], frame)
             else:
                 reason = rest.reason if rest else 'too few values to unpack'
-                text = ast.unparse(target)
-                self.assign(target, self.mystery(reason, frame.place(target), text), frame)
+                self.assign(target, self.mystery(reason, frame.place(target), target), frame)
 
     def delete(self, node: ast.Delete, frame: Frame) -> int:
         """``del name`` and ``del object.attribute``; items stay."""
@@ -154,7 +153,7 @@ class Statements(Machine):
             if isinstance(target, ast.Name):
                 self.store.remove(frame.scope, target.id)
             elif isinstance(target, ast.Subscript):
-                self.note_update(target.value, frame)
+                self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
         return NEXT
 
     def branches(
@@ -235,7 +234,7 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     noted, machine.world.deeds = machine.world.deeds, None
     old = machine.evaluate(load, frame)
     machine.world.deeds = noted
-    machine.note_update(load, frame)
+    machine.note_update(load, frame, AccessKind.UPDATE)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.store.write(old, 'items', (*old.items, *items))

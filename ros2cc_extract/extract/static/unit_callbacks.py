@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -73,6 +74,7 @@ class UnitBuilder:
         self._facts: list[Unresolved] = []
         self._node_names: dict[int, str] = {}
         self._group_names: dict[int, str] = {}
+        self._branches_of: dict[int, dict[Place, set[int]]] = {}
 
     def build(self, entry: str | None) -> Spec:
         """The specification."""
@@ -91,11 +93,12 @@ class UnitBuilder:
             for entity, fact, label in zip(entities, facts, labels, strict=True)
         ]
         self._note_open_ends()
+        executor = self._executor_value(threads)
         return Spec(
             name=name,
-            callbacks=tuple(_with_waits(callbacks, entities)),
+            callbacks=tuple(self._with_waits(callbacks, entities, executor)),
             groups=tuple(groups),
-            executor=self._executor_value(threads),
+            executor=executor,
             origin=Origin.STATIC,
             nodes=tuple(names),
             sources=self._sources(entities),
@@ -150,13 +153,14 @@ class UnitBuilder:
     def _entities(self) -> list[EntityState]:
         """Node by node, timers first, group-less work last; creation order within a kind."""
         position = {id(node): index for index, node in enumerate(self._nodes)}
-        mine = [entity for entity in self._world.entities if id(entity.node) in position]
+        mine = [entity for node in self._nodes for entity in self._world.by_node.get(id(node), ())]
         return sorted(
             mine,
             key=lambda e: (
                 e.kind in _GROUPLESS,
                 position[id(e.node)],
                 _ORDER.get(e.kind, 10),
+                e.number,
             ),
         )
 
@@ -194,10 +198,9 @@ class UnitBuilder:
 
     def _groups(self, entities: Sequence[EntityState], labels: list[str]) -> list[CallbackGroup]:
         """The groups in use, in order of first use by creation."""
-        order = {id(entity): index for index, entity in enumerate(self._world.entities)}
         pairs = sorted(
             zip(entities, labels, strict=True),
-            key=lambda pair: (pair[0].kind in _GROUPLESS, order[id(pair[0])]),
+            key=lambda pair: (pair[0].kind in _GROUPLESS, pair[0].number),
         )
         groups: list[CallbackGroup] = []
         for entity, label in pairs:
@@ -272,13 +275,22 @@ class UnitBuilder:
         for place, index in path:
             if index < 0:
                 continue
-            for other in self._world.entities:
-                if other.node is entity.node and any(
-                    where == place and branch >= 0 and branch != index
-                    for where, branch in other.path
-                ):
-                    return f'{place.file}:{place.line}'
+            branches = self._branches(entity.node)
+            if len(branches[place]) > 1:
+                return f'{place.file}:{place.line}'
         return None
+
+    def _branches(self, node: Instance) -> dict[Place, set[int]]:
+        """By branching statement, the branches on which ``node`` gets entities."""
+        known = self._branches_of.get(id(node))
+        if known is None:
+            known = defaultdict(set)
+            for entity in self._world.by_node.get(id(node), ()):
+                for place, branch in entity.path:
+                    if branch >= 0:
+                        known[place].add(branch)
+            self._branches_of[id(node)] = known
+        return known
 
     def _executor_value(self, threads: tuple[str, ...]) -> Executor:
         state = self._state()
@@ -323,6 +335,24 @@ class UnitBuilder:
                     source=at,
                 )
             )
+
+    def _with_waits(
+        self, callbacks: list[Callback], entities: Sequence[EntityState], executor: Executor
+    ) -> list[Callback]:
+        """What is waited for, by the name it has in this unit."""
+        names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
+        names |= self._node_names
+        if self._executor is not None:
+            names[id(self._executor)] = executor.name
+        return [
+            replace(
+                callback,
+                blocking=tuple(
+                    replace(block, on=_waited_name(block.on, names)) for block in callback.blocking
+                ),
+            )
+            for callback in callbacks
+        ]
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
         places = [entity.place.file for entity in entities]
@@ -388,20 +418,6 @@ def _number(value: Value | None) -> float | None:
     if isinstance(value, Const) and isinstance(value.value, (int, float)):
         return float(value.value)
     return None
-
-
-def _with_waits(callbacks: list[Callback], entities: Sequence[EntityState]) -> list[Callback]:
-    """What is waited for, by the name it has in this unit."""
-    names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
-    return [
-        replace(
-            callback,
-            blocking=tuple(
-                replace(block, on=_waited_name(block.on, names)) for block in callback.blocking
-            ),
-        )
-        for callback in callbacks
-    ]
 
 
 def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:

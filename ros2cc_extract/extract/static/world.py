@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
+from ros2cc_extract.extract.static.values import Call, Instance, Path, Value
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
 
@@ -96,14 +96,19 @@ class EntityState:
     extra_callbacks: tuple[Value, ...] = ()
     deeds: Deeds | None = None
     argument: Value | None = None
+    number: int = 0
 
 
 class AccessKind(Enum):
-    """How a callback touches shared state; an update needs the old value."""
+    """How a callback touches shared state; an update needs the old value.
+
+    One in place is a single operation on the object: ``append``, ``d[k] = v``, ``del d[k]``.
+    """
 
     READ = 'read'
     WRITE = 'write'
     UPDATE = 'update'
+    UPDATE_IN_PLACE = 'update in place'
 
 
 class EntityRef(str):
@@ -114,8 +119,13 @@ class EntityRef(str):
     @staticmethod
     def to(entity: EntityState) -> EntityRef:
         """A reference to ``entity``."""
-        reference = EntityRef(entity.kind.value)
-        reference.number = id(entity)
+        return EntityRef.to_object(entity, entity.kind.value)
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> EntityRef:
+        """A reference to a node or executor; ``text`` stands for it outside every unit."""
+        reference = EntityRef(text)
+        reference.number = id(thing)
         return reference
 
 
@@ -198,7 +208,6 @@ class World:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: set[int] = field(default_factory=set)
     instances: list[Instance] = field(default_factory=list)
-    functions: list[Function] = field(default_factory=list)
     ghosts: dict[str, Instance] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
@@ -206,5 +215,6 @@ class World:
     shutting_down: bool = False
     followed: int = 0
     cut: list[tuple[str, Place]] = field(default_factory=list)
+    by_node: dict[int, list[EntityState]] = field(default_factory=dict)
     global_executor: Instance | None = None
     groupless: Instance | None = None

@@ -144,7 +144,7 @@ def _blocking(block: Blocking) -> str:
 
 
 def _access(access: Access) -> str:
-    update = ' update' if access.update else ''
+    update = (' update' if access.update else '') + (' in_place' if access.in_place else '')
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
 
