@@ -169,7 +169,7 @@ class _Unit:
             entity=kind,
             node=self._node_names[entity.node],
             function=function.name if function else None,
-            key=entity.key if kind.key_name else None,
+            key=_key(entity, kind),
             period_s=entity.period_s if kind is EntityKind.TIMER else None,
             count=entity.made,
             when=_when(entity),
@@ -186,7 +186,7 @@ class _Unit:
     def _execute_callback(self, entity: RecordedEntity, function: Function) -> Callback:
         return replace(
             self._groupless(EntityKind.ACTION_EXECUTE, function, entity.node),
-            key=entity.key,
+            key=_key(entity, EntityKind.ACTION_SERVER),
             source=entity.created,
         )
 
@@ -294,6 +294,12 @@ def _node_names(nodes: Sequence[RecordedNode]) -> dict[int, str]:
     for node in nodes:
         names[node.number] = mend(node.name or 'node', tuple(names.values()))
     return names
+
+
+def _key(entity: RecordedEntity, kind: EntityKind) -> str | Unknown | None:
+    if kind is EntityKind.ACTION_SERVER and entity.key is None:
+        return Unknown('rclpy does not keep the name of an action server', entity.created)
+    return entity.key if kind.key_name else None
 
 
 def _when(entity: RecordedEntity) -> When:

@@ -169,10 +169,14 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
     creation = record.creation or Creation()
     _fill_key(record, entity, creation)
     record.function = _function_of(entity) or name_function(creation.callback)
-    record.execute = name_function(creation.execute_callback)
+    given = creation.execute_callback or getattr(entity, '_execute_callback', None)
+    record.execute = name_function(given)
     creation.callback = creation.execute_callback = None
     record.library = creation.library
-    _judge_modules(record, creation.through)
+    through = creation.through
+    if not through and record.function is not None and _is_of_rclpy(record.function):
+        through = [record.function.module.removeprefix('rclpy.')]
+    _judge_modules(record, through)
     if 'create_rate' in creation.functions:
         record.library = 'rclpy.create_rate'
     if record.function is not None and _is_of_rclpy(record.function):

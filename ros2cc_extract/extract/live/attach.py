@@ -1,0 +1,162 @@
+"""
+``attach``: the specification of a process that already runs, without having started it.
+
+By what the interpreter offers (Python 3.14, ``sys.remote_exec``), else by hypno, the injector of
+the extra ``attach``. Either runs a few lines in the process's main thread, which write a
+recording and leave nothing behind.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from ros2cc_extract.errors import InputError, ToolNotFoundError
+from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recording import read_recording
+from ros2cc_extract.extract.live.run import check_output, report_losses, write_specs_to
+
+EXIT_CLEAN, EXIT_ERROR = 0, 2
+# The main thread runs our lines as soon as it is back from C; an executor wakes at every event.
+PATIENCE_S = 15.0
+_LOOK_EVERY_S = 0.05
+_PTRACE_SCOPE = Path('/proc/sys/kernel/yama/ptrace_scope')
+
+
+@dataclass(frozen=True)
+class Injector:
+    """
+    Runs a script in another process.
+
+    :param refusals: what ``inject`` raises when the process cannot be entered.
+    """
+
+    inject: Callable[[int, Path], None]
+    refusals: tuple[type[Exception], ...]
+
+
+_LINES = '''
+import importlib, importlib.util, os, sys
+def _record(name='_ros2cc_attached'):
+    folder, path = {folder!r}, {path!r}
+    try:
+        spec = importlib.util.spec_from_file_location(
+            name, os.path.join(folder, '__init__.py'), submodule_search_locations=[folder])
+        sys.modules[name] = importlib.util.module_from_spec(spec)
+        importlib.import_module(name + '.inspection').record_process(path + '.new')
+        os.replace(path + '.new', path)
+    except Exception as error:
+        with open(path + '.failed', 'w') as stream:
+            stream.write(repr(error))
+    finally:
+        for loaded in [each for each in sys.modules if each.partition('.')[0] == name]:
+            del sys.modules[loaded]
+_record()
+del _record
+'''
+
+
+def attach_process(pid: int, output: Path, stderr: TextIO) -> int:
+    """
+    Write the specification of a running process.
+
+    :return: 0; 2 when the process holds no node in an rclpy executor.
+    :raises InputError: when there is no such process, or it does not answer.
+    :raises ToolNotFoundError: when nothing here can run code in it.
+    """
+    check_output(output)
+    _check_process(pid)
+    injector = _injector()
+    with tempfile.TemporaryDirectory(prefix='ros2cc-attach-') as directory:
+        # The process may belong to another user.
+        Path(directory).chmod(0o777)
+        recording = read_recording(_record(pid, Path(directory), injector), Path.cwd())
+    report_losses([recording], stderr)
+    specs = specs_of(recording)
+    if not specs:
+        print(f'ros2cc-extract: process {pid} has no node in an rclpy executor', file=stderr)
+        return EXIT_ERROR
+    write_specs_to(output, specs)
+    return EXIT_CLEAN
+
+
+def _check_process(pid: int) -> None:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        raise InputError(f'there is no process {pid}') from None
+    except PermissionError:
+        raise InputError(
+            f'process {pid} belongs to another user', None, 'run as its user or as root'
+        ) from None
+    except OverflowError:
+        raise InputError(f'{pid} is no process number') from None
+
+
+def _injector() -> Injector:
+    remote = getattr(sys, 'remote_exec', None)
+    if remote is not None:
+        return Injector(lambda pid, script: remote(pid, str(script)), (OSError, RuntimeError))
+    try:
+        hypno = importlib.import_module('hypno')
+        refusals = (OSError, importlib.import_module('pyinjector').PyInjectorError)
+    except ImportError:
+        raise ToolNotFoundError(
+            'attaching needs Python 3.14 or the injector hypno',
+            None,
+            'install it with: pip install "ros2cc-extract[attach]"',
+        ) from None
+    return Injector(
+        lambda pid, script: hypno.inject_py(pid, f'exec(open({str(script)!r}).read(), {{}})'),
+        refusals,
+    )
+
+
+def _record(pid: int, directory: Path, injector: Injector) -> Path:
+    recording = directory / f'{pid}.json'
+    script = directory / 'record.py'
+    folder = str(Path(__file__).resolve().parent)
+    script.write_text(_LINES.format(folder=folder, path=str(recording)), encoding='utf-8')
+    try:
+        injector.inject(pid, script)
+    except injector.refusals as error:
+        raise ToolNotFoundError(
+            f'process {pid} cannot be entered: {error}', None, _why_forbidden()
+        ) from error
+    return _await(recording, pid)
+
+
+def _await(recording: Path, pid: int) -> Path:
+    failure = recording.with_name(f'{recording.name}.failed')
+    deadline = time.monotonic() + PATIENCE_S
+    while not recording.exists():
+        if failure.exists():
+            raise InputError(f'process {pid} could not be recorded: {failure.read_text()}')
+        if time.monotonic() > deadline:
+            raise InputError(
+                f'process {pid} does not answer: its main thread runs no Python',
+                None,
+                'it is blocked in C, or no Python process',
+            )
+        time.sleep(_LOOK_EVERY_S)
+    return recording
+
+
+def _why_forbidden() -> str:
+    try:
+        scope = _PTRACE_SCOPE.read_text().strip()
+    except OSError:
+        scope = '0'
+    if scope != '0' and os.geteuid() != 0:
+        return (
+            f'the system forbids it ({_PTRACE_SCOPE} is {scope}); run as root, or ask for '
+            'sysctl kernel.yama.ptrace_scope=0'
+        )
+    return 'it must be a Python process of yours with a shared libpython, outside containers'
