@@ -8,7 +8,7 @@ from pathlib import Path
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.entries import console_scripts, entries_of
-from ros2cc_extract.extract.static.limits import deep_recursion
+from ros2cc_extract.extract.static.limits import scanning_limits
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.runs import run_entry, run_library
 from ros2cc_extract.extract.static.units import specs_of
@@ -38,7 +38,7 @@ def scan_text(text: str, name: str = 'node.py') -> Extraction:
 
 
 def _scan(project: Project, progress: Progress | None) -> Extraction:
-    with deep_recursion():
+    with scanning_limits():
         scripts = console_scripts(project.script_folders())
         units: list[Spec] = []
         noticed: list[Diagnostic] = []

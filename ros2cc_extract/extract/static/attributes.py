@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static import builtin_methods
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
@@ -30,7 +32,7 @@ from ros2cc_extract.places import Place, Unknown
 class Attributes(Machine):
     """What stands behind a dot."""
 
-    def attribute(self, value: Value, name: str, place: Place, text: str = '') -> Value:
+    def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
         """``value.name``."""
         found = self._find(value, name, place)
         if isinstance(found, Choice):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static import loops
+from typing import Any
+
+from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -16,6 +18,8 @@ from ros2cc_extract.extract.static.values import (
     Value,
 )
 from ros2cc_extract.places import Unknown
+
+_TEXT_LIMIT = 100_000
 
 _TEXT_METHODS = frozenset(
     [
@@ -65,11 +69,9 @@ def _text_method(name: str) -> Handler:
 def _applied(machine: Machine, receiver: Const, name: str, call: Call) -> Value:
     args = [arg.value for arg in call.args if isinstance(arg, Const)]
     keywords = {k: arg.value for k, arg in call.keywords.items() if isinstance(arg, Const)}
-    too_wide = name in ('format', 'zfill') and any(
-        isinstance(arg, int) and abs(arg) > 10_000 for arg in args
-    )
     try:
-        result = None if too_wide else getattr(receiver.value, name)(*args, **keywords)
+        large = _is_large(receiver.value, name, [*args, *keywords.values()])
+        result = None if large else getattr(receiver.value, name)(*args, **keywords)
     except (TypeError, ValueError, LookupError, AttributeError, MemoryError):
         result = None
     if isinstance(result, list):
@@ -79,11 +81,22 @@ def _applied(machine: Machine, receiver: Const, name: str, call: Call) -> Value:
     return machine.mystery(f'text from str.{name}', call.place, f'str.{name}')
 
 
+def _is_large(text: str, name: str, args: list[Any]) -> bool:
+    """Whether a result could be much longer than what the source shows."""
+    if name == 'format' and (folding.is_wide(text) or any(folding.is_wide(str(a)) for a in args)):
+        return True
+    if any(isinstance(arg, int) and abs(arg) > _TEXT_LIMIT for arg in args):
+        return True
+    longest = max((len(arg) for arg in args if isinstance(arg, str)), default=0)
+    return (len(text) + 1) * (longest + 1) > _TEXT_LIMIT
+
+
 def _joined(machine: Machine, receiver: Const, call: Call) -> Value:
     items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
     texts = [item.value for item in items if isinstance(item, Const)]
     if rest is None and len(texts) == len(items) and all(isinstance(t, str) for t in texts):
-        return Const(receiver.value.join(texts))
+        if sum(len(text) + len(receiver.value) for text in texts) < _TEXT_LIMIT:
+            return Const(receiver.value.join(texts))
     return machine.mystery('text from str.join', call.place, 'str.join')
 
 

@@ -213,7 +213,6 @@ class Calls(Machine):
         for parameter, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
                 function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)
-        self.world.functions.append(function)
         if isinstance(node, ast.Lambda):
             return function
         return self._decorate(function, node, frame)

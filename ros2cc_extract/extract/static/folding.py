@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import operator
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -24,6 +25,8 @@ from ros2cc_extract.extract.static.values import (
 
 _TEXT_LIMIT = 10_000
 _NUMBER_LIMIT = 1 << 128
+
+_WIDE = re.compile(r'\d{4}')
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -91,10 +94,15 @@ def _percent(template: str, right: Value) -> Const | None:
     items = right.items if isinstance(right, Sequence) and right.kind == 'tuple' else (right,)
     if not all(isinstance(item, Const) for item in items) or '*' in template:
         return None
-    if any(character.isdigit() for character in template) and len(template) > 200:
+    if is_wide(template):
         return None
     values = tuple(item.value for item in items if isinstance(item, Const))
     return _guarded(lambda: template % values) if len(template) < _TEXT_LIMIT else None
+
+
+def is_wide(template: str) -> bool:
+    """Whether a format asks for a field so wide that filling it would cost memory."""
+    return len(template) > _TEXT_LIMIT or _WIDE.search(template) is not None
 
 
 def _guarded(act: Callable[[], Any]) -> Const | None:
@@ -124,7 +132,7 @@ def unary(op: ast.unaryop, value: Value) -> Const | None:
 
 def formatted(value: Const, spec: str) -> Const | None:
     """``format(value, spec)`` for short specifications."""
-    if len(spec) > 8 or any(len(run) > 3 for run in spec.split('.')):
+    if is_wide(spec):
         return None
     return _guarded(lambda: format(value.value, spec))
 

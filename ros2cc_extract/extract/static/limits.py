@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,11 +11,19 @@ _RECURSION = 8_000
 
 
 @contextmanager
-def deep_recursion() -> Iterator[None]:
-    """Allow the depth that the machine's own limits need, then put the old limit back."""
-    before = sys.getrecursionlimit()
+def scanning_limits() -> Iterator[None]:
+    """
+    Allow the depth that the machine's own limits need, and pause the cyclic collector.
+
+    Syntax trees are large and live as long as the scan: looking for cycles among them again
+    and again takes longer than the scan itself.
+    """
+    before, collecting = sys.getrecursionlimit(), gc.isenabled()
     sys.setrecursionlimit(max(before, _RECURSION))
+    gc.disable()
     try:
         yield
     finally:
         sys.setrecursionlimit(before)
+        if collecting:
+            gc.enable()

@@ -106,7 +106,9 @@ def add_entity(
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.when = world.when
+    entity.number = len(world.entities)
     world.entities.append(entity)
+    world.by_node.setdefault(id(node), []).append(entity)
     if world.deeds is not None:
         world.deeds.changes.append(Act(name=kind.value, source=place, chain=world.chain[1:]))
     return entity

@@ -73,13 +73,16 @@ def run_library(
     place = Place(source.shown, 1, 1)
     guarded(machine, lambda: machine.run_module(source, source.module_name) and None, place)
     module = machine.modules[source.shown]
-    values = [value for value in module.slots.values() if isinstance(value, (Class, Function))]
+    values: list[Class | Function] = [
+        value for value in module.slots.values() if isinstance(value, (Class, Function))
+    ]
+    bases = _bases_in_use(values)
     for value in sorted(values, key=lambda v: (isinstance(v, Function), v.node.lineno)):
         if id(value.node) in covered or value.module is not module:
             continue
         if id(value.node) in machine.world.called or not creates_entities(value.node):
             continue
-        if isinstance(value, Class) and _is_base_of(value, values, covered):
+        if id(value) in bases:
             continue
         _use_without_caller(machine, value)
     run_callbacks(machine)
@@ -95,15 +98,14 @@ def _has_uncovered(tree: ast.Module, covered: frozenset[int]) -> bool:
     )
 
 
-def _is_base_of(cls: Class, values: list[Class | Function], covered: frozenset[int]) -> bool:
+def _bases_in_use(values: list[Class | Function]) -> set[int]:
     """A base class of another class of the file is followed with that one."""
-    return any(
-        isinstance(other, Class)
-        and other is not cls
-        and cls in other.mro
-        and creates_entities(other.node)
-        for other in values
-    )
+    return {
+        id(base)
+        for cls in values
+        if isinstance(cls, Class) and creates_entities(cls.node)
+        for base in cls.mro[1:]
+    }
 
 
 def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:

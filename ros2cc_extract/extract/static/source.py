@@ -14,7 +14,8 @@ from pathlib import Path
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.places import Place
 
-SIZE_LIMIT_BYTES = 16_000_000
+# A syntax tree takes some four hundred times the size of its text.
+SIZE_LIMIT_BYTES = 1_000_000
 
 _CREATES = re.compile(rb'\.create_(?:subscription|timer|service|client)\(')
 

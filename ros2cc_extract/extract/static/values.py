@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from ros2cc_extract.extract.static.machine import Machine
 
 
+_TEXT_LIMIT = 60
+
+
 class Value:
     """Anything an expression may stand for; compared by identity unless said otherwise."""
 
@@ -66,15 +69,33 @@ class Mystery(Value):
     :param default: what it is when nobody passes anything else (a parameter's default).
     """
 
-    __slots__ = ('default', 'text', 'unknown')
+    __slots__ = ('_text', 'default', 'unknown')
 
-    def __init__(self, unknown: Unknown, text: str = '', default: Value | None = None) -> None:
+    def __init__(
+        self, unknown: Unknown, text: str | ast.expr = '', default: Value | None = None
+    ) -> None:
         self.unknown = unknown
-        self.text = text
+        self._text = text
         self.default = default
+
+    @property
+    def text(self) -> str:
+        """Short source of the expression, made when somebody asks."""
+        if not isinstance(self._text, str):
+            self._text = source_text(self._text)
+        return self._text
 
     def __repr__(self) -> str:
         return f'Mystery({self.unknown})'
+
+
+def source_text(node: ast.expr) -> str:
+    """Short source of an expression, for messages and to tell mysteries apart."""
+    try:
+        text = ast.unparse(node)
+    except RecursionError:
+        return '…'
+    return text if len(text) <= _TEXT_LIMIT else f'{text[: _TEXT_LIMIT - 3]}…'
 
 
 class Choice(Value):
@@ -382,7 +403,7 @@ class Call:
     args: list[Value] = field(default_factory=list)
     keywords: dict[str, Value] = field(default_factory=dict)
     more: Unknown | None = None
-    text: str = ''
+    text: str | ast.expr = ''
 
     def argument(self, index: int | None, *names: str) -> Value | None:
         """The argument at ``index`` or of one of ``names``; a mystery when it may be passed."""
