@@ -56,9 +56,7 @@ EXPECTED: dict[str, Held] = {
     'two_nodes_one_executor': held(
         'MultiThreadedExecutor',
         2,
-        group(
-            'EXCLUSIVE', member('wheel_encoder', 'timer', 'on_timer', 0.02), default=True
-        ),
+        group('EXCLUSIVE', member('wheel_encoder', 'timer', 'on_timer', 0.02), default=True),
         group(
             'EXCLUSIVE',
             member('odometry', 'subscription', 'on_position', 'wheel_position'),

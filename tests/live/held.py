@@ -86,9 +86,7 @@ def of_spec(spec: Spec) -> Held:
 
 def without_unknown_keys(observed: Held, expected: Held) -> Held:
     """Blank those keys of ``observed`` that ``expected`` could not find out."""
-    unknown = {
-        replace(each, key='') for each in _all_members(expected) if not each.key
-    }
+    unknown = {replace(each, key='') for each in _all_members(expected) if not each.key}
     return held(
         observed.kind,
         observed.threads,

@@ -117,9 +117,9 @@ def test_own_classes_are_named_and_unresolved(run: RunProgram) -> None:
     own = unit.group_of(timer)
     source = 'tests/live/programs/own_classes.py'
     assert own.cls == 'CountingGroup'
-    assert own.unresolved == Unknown('own group class CountingGroup', Place(source, 29, 9))
+    assert own.unresolved == Unknown('own group class CountingGroup', Place(source, 30, 9))
     assert unit.executor.unresolved == Unknown(
-        'own executor class PatientExecutor', Place(source, 31, 12)
+        'own executor class PatientExecutor', Place(source, 32, 12)
     )
 
 

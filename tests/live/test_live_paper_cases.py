@@ -22,8 +22,12 @@ def run_case(start_example: Start, number: int, until: Callable[[list[str]], boo
     """Run a case with its publisher until the said words fulfil a condition; give the words."""
     start_example('paper_publisher', *PUBLISHER_PACE)
     case = start_example(f'paper_case{number}', *NODE_PACE)
-    words = [line.strip().rpartition(']: ')[2] for line in case.read_until(
-        lambda lines: until([line.strip().rpartition(']: ')[2] for line in lines]))]
+    words = [
+        line.strip().rpartition(']: ')[2]
+        for line in case.read_until(
+            lambda lines: until([line.strip().rpartition(']: ')[2] for line in lines])
+        )
+    ]
     case.end(signal.SIGINT)
     return words
 

@@ -51,9 +51,7 @@ def test_end_by_a_signal_passes_through(start_run: Callable[..., Child]) -> None
 
 
 @pytest.mark.parametrize('name', ['INT', 'TERM', 'HUP', 'USR1'])
-def test_signal_sent_to_us_reaches_the_command(
-    name: str, start_run: Callable[..., Child]
-) -> None:
+def test_signal_sent_to_us_reaches_the_command(name: str, start_run: Callable[..., Child]) -> None:
     waits = f'trap "echo got {name}; exit 5" {name}; echo up; while :; do sleep 0.05; done'
     child = start_run('sh', '-c', waits)
     child.read_until(lambda lines: 'up\n' in lines)
@@ -64,7 +62,10 @@ def test_signal_sent_to_us_reaches_the_command(
 def test_standard_streams_pass_through(ros_env: dict[str, str], tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, '-c', OURSELVES, str(tmp_path / 'out'), 'sh', '-c', 'cat; echo e >&2'],
-        input='through', capture_output=True, text=True, check=False,
+        input='through',
+        capture_output=True,
+        text=True,
+        check=False,
         env={**ros_env, 'PYTHONPATH': str(ROOT)},
     )
     assert (done.stdout, done.stderr.splitlines()[0]) == ('through', 'e')

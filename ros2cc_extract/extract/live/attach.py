@@ -42,7 +42,7 @@ class Injector:
     refusals: tuple[type[Exception], ...]
 
 
-_LINES = '''
+_LINES = """
 import importlib, importlib.util, os, sys
 def _record(name='_ros2cc_attached'):
     folder, path = {folder!r}, {path!r}
@@ -60,7 +60,7 @@ def _record(name='_ros2cc_attached'):
             del sys.modules[loaded]
 _record()
 del _record
-'''
+"""
 
 
 def attach_process(pid: int, output: Path, stderr: TextIO) -> int:

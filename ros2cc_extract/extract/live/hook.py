@@ -33,9 +33,7 @@ class Hook:
 
     def __init__(self, directory: str, *, traced: bool = False) -> None:
         self.recorder = Recorder()
-        self.writer = Writer(
-            self.recorder, lambda: _file_of_process(directory), traced=traced
-        )
+        self.writer = Writer(self.recorder, lambda: _file_of_process(directory), traced=traced)
         self._traced = traced
         self._task_records: dict[int, TaskRecord] = {}
         self._wrapped: list[tuple[type, str, Any]] = []
@@ -129,9 +127,7 @@ class Hook:
     def _woken(self, _result: None, _executor: Any) -> None:
         self.recorder.changes += 1
 
-    def _task_created(
-        self, task: Any, executor: Any, callback: Any, *_: Any, **__: Any
-    ) -> None:
+    def _task_created(self, task: Any, executor: Any, callback: Any, *_: Any, **__: Any) -> None:
         asked_by = sys._getframe(2).f_globals.get('__name__')
         kind = 'done_callback' if asked_by == 'rclpy.task' else 'task'
         record = self.recorder.note_task(executor, kind, callback)
@@ -206,9 +202,7 @@ class Hook:
 class _Finder:
     """Lets the other finders find rclpy's executors, and wraps them once they are loaded."""
 
-    def __init__(
-        self, wrap: Callable[[Any], None], lose: Callable[[BaseException], None]
-    ) -> None:
+    def __init__(self, wrap: Callable[[Any], None], lose: Callable[[BaseException], None]) -> None:
         self._wrap = wrap
         self._lose = lose
 

@@ -92,14 +92,19 @@ class Recorder:
     def note_added(self, executor: Any, node: Any) -> None:
         with self.lock:
             home, record = self.note_executor(executor), self.note_node(node)
-            if any(stay['until'] is None and stay['executor'] == home.number
-                   for stay in record.stays):
+            if any(
+                stay['until'] is None and stay['executor'] == home.number for stay in record.stays
+            ):
                 return
             for group in self._groups_of(node):
                 self.note_group(group)
             record.stays.append(
-                {'executor': home.number, 'since': time.monotonic_ns(), 'until': None,
-                 'waited': False}
+                {
+                    'executor': home.number,
+                    'since': time.monotonic_ns(),
+                    'until': None,
+                    'waited': False,
+                }
             )
             self.changes += 1
 
@@ -140,9 +145,7 @@ class Recorder:
         with self.lock:
             record = self.entities.get(id(entity))
             if record is None or record.ref() is not entity:
-                record = EntityRecord(
-                    next(self._numbers), entity, self.note_group(group).number
-                )
+                record = EntityRecord(next(self._numbers), entity, self.note_group(group).number)
                 self.entities[id(entity)] = record
                 self.all_entities.append(record)
             set_up = record.kind not in WAITABLE_KINDS or record.creation is not None

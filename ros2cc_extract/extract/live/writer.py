@@ -52,9 +52,7 @@ class Writer:
     def start(self) -> None:
         """Start the thread, unless it runs."""
         if self._thread is None:
-            self._thread = threading.Thread(
-                target=self._run, name='ros2cc-extract', daemon=True
-            )
+            self._thread = threading.Thread(target=self._run, name='ros2cc-extract', daemon=True)
             self._thread.start()
 
     def finish(self) -> None:

@@ -1,4 +1,5 @@
 """Runs a program of this folder with a hook whose every recording function raises."""
+
 import runpy
 import sys
 from pathlib import Path

@@ -1,4 +1,5 @@
 """Makes and destroys a timer in every run of another; destroys a whole node in a callback."""
+
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 

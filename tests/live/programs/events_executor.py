@@ -1,4 +1,5 @@
 """The executor written in C++: a timer and a task."""
+
 import sys
 
 import rclpy

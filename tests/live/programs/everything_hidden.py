@@ -1,4 +1,5 @@
 """Entities nobody wrote, a rate, a life-cycle node, a done-callback, a task, coroutines."""
+
 import functools
 
 import rclpy

@@ -1,4 +1,5 @@
 """Processes made by fork and by multiprocessing, each with a node of its own; os._exit."""
+
 import multiprocessing
 import os
 import sys

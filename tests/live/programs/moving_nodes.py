@@ -1,4 +1,5 @@
 """Two executors: a late entity, a late node, a node that another executor takes over."""
+
 import threading
 
 import rclpy

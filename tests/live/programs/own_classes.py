@@ -1,4 +1,5 @@
 """A group class and an executor class that rclpy does not know, and a group that refuses."""
+
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import SingleThreadedExecutor

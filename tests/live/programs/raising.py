@@ -1,4 +1,5 @@
 """A callback that raises: the program ends with its traceback."""
+
 import rclpy
 
 

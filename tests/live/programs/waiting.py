@@ -1,4 +1,5 @@
 """Says tick until somebody ends it; as many nodes and timers as asked for."""
+
 import sys
 
 import rclpy
