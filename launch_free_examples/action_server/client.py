@@ -1,4 +1,5 @@
 """Send one goal to the action server of node.py, print the result, end."""
+
 import argparse
 
 import rclpy

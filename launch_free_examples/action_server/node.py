@@ -4,6 +4,7 @@ An action server that can be cancelled while it works, and a status timer next t
 Goal and cancel requests are handled in the server's reentrant group. The execute callback runs as
 a task of the executor, outside every group: on one thread a cancel would come too late.
 """
+
 import argparse
 import signal
 import threading
@@ -27,11 +28,14 @@ class FibonacciServer(Node):
         self.step_s = self.declare_parameter('step_s', 0.5).value
         self.goals_done = 0
         self.server = ActionServer(
-            self, Fibonacci, 'fibonacci',
+            self,
+            Fibonacci,
+            'fibonacci',
             execute_callback=self.execute,
             goal_callback=self.on_goal,
             cancel_callback=self.on_cancel,
-            callback_group=ReentrantCallbackGroup())
+            callback_group=ReentrantCallbackGroup(),
+        )
         self.create_timer(1.0, self.report)
 
     def on_goal(self, goal: Fibonacci.Goal) -> GoalResponse:

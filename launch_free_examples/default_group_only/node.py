@@ -3,6 +3,7 @@ Battery watch: a subscription, a timer and a service, none of which names a grou
 
 All three share the node's default group with the parameter services that every node carries.
 """
+
 import argparse
 import signal
 import threading

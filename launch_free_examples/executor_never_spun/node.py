@@ -4,6 +4,7 @@ A setting without effect: the multi-threaded executor is filled, but another one
 ``rclpy.spin(node)`` takes the node out of its executor and puts it into the global
 single-threaded one. The camera therefore waits for the slow upload, whatever the groups say.
 """
+
 import argparse
 import signal
 import threading
@@ -25,7 +26,8 @@ class CameraUpload(Node):
         self.last = Header()
         self.group = ReentrantCallbackGroup()
         self.create_subscription(
-            Header, 'image_header', self.on_header, 10, callback_group=self.group)
+            Header, 'image_header', self.on_header, 10, callback_group=self.group
+        )
         self.create_timer(1.0, self.upload, callback_group=self.group)
 
     def on_header(self, message: Header) -> None:

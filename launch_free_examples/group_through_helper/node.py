@@ -4,6 +4,7 @@ A group handed to a helper class, which creates the entities on the node it is g
 The helper is no node: its timer and subscription belong to the node, in the group that the node
 chose. A second helper is given no group, so its entities go to the node's default group.
 """
+
 import argparse
 import signal
 import threading

@@ -4,6 +4,7 @@ One subscription per robot, made in a loop, each with a lambda and a group of it
 Messages of two robots may be handled at the same time, two messages of one robot may not. The
 summary timer stays in the node's default group.
 """
+
 import argparse
 import signal
 import threading
@@ -26,8 +27,12 @@ class FleetStatus(Node):
         self.status = dict.fromkeys(ROBOTS, 'unknown')
         for robot in ROBOTS:
             self.create_subscription(
-                String, f'{robot}/status', lambda message, name=robot: self.note(name, message),
-                10, callback_group=MutuallyExclusiveCallbackGroup())
+                String,
+                f'{robot}/status',
+                lambda message, name=robot: self.note(name, message),
+                10,
+                callback_group=MutuallyExclusiveCallbackGroup(),
+            )
         self.create_timer(1.0, self.summarise)
 
     def note(self, robot: str, message: String) -> None:

@@ -4,6 +4,7 @@ Case 1 of the paper: one thread.
 Two timers fire every second. The subscription to msg_C works for one second a message, the one
 to msg_D for two. One thread serves whatever is ready, in turns.
 """
+
 import argparse
 import signal
 import subprocess
@@ -52,8 +53,11 @@ class PaperCase1(Node):
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
-    parser.add_argument('--with-publisher', action='store_true',
-                        help='start the publisher of msg_C and msg_D as a child process')
+    parser.add_argument(
+        '--with-publisher',
+        action='store_true',
+        help='start the publisher of msg_C and msg_D as a child process',
+    )
     options, ros_arguments = parser.parse_known_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)

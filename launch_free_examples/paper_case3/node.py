@@ -4,6 +4,7 @@ Case 3 of the paper: four threads, one reentrant group.
 Two timers fire every second. The subscription to msg_C works for one second a message, the one
 to msg_D for two. All four run side by side, also with themselves.
 """
+
 import argparse
 import signal
 import subprocess
@@ -54,8 +55,11 @@ class PaperCase3(Node):
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, help='stop after this time')
-    parser.add_argument('--with-publisher', action='store_true',
-                        help='start the publisher of msg_C and msg_D as a child process')
+    parser.add_argument(
+        '--with-publisher',
+        action='store_true',
+        help='start the publisher of msg_C and msg_D as a child process',
+    )
     options, ros_arguments = parser.parse_known_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=ros_arguments)

@@ -1,4 +1,5 @@
 """Publish msg_C every second and msg_D every two seconds: the environment of the paper cases."""
+
 import argparse
 import signal
 import threading

@@ -4,6 +4,7 @@ A service and a client that never blocks: asynchronous call, answer in a done-ca
 Server and client live in two nodes on one thread. The timer only sends the request and returns,
 so the same thread is free to serve it and to take the answer.
 """
+
 import argparse
 import signal
 import threading
@@ -24,9 +25,7 @@ class Gripper(Node):
         self.closed = False
         self.create_service(SetBool, 'gripper/close', self.on_close)
 
-    def on_close(
-        self, request: SetBool.Request, response: SetBool.Response
-    ) -> SetBool.Response:
+    def on_close(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         self.closed = request.data
         response.success = True
         response.message = 'closed' if self.closed else 'open'

@@ -4,6 +4,7 @@ Obstacle stop: slow planning in one group must not delay the stop of another.
 The laser scan and the plan timer are in two mutually exclusive groups on two threads, so a scan
 is handled while a plan is computed. Both touch ``blocked``, which therefore needs a lock.
 """
+
 import argparse
 import signal
 import threading
@@ -32,8 +33,12 @@ class ObstacleStop(Node):
         self.planning_group = MutuallyExclusiveCallbackGroup()
         self.command = self.create_publisher(Twist, 'cmd_vel', 10)
         self.create_subscription(
-            LaserScan, 'scan', self.on_scan, qos_profile_sensor_data,
-            callback_group=self.safety_group)
+            LaserScan,
+            'scan',
+            self.on_scan,
+            qos_profile_sensor_data,
+            callback_group=self.safety_group,
+        )
         self.create_timer(0.05, self.drive, callback_group=self.safety_group)
         self.create_timer(0.5, self.plan, callback_group=self.planning_group)
 

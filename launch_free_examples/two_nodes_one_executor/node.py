@@ -4,6 +4,7 @@ Two nodes in one multi-threaded executor, each with a default group of its own.
 Callbacks of one node exclude each other; callbacks of different nodes may overlap. Both classes
 call their timer callback ``on_timer``: the names must not be mixed up.
 """
+
 import argparse
 import signal
 import threading
