@@ -144,7 +144,15 @@ def verify_unit(
         profile=options.profile.value,
         text=options.text.value,
         assumptions=closed.assumptions,
+        notes=_caveats(closed, options),
     )
+
+
+def _caveats(closed: ClosedSpec, options: Options) -> tuple[str, ...]:
+    blocking = any(callback.blocking for callback in closed.spec.callbacks)
+    if options.profile is build.Profile.PAPER and blocking:
+        return ('the published model knows no blocking calls; what they do, the findings tell',)
+    return ()
 
 
 def _ask_verifyta(
@@ -258,6 +266,7 @@ def _verification(
     profile: str | None = None,
     text: str | None = None,
     assumptions: tuple[str, ...] = (),
+    notes: tuple[str, ...] = (),
 ) -> Verification:
     return Verification(
         model=model,
@@ -271,5 +280,5 @@ def _verification(
         complete=result.complete,
         results=results,
         assumptions=assumptions,
-        notes=(result.note,) if result.note else (),
+        notes=(*([result.note] if result.note else []), *notes),
     )

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_FINDINGS
+
+if TYPE_CHECKING:
+    from ros2cc_extract.merge import Difference
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +26,14 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.merge import diff
 
     differences = diff(load_units(args.left, stderr), load_units(args.right, stderr))
-    if args.output_format == 'json':
+    return report(differences, (str(args.left), str(args.right)), args.output_format, stdout)
+
+
+def report(
+    differences: Sequence[Difference], names: tuple[str, str], form: str, stdout: TextIO
+) -> int:
+    """Print the differences of two sides and give the exit status they deserve."""
+    if form == 'json':
         from ros2cc_extract.report.json_report import differences_data, to_text
 
         stdout.write(to_text(differences_data(differences)))
@@ -30,6 +41,6 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         from ros2cc_extract.report.diff_text import print_differences
         from ros2cc_extract.report.style import console_for
 
-        print_differences(differences, (str(args.left), str(args.right)), console_for(stdout))
+        print_differences(differences, names, console_for(stdout))
     faulty = any(not difference.marked for difference in differences)
     return EXIT_FINDINGS if faulty else EXIT_CLEAN

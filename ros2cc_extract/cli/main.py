@@ -26,6 +26,10 @@ COMMANDS = {
     'spec': 'print the YAML specification of a node',
     'model': 'write the UPPAAL model and its queries',
     'verify': 'print the verdict table of a specification or a model',
+    'explain': 'tell what a rule means and how to mend what it finds',
+    'run': 'start a command with the live hook and write what its nodes hold',
+    'env': 'print the environment variables that switch the live hook on',
+    'attach': 'write the specification of a process that already runs',
     'diff': 'compare two specifications of one program',
     'merge': 'join a specification from source with one from a live run',
 }

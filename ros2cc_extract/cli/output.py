@@ -19,14 +19,26 @@ def write_text(text: str, path: Path | None, stdout: TextIO) -> None:
         write_atomically(path, text)
 
 
+def make_folder(path: Path) -> None:
+    """
+    Make a folder with its parents.
+
+    :raises InputError: when that is not possible.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _refused(path, error) from None
+
+
 def write_atomically(path: Path, text: str) -> None:
     """
     Write ``text`` under a temporary name beside ``path`` and rename it.
 
     :raises InputError: when the folder cannot be made or written; nothing is left behind then.
     """
+    make_folder(path.parent)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f'.{path.name}.')
     except OSError as error:
         raise _refused(path, error) from None

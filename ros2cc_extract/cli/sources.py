@@ -14,6 +14,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
+RECORDING_SUFFIX = '.json'
 
 
 def scan_sources(paths: Sequence[Path], stderr: TextIO) -> Extraction:
@@ -26,7 +27,7 @@ def scan_sources(paths: Sequence[Path], stderr: TextIO) -> Extraction:
 
 def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
     """
-    Read a YAML file, or scan anything else as source.
+    Read a YAML file or a recording of the live hook, or scan anything else as source.
 
     :raises InputError: when there is no unit in it.
     """
@@ -34,6 +35,11 @@ def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
         from ros2cc_extract.spec.yaml_io import load_specs
 
         return load_specs(path)
+    if path.suffix == RECORDING_SUFFIX:
+        from ros2cc_extract.extract.live.collect import specs_of
+        from ros2cc_extract.extract.live.recording import read_recording
+
+        return specs_of(read_recording(path, Path.cwd()))
     extraction = scan_sources([path], stderr)
     print_diagnostics(extraction.diagnostics, stderr)
     if not extraction.units:

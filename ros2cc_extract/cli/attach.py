@@ -1,0 +1,27 @@
+"""``ros2cc-extract attach``: the specification of a process that already runs."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TextIO
+
+DEFAULT_OUTPUT = Path('live.spec.yaml')
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument('pid', type=int, metavar='PID', help='process id of the node')
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=DEFAULT_OUTPUT,
+        metavar='FILE',
+        help=f'specification file (default {DEFAULT_OUTPUT})',
+    )
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.extract.live.attach import attach_process
+
+    return attach_process(args.pid, args.output, stderr)

@@ -1,0 +1,55 @@
+"""``ros2cc-extract run``: start any command with the hook, and write what its processes held."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from ros2cc_extract.spec.model import Spec
+
+DEFAULT_OUTPUT = Path('live.spec.yaml')
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=DEFAULT_OUTPUT,
+        metavar='FILE|DIR',
+        help=f'specification, or folder for one per process (default {DEFAULT_OUTPUT})',
+    )
+    parser.add_argument(
+        '--trace', type=Path, metavar='FILE', help='also record the execution, as JSON lines'
+    )
+    parser.add_argument(
+        '--check',
+        type=Path,
+        metavar='PATH',
+        help='scan this source too, and compare it with what the run held',
+    )
+    parser.add_argument('command', nargs=argparse.REMAINDER, metavar='-- CMD …')
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.errors import InputError
+    from ros2cc_extract.extract.live.run import run_command
+
+    command = args.command[1:] if args.command[:1] == ['--'] else args.command
+    if not command:
+        raise InputError('no command given', None, 'write it after --: run -- python node.py')
+    finish = _comparison(args.check, stdout, stderr) if args.check else None
+    return run_command(command, args.output, stderr, trace=args.trace, finish=finish)
+
+
+def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple[Spec, ...]], int]:
+    """Scan before the command starts, so that a bad path costs no run."""
+    from ros2cc_extract.cli.diff import report
+    from ros2cc_extract.cli.sources import load_units
+    from ros2cc_extract.merge import diff
+
+    units = load_units(source, stderr)
+    return lambda live: report(diff(units, live), (str(source), 'live'), 'text', stdout)
