@@ -7,11 +7,11 @@ setup(
     ext_modules=[
         Extension(
             'ros2cc_extract.checker._core',
-            sources=['ros2cc_extract/checker/native/binding.cpp'],
+            sources=[f'ros2cc_extract/checker/native/{name}.cpp' for name in ('binding', 'core')],
             depends=[
                 f'ros2cc_extract/checker/native/{name}.hpp'
                 for name in (
-                    'model', 'layout', 'machine', 'moves', 'store', 'predicates', 'explore', 'lasso'
+                    'core', 'memory', 'model', 'layout', 'machine', 'moves', 'store', 'predicates', 'explore', 'lasso'
                 )
             ],
             include_dirs=[pybind11.get_include()],

@@ -12,7 +12,6 @@ class Answer:
     cycle_start: int
     end: int
     seconds: float
-    is_stopped: bool
 
 class Result:
     states: int

@@ -1,4 +1,4 @@
-// The extension module: lists of integers in, state numbers and states out.
+// The extension module: lists of integers in, answers out.
 
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
@@ -9,8 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "explore.hpp"
-#include "lasso.hpp"
+#include "core.hpp"
 
 namespace py = pybind11;
 using namespace core;
@@ -19,22 +18,7 @@ namespace {
 
 using Ints = std::vector<int32_t>;
 using RawPredicate = std::tuple<int32_t, bool, Ints, Ints>;
-using RawState = std::vector<int64_t>;
-using PyWatch = std::function<bool(uint64_t, uint64_t, uint64_t, bool)>;
-
-struct Answer {
-  std::vector<RawState> path;  // empty: none was found
-  int64_t cycle_start = -1;
-  int32_t end = NO_END;
-  double seconds = 0;
-  bool is_stopped = false;
-};
-
-struct Result {
-  uint64_t states = 0, transitions = 0;
-  bool is_complete = false;
-  std::vector<Answer> goals, lassos;
-};
+using RawLasso = std::pair<RawPredicate, std::optional<RawPredicate>>;
 
 std::vector<Range> ranges_from(const Ints& flat) {
   std::vector<Range> ranges(flat.size() / 2);
@@ -69,94 +53,15 @@ Predicate predicate_from(const RawPredicate& raw) {
   return {std::get<0>(raw), std::get<1>(raw), std::get<2>(raw), std::get<3>(raw)};
 }
 
-std::vector<RawState> unpacked(Exploration& graph, const std::vector<uint32_t>& numbers) {
-  std::vector<RawState> result;
-  for (const uint32_t number : numbers) {
-    Machine& machine = graph.machine();
-    machine.load(graph.states()[number]);
-    RawState state(machine.at.begin(), machine.at.end());
-    state.insert(state.end(), machine.value.begin(), machine.value.end());
-    result.push_back(std::move(state));
+std::vector<LassoQuestion> lassos_from(const std::vector<RawLasso>& raw) {
+  std::vector<LassoQuestion> lassos;
+  for (const auto& [inside, start] : raw) {
+    std::optional<Predicate> first;
+    if (start) first = predicate_from(*start);
+    lassos.emplace_back(predicate_from(inside), first);
   }
-  return result;
+  return lassos;
 }
-
-class Search {
- public:
-  Search(const Model& model, const std::vector<RawPredicate>& goals,
-         const std::vector<std::pair<RawPredicate, std::optional<RawPredicate>>>& lassos,
-         bool is_fair, const PyWatch& watch)
-      : model_(model), lassos_(lassos), is_fair_(is_fair), watch_(watch),
-        graph_(model, all(goals), lassos.empty()) {}
-
-  Result run() {
-    graph_.run([this](uint64_t states, uint64_t transitions, uint64_t bytes) {
-      return ask(states, transitions, bytes, true);
-    });
-    Result result;
-    result.states = graph_.states().size();
-    result.transitions = graph_.transitions();
-    result.is_complete = graph_.is_complete();
-    for (const Hit& hit : graph_.hits()) {
-      Answer answer;
-      answer.seconds = hit.seconds;
-      if (hit.state != kNone) {
-        answer.path = unpacked(graph_, graph_.parents().path_to(hit.state));
-      }
-      result.goals.push_back(std::move(answer));
-    }
-    for (const auto& [inside, start] : lassos_) result.lassos.push_back(lasso(inside, start));
-    return result;
-  }
-
- private:
-  static std::vector<Predicate> all(const std::vector<RawPredicate>& raw) {
-    std::vector<Predicate> result;
-    for (const RawPredicate& predicate : raw) result.push_back(predicate_from(predicate));
-    return result;
-  }
-
-  bool ask(uint64_t states, uint64_t transitions, uint64_t bytes, bool is_exploring) {
-    py::gil_scoped_acquire gil;
-    return watch_(states, transitions, bytes, is_exploring);
-  }
-
-  Answer lasso(const RawPredicate& inside, const std::optional<RawPredicate>& start) {
-    const Watch watch = [this](uint64_t states, uint64_t transitions, uint64_t bytes) {
-      return ask(states, transitions, bytes, false);
-    };
-    Answer answer;
-    if (watch(graph_.states().size(), graph_.transitions(), 0)) {
-      answer.is_stopped = true;
-      return answer;
-    }
-    std::optional<Predicate> from;
-    if (start) from = predicate_from(*start);
-    LassoSearch search(graph_, predicate_from(inside), from ? &*from : nullptr, watch);
-    try {
-      const Lasso found = is_fair_ ? search.run_fair(model_) : search.run();
-      if (!found.states.empty()) with_prefix(found, answer);
-    } catch (const Stopped&) {
-      answer.is_stopped = true;
-    }
-    return answer;
-  }
-
-  void with_prefix(const Lasso& lasso, Answer& answer) {
-    std::vector<uint32_t> numbers = graph_.parents().path_to(lasso.states[0]);
-    const int64_t shift = static_cast<int64_t>(numbers.size()) - 1;
-    numbers.insert(numbers.end(), lasso.states.begin() + 1, lasso.states.end());
-    answer.path = unpacked(graph_, numbers);
-    if (lasso.cycle_start >= 0) answer.cycle_start = lasso.cycle_start + shift;
-    answer.end = lasso.end;
-  }
-
-  const Model& model_;
-  const std::vector<std::pair<RawPredicate, std::optional<RawPredicate>>>& lassos_;
-  bool is_fair_;
-  const PyWatch& watch_;
-  Exploration graph_;
-};
 
 }  // namespace
 
@@ -185,8 +90,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readonly("path", &Answer::path)
       .def_readonly("cycle_start", &Answer::cycle_start)
       .def_readonly("end", &Answer::end)
-      .def_readonly("seconds", &Answer::seconds)
-      .def_readonly("is_stopped", &Answer::is_stopped);
+      .def_readonly("seconds", &Answer::seconds);
   py::class_<Result>(module, "Result")
       .def_readonly("states", &Result::states)
       .def_readonly("transitions", &Result::transitions)
@@ -199,13 +103,15 @@ PYBIND11_MODULE(_core, module) {
       [](const Ints& nodes, Ints lists, const Ints& ranges, const Ints& functions,
          const Ints& edges, Ints channels, const Ints& variables, Ints initial,
          std::vector<Ints> locations, const std::vector<RawPredicate>& goals,
-         const std::vector<std::pair<RawPredicate, std::optional<RawPredicate>>>& lassos,
-         bool is_fair, const PyWatch& watch) {
+         const std::vector<RawLasso>& lassos, bool is_fair, const Ask& watch) {
+        // pybind11 takes the lock again around each call of `watch`.
         py::gil_scoped_release release;
         const Model model =
             model_from(nodes, std::move(lists), ranges, functions, edges, std::move(channels),
                        variables, std::move(initial), std::move(locations));
-        return Search(model, goals, lassos, is_fair, watch).run();
+        std::vector<Predicate> predicates;
+        for (const RawPredicate& goal : goals) predicates.push_back(predicate_from(goal));
+        return search(model, predicates, lassos_from(lassos), is_fair, watch);
       },
       py::kw_only(), py::arg("nodes"), py::arg("lists"), py::arg("ranges"),
       py::arg("functions"), py::arg("edges"), py::arg("channels"), py::arg("variables"),

@@ -12,14 +12,6 @@ namespace core {
 
 constexpr int64_t kMaxLoopSteps = 1000000;  // network.py: MAX_LOOP_STEPS
 
-struct CheckFailed {
-  int32_t site;
-  int64_t value;
-};
-struct Endless {
-  int32_t function;
-};
-
 class Machine {
  public:
   Machine(const Model& model, const Layout& layout)

@@ -43,17 +43,20 @@ struct Edge {
   int32_t updates;  // offset of a list of nodes
 };
 
+// Thrown when a run-time check fails, or a function's loops do not end.
+struct CheckFailed {
+  int32_t site;
+  int64_t value;
+};
+struct Endless {
+  int32_t function;
+};
+
 enum LocationFlag : int32_t { URGENT = 1, COMMITTED = 2 };
 enum ChannelFlag : int32_t { BROADCAST = 1, URGENT_CHANNEL = 2 };
 
 struct Range {
   int32_t low, high;
-};
-
-// What may be forgotten once a process has moved: see dead.py.
-struct Forgetting {
-  int32_t slot;      // variable to reset
-  int32_t conditions;  // offset of a list of variables which must all be 0
 };
 
 struct Model {

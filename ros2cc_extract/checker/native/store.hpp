@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <vector>
+
+#include "memory.hpp"
 
 namespace core {
 
@@ -18,14 +19,14 @@ class Pieces {
  public:
   explicit Pieces(size_t width = 1) : width_(width) {}
 
-  T* operator[](uint64_t i) { return pieces_[i >> kShift].get() + (i & kMask) * width_; }
+  T* operator[](uint64_t i) { return pieces_[i >> kShift].data() + (i & kMask) * width_; }
   const T* operator[](uint64_t i) const {
-    return pieces_[i >> kShift].get() + (i & kMask) * width_;
+    return pieces_[i >> kShift].data() + (i & kMask) * width_;
   }
 
   T* append() {
     if ((size_ & kMask) == 0) {
-      pieces_.emplace_back(new T[(size_t{1} << kShift) * width_]);
+      pieces_.emplace_back((size_t{1} << kShift) * width_);
     }
     return (*this)[size_++];
   }
@@ -33,11 +34,11 @@ class Pieces {
   uint64_t size() const { return size_; }
 
  private:
-  static constexpr int kShift = 16;
+  static constexpr int kShift = 18;
   static constexpr uint64_t kMask = (uint64_t{1} << kShift) - 1;
   size_t width_;
   uint64_t size_ = 0;
-  std::vector<std::unique_ptr<T[]>> pieces_;
+  std::vector<Block<T>> pieces_;
 };
 
 inline uint64_t mix(uint64_t x) {
@@ -178,12 +179,12 @@ class States {
     mask_ = (uint64_t{1} << log) - 1;
     // Numbers stay below the size of the table, so they need no more bits than its index.
     number_mask_ = log >= 32 ? 0xffffffffu : static_cast<uint32_t>(mask_);
-    table_.reset(new uint32_t[mask_ + 1]());
+    table_ = Block<uint32_t>(mask_ + 1);
   }
 
   void grow() {
     if (log_ == kMaxLog) throw std::length_error("more than 3 * 2^30 states");
-    table_.reset();
+    table_ = Block<uint32_t>();
     resize(log_ + 1);
     for (uint64_t i = 0; i < states_.size(); ++i) {
       const uint64_t hash = hash_of(states_[i], words_);
@@ -197,7 +198,7 @@ class States {
   uint64_t mask_ = 0;
   uint32_t number_mask_ = 0;
   Pieces<uint64_t> states_;
-  std::unique_ptr<uint32_t[]> table_;
+  Block<uint32_t> table_;
 };
 
 }  // namespace core
