@@ -13,7 +13,7 @@ PIP_FLAGS ?= --quiet --disable-pip-version-check
 .PHONY: demo test test-long lint schema clean
 
 demo: $(VENV)/installed
-	$(BIN)/ros2cc-extract launch_free_examples/paper_case2/node.py
+	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
 
 test: $(VENV)/developed $(JAZZY)/installed
 	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -n auto $(PYTEST_FLAGS)

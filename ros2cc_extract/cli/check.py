@@ -163,7 +163,7 @@ def _print_text(
         console.print()
     print_findings(findings, Path.cwd(), console)
     counts = _summary(extraction, verifications, findings)
-    console.print(', '.join(f'{number} {what}' for what, number in counts.items()))
+    console.print(', '.join(_counted(number, what) for what, number in counts.items()))
 
 
 def _print_verification(verification: Verification, console: Console) -> None:
@@ -194,6 +194,11 @@ def _first_of_each_family(
     return list(shown.values()), runs - len(shown)
 
 
+def _counted(number: int, what: str) -> str:
+    one = what[:-1] if number == 1 and what.endswith('s') else what
+    return f'{number} {one.replace("_", " ")}'
+
+
 def _summary(
     extraction: Extraction, verifications: Sequence[Verification], findings: Sequence[Finding]
 ) -> dict[str, int]:
@@ -206,7 +211,7 @@ def _summary(
         'units': len(extraction.units),
         'callbacks': sum(len(unit.callbacks) for unit in extraction.units),
         'satisfied': verdicts['satisfied'],
-        'not satisfied': verdicts['not satisfied'],
+        'not_satisfied': verdicts['not satisfied'],
         'undecided': verdicts['undecided'],
         'errors': severities[Severity.ERROR],
         'warnings': severities[Severity.WARNING],
