@@ -36,7 +36,7 @@ Severity: {rule.severity.value}
 
 ## Example
 
-```python
+```{rule.language}
 {rule.bad.rstrip()}
 ```
 

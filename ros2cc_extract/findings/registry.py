@@ -12,6 +12,7 @@ from ros2cc_extract.findings.rules import (
     lost_update,
     nested_spin,
     of_diagnostics,
+    of_requirements,
     one_group,
     one_thread_call,
     outside_groups,
@@ -47,6 +48,10 @@ RULES: tuple[Rule, ...] = (
     of_diagnostics.TAKEN_OUT,
     of_diagnostics.UNREADABLE,
     unresolved.RULE,
+    of_diagnostics.UNUSED_IGNORE,
+    of_requirements.VIOLATED,
+    of_requirements.UNKNOWN_NAME,
+    of_requirements.UNDECIDED,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

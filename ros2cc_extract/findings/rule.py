@@ -97,6 +97,7 @@ class Rule:
     :param bad: a node, or the part that matters, that gets the finding.
     :param good: the same, mended.
     :param mend: what to do, in a sentence or two.
+    :param language: of the bad example.
     :param find: the check; without one the rule speaks for the extractor's diagnostics.
     """
 
@@ -109,6 +110,7 @@ class Rule:
     bad: str
     good: str
     mend: str
+    language: str = 'python'
     find: Check = field(default=_nothing, repr=False)
 
     def check(self, context: Context) -> Iterator[Finding]:

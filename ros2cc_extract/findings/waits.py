@@ -30,6 +30,7 @@ class WaitKind(Enum):
     OTHER = 'other'
 
 
+BUSY_WAIT = 'busy wait'
 _KINDS = {
     'client.call': WaitKind.ANSWER,
     'send_goal': WaitKind.ANSWER,
@@ -39,7 +40,7 @@ _KINDS = {
     'Condition.wait': WaitKind.SIGNAL,
     'Condition.wait_for': WaitKind.SIGNAL,
     'Future.result': WaitKind.SIGNAL,
-    'busy-wait': WaitKind.SIGNAL,
+    BUSY_WAIT: WaitKind.SIGNAL,
     'Rate.sleep': WaitKind.RATE,
     'await': WaitKind.AWAIT,
     'time.sleep': WaitKind.SLEEP,
@@ -91,9 +92,16 @@ def kind_of(block: Blocking) -> WaitKind:
 
 
 def waits_of(context: Context) -> Iterator[Wait]:
-    """All waits of the callbacks somebody wrote, in the order of the unit."""
+    """
+    All waits of the callbacks somebody wrote, in the order of the unit.
+
+    A loop that spins while it waits does not keep the executor from serving others.
+    """
     for caller in context.written:
+        spins = any(kind_of(block) is WaitKind.SPIN for block in caller.blocking)
         for block in caller.blocking:
+            if spins and block.call == BUSY_WAIT:
+                continue
             yield Wait(caller, block, kind_of(block), tuple(_needs(block, caller, context)))
 
 
@@ -113,6 +121,11 @@ def _server(client: Callback, context: Context) -> Iterator[Callback]:
         yield from found[:1] if len(found) == 1 else ()
 
 
+def is_client(callback: Callback) -> bool:
+    """True for what takes the answers of a service or an action."""
+    return callback.entity in _SERVERS
+
+
 def _exclude_each_other(one: Callback, other: Callback) -> bool:
     """True when only one of them is ever created."""
     return one.alternative is not None and one.alternative == other.alternative
@@ -123,8 +136,8 @@ def waits_for(wait: Wait) -> str:
     needed = wait.needs[0] if wait.needs else None
     if needed is None:
         return 'something else'
-    if needed.entity in (EntityKind.CLIENT, EntityKind.ACTION_CLIENT):
+    if is_client(needed):
         name = f' {needed.key!r}' if isinstance(needed.key, str) else ''
         what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
         return f'the answer of {what}{name}'
-    return f'{needed.display_name}'
+    return needed.display_name

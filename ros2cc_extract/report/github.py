@@ -11,8 +11,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.fingerprints import relative
 from ros2cc_extract.findings.model import Finding, Remark
-from ros2cc_extract.report.paths import relative
 
 SHOWN_PER_KIND = 10
 _KINDS = {Severity.ERROR: 'error', Severity.WARNING: 'warning', Severity.NOTE: 'notice'}

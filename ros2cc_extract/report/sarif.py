@@ -8,20 +8,19 @@ Source: OASIS "Static Analysis Results Interchange Format (SARIF) Version 2.1.0"
 
 from __future__ import annotations
 
-import hashlib
 import json
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
+from urllib.parse import quote
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.findings.explain import page
+from ros2cc_extract.findings.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.findings.registry import RULES
 from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.places import Place
-from ros2cc_extract.report.paths import as_uri, relative
 from ros2cc_extract.version import __version__
 
 Data = dict[str, Any]
@@ -94,27 +93,6 @@ def _results(findings: Sequence[Finding], root: str) -> Iterator[Data]:
         }
 
 
-def fingerprints(findings: Iterable[Finding], root: str = '') -> list[str]:
-    """
-    Identify each finding across edits that move lines.
-
-    Made of code, file, unit and subjects; equal ones are counted in the order of their lines.
-    """
-    seen: Counter[str] = Counter()
-    found = []
-    for finding in findings:
-        parts = (
-            finding.code,
-            relative(finding.place.file, root),
-            finding.unit or '',
-            *finding.subjects,
-        )
-        digest = hashlib.sha256('\0'.join(parts).encode()).hexdigest()[:32]
-        seen[digest] += 1
-        found.append(f'{digest}:{seen[digest]}')
-    return found
-
-
 def _message(finding: Finding) -> str:
     return f'{finding.message}\nhelp: {finding.help}' if finding.help else finding.message
 
@@ -179,13 +157,18 @@ def _related(finding: Finding, root: str) -> Data:
 
 def _location(place: Place, root: str) -> Data:
     path = relative(place.file, root)
-    artifact: Data = {'uri': as_uri(path)}
+    artifact: Data = {'uri': _as_uri(path)}
     if not path.startswith('/'):
         artifact['uriBaseId'] = '%SRCROOT%'
     region: Data = {'startLine': max(place.line, 1)}
     if place.column:
         region['startColumn'] = place.column
     return {'physicalLocation': {'artifactLocation': artifact, 'region': region}}
+
+
+def _as_uri(path: str) -> str:
+    quoted = quote(path)
+    return f'file://{quoted}' if path.startswith('/') else quoted
 
 
 def _text(text: str) -> Data:

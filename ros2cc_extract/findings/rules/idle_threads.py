@@ -20,10 +20,22 @@ def find(context: Context) -> Iterator[Hit]:
     counts = [*(c.count for c in context.written), *(g.count for g in context.unit.groups)]
     if context.unit.unresolved or not all(isinstance(count, int) for count in counts):
         return
-    groups = {callback.group for callback in context.unit.callbacks}
     capacity = capacity_of(context.unit.callbacks, context)
-    if not capacity.unbounded and 1 < capacity.at_least < workers.count and len(groups) > 1:
-        yield _hit(capacity.at_least, workers, context)
+    most = capacity.at_least + _hidden_groups(context)
+    if not capacity.unbounded and 1 < most < workers.count and len(groups_of(context)) > 1:
+        yield _hit(most, workers, context)
+
+
+def groups_of(context: Context) -> set[str]:
+    """Names of the groups that somebody uses."""
+    return {callback.group for callback in context.unit.callbacks}
+
+
+def _hidden_groups(context: Context) -> int:
+    """Default groups in which only the services are that rclpy adds to every node."""
+    used = groups_of(context)
+    seen = {g.node for g in context.unit.groups if g.default and g.name in used}
+    return sum(node not in seen for node in context.unit.nodes)
 
 
 def _hit(most: int, workers: Workers, context: Context) -> Hit:

@@ -67,3 +67,19 @@ def on_timer(self): ...
 """,
     mend='Mend the file, or exclude it.',
 )
+UNUSED_IGNORE = Rule(
+    code='CC502',
+    slug='unused-ignore',
+    severity=Severity.WARNING,
+    title='Suppression that suppresses nothing',
+    what='A comment `# ros2cc: ignore[...]` names a rule that finds nothing at that line, or a '
+    'rule that does not exist.',
+    why='A suppression that outlives its finding would hide the next one.',
+    bad="""\
+x = 1  # ros2cc: ignore[CC101] answered by another process
+""",
+    good="""\
+x = 1
+""",
+    mend='Remove the comment, or correct the code in it.',
+)

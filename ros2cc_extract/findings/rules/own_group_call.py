@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.waits import Wait, WaitKind, waits_for, waits_of
+from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import is_one_thread
 from ros2cc_extract.spec.model import Callback
@@ -41,9 +41,8 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         message=f'{caller} waits in {wait.block.call} for {waits_for(wait)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
         f'runs: {end}',
-        help='give the '
-        + ('client' if shut_out is wait.needs[0] else 'service')
-        + ' a callback group of its own, or use call_async and continue in a done-callback',
+        help=f'give the {_what(shut_out)}'
+        ' a callback group of its own, or use call_async and continue in a done-callback',
         severity=Severity.WARNING if wait.has_timeout else None,
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
@@ -51,10 +50,14 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     )
 
 
+def _what(callback: Callback) -> str:
+    return callback.entity.value.replace('_', ' ') if callback.entity else callback.display_name
+
+
 def _blocked(shut_out: Callback, wait: Wait) -> str:
     if shut_out is not wait.needs[0]:
         return f'{shut_out.display_name}, which serves it, is'
-    return 'the client is' if wait.kind is WaitKind.ANSWER else 'that is'
+    return 'the client is' if is_client(shut_out) else 'that is'
 
 
 RULE = Rule(

@@ -14,6 +14,9 @@ from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
 
+USUAL_CPUS = 4
+"""CPUs of a usual robot computer: with fewer waiters a default pool gets only a note."""
+
 
 def find(context: Context) -> Iterator[Hit]:
     """One thread is CC102's case, and a wait that never ends by itself is CC101's."""
@@ -49,7 +52,7 @@ def _judge(
                 capacity,
                 f'with as many threads as CPUs, so on a machine with {capacity.at_least} or '
                 'fewer CPUs no thread is left for the answers and all wait for ever',
-                capacity.at_least < workers.count,
+                capacity.at_least < USUAL_CPUS,
             )
     elif capacity.at_least >= workers.count:
         yield _hit(

@@ -9,7 +9,7 @@ from ros2cc_extract.findings.overlap import overlaps_itself
 from ros2cc_extract.findings.races import Use
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.words import made_at
-from ros2cc_extract.spec.model import Callback, EntityKind
+from ros2cc_extract.spec.model import Access, Callback, EntityKind
 
 _TWICE = {
     EntityKind.TIMER: 'when a run lasts longer than the period',
@@ -23,7 +23,7 @@ def find(context: Context) -> Iterator[Hit]:
         if not overlaps_itself(callback, context):
             continue
         for name in dict.fromkeys(access.name for access in callback.writes):
-            unlocked = [a for a in callback.writes if a.name == name and a.update and not a.locks]
+            unlocked = [a for a in callback.writes if a.name == name and _can_lose(a)]
             if unlocked:
                 yield _hit(Use(callback, unlocked[0]), context)
 
@@ -43,6 +43,10 @@ def _hit(use: Use, context: Context) -> Hit:
         subjects=(callback.name, name),
         related=tuple(made_at(callback, context.group_of(callback))),
     )
+
+
+def _can_lose(access: Access) -> bool:
+    return access.update and not access.in_place and not access.locks
 
 
 def _is_quick_timer(callback: Callback) -> bool:

@@ -104,6 +104,10 @@ def writes(name: str, line: int, *locks: str) -> tuple[Access, ...]:
     return (Access(name=name, source=at(line), locks=locks),)
 
 
+def appends(name: str, line: int) -> tuple[Access, ...]:
+    return (Access(name=name, source=at(line), update=True, in_place=True),)
+
+
 def unit(
     executor: Executor,
     *callbacks: Callback,

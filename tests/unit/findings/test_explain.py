@@ -36,6 +36,7 @@ def test_every_rule_is_explained(rule: Rule) -> None:
     assert all((rule.title, rule.what, rule.why, rule.bad, rule.good, rule.mend))
     if rule.code < 'CC500':
         assert 'rclpy 7.1.6' in rule.why
+    if rule.language == 'python' and rule.slug != 'unreadable':
         ast.parse(rule.bad)
     ast.parse(rule.good)
 

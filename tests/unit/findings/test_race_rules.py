@@ -6,6 +6,7 @@ import pytest
 from finding_units import (
     NOT_FOUND,
     ONE_THREAD,
+    appends,
     at,
     calls,
     exclusive,
@@ -23,7 +24,7 @@ from finding_units import (
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec
+from ros2cc_extract.spec.model import Access, Callback, EntityKind, Executor, Spec
 from ros2cc_extract.verify import QueryResult, Verdict, Verification
 
 RUN = Evidence(
@@ -149,6 +150,16 @@ def test_plain_assignments_are_a_note_and_a_test_before_makes_it_a_warning() -> 
     assert races(unit(threads(2), plain, other)) == ['CC302:30 note']
     assert races(unit(threads(2), tested, other)) == ['CC301:30 warning']
     assert races(unit(threads(2), other, tested)) == ['CC301:30 warning']
+
+
+def test_updates_in_place_do_not_disturb_each_other() -> None:
+    def spec(accesses: tuple[Access, ...]) -> Spec:
+        log = timer('tick', writes=appends('Arm.log', 30))
+        return unit(threads(2), log, subscription('on_log', 'free', writes=accesses))
+
+    assert races(spec(appends('Arm.log', 35))) == []
+    assert races(spec(writes('Arm.log', 35))) == ['CC302:30 note']
+    assert races(spec(updates('Arm.log', 35)))[0] == 'CC301:35 warning'
 
 
 def test_one_finding_for_one_attribute() -> None:

@@ -98,6 +98,8 @@ def test_threads_that_never_run() -> None:
     assert only(spec, 'CC403').help == 'num_threads=2 does the same'
     assert found(unit(default_threads(8), timer('a'), timer('b', 'other'))) == []
     assert found(unit(threads(8), timer('a'), timer('b', 'free'))) == []
+    spec = unit(threads(3), timer('a', 'other'), timer('b', 'g'), groups=(OTHER, exclusive('g')))
+    assert found(spec) == []
     looped = timer('b', 'other', count=Unknown('a loop'))
     assert found(unit(threads(8), timer('a'), looped)) == []
 

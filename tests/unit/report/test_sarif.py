@@ -9,12 +9,13 @@ from typing import Any
 
 import jsonschema
 import pytest
-from report_samples import CALL, FINDINGS, NOTE, RACE, RUN, at
+from report_samples import CALL, FINDINGS, NOTE, RACE, RUN
 
 from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.findings.fingerprints import fingerprints
 from ros2cc_extract.findings.registry import RULES
 from ros2cc_extract.places import Place
-from ros2cc_extract.report.sarif import MOST_STEPS, fingerprints, sarif
+from ros2cc_extract.report.sarif import MOST_STEPS, sarif
 
 SCHEMA = Path(__file__).parents[3] / '.cache' / 'sarif-2.1.0.json'
 
@@ -109,14 +110,6 @@ def test_paths_are_relative_to_the_repository() -> None:
         {'uri': 'src/a.py', 'uriBaseId': '%SRCROOT%'},
         {'uri': 'file:///elsewhere/a.py'},
     ]
-
-
-def test_fingerprints_survive_moved_lines_and_tell_equal_findings_apart() -> None:
-    moved = replace(CALL, place=at(99))
-    assert fingerprints([CALL]) == fingerprints([moved])
-    first, second = fingerprints([CALL, moved])
-    assert first.endswith(':1') and second == first[:-1] + '2'
-    assert fingerprints([CALL]) != fingerprints([replace(CALL, subjects=('other',))])
 
 
 def test_the_same_findings_give_the_same_bytes() -> None:
