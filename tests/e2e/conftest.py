@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -32,6 +33,7 @@ def run(tmp_path: Path) -> Run:
         done = subprocess.run(
             [sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
             cwd=cwd,
+            env={name: value for name, value in os.environ.items() if name != 'COLUMNS'},
             capture_output=True,
             timeout=120,
             check=False,

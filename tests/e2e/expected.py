@@ -1,7 +1,7 @@
 """
 What `expected.spec.yaml` and `expected.verdicts.yaml` of an example hold, and how to renew them.
 
-    python -m tests.e2e.expected        # rewrites the files of every example; read the diff
+    python -m tests.e2e.expected        # rewrites them, and the README's output; read the diff
 
 The specification is exactly what ``ros2cc-extract spec node.py`` prints in the example's folder.
 The verdicts are those of profile ``paper`` for every unit, in the order of the queries.
@@ -9,6 +9,10 @@ The verdicts are those of profile ``paper`` for every unit, in the order of the 
 
 from __future__ import annotations
 
+import os
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import yaml
@@ -21,6 +25,7 @@ from ros2cc_extract.verify import verify_unit
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted(path.parent for path in (ROOT / 'launch_free_examples').glob('*/node.py'))
+README = ROOT / 'README.md'
 SPEC_FILE = 'expected.spec.yaml'
 VERDICT_FILE = 'expected.verdicts.yaml'
 
@@ -56,5 +61,32 @@ def renew() -> None:
         (folder / VERDICT_FILE).write_text(verdict_text(units), encoding='utf-8')
 
 
+def demo_output() -> str:
+    """Give what ``make demo`` prints on a machine without a terminal."""
+    makefile = (ROOT / 'Makefile').read_text(encoding='utf-8')
+    recipe = re.search(r'^demo:.*\n\t\$\(BIN\)/ros2cc-extract (\S+)', makefile, re.MULTILINE)
+    assert recipe is not None
+    done = subprocess.run(
+        [sys.executable, '-m', 'ros2cc_extract.cli.main', recipe.group(1)],
+        cwd=ROOT,
+        env={name: value for name, value in os.environ.items() if name != 'COLUMNS'},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.stdout
+
+
+def shown_output() -> str:
+    """Give what the README says that ``make demo`` prints."""
+    return README.read_text(encoding='utf-8').split('```')[3].removeprefix('\n')
+
+
+def renew_readme() -> None:
+    text = README.read_text(encoding='utf-8')
+    README.write_text(text.replace(shown_output(), demo_output(), 1), encoding='utf-8')
+
+
 if __name__ == '__main__':
     renew()
+    renew_readme()

@@ -5,20 +5,15 @@ from __future__ import annotations
 import re
 
 from ros2cc_extract.cli.main import COMMANDS
-from tests.e2e.conftest import ROOT, Run
+from tests.e2e.expected import README, demo_output, shown_output
 
-README = (ROOT / 'README.md').read_text(encoding='utf-8')
 COST = re.compile(r'^.* states, .* peak memory .*$', re.MULTILINE)
 
 
-def test_the_output_of_make_demo_is_the_one_shown(run: Run) -> None:
-    makefile = (ROOT / 'Makefile').read_text(encoding='utf-8')
-    recipe = re.search(r'^demo:.*\n\t\$\(BIN\)/ros2cc-extract (\S+)', makefile, re.MULTILINE)
-    assert recipe is not None
-    printed = run(recipe.group(1), cwd=ROOT).out
-    shown = README.split('```')[3].removeprefix('\n')
-    assert COST.sub('', shown) == COST.sub('', printed)
+def test_the_output_of_make_demo_is_the_one_shown() -> None:
+    assert COST.sub('', shown_output()) == COST.sub('', demo_output())
 
 
 def test_every_command_is_told() -> None:
-    assert [name for name in COMMANDS if name not in README] == []
+    text = README.read_text(encoding='utf-8')
+    assert [name for name in COMMANDS if name not in text] == []
