@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,9 +29,9 @@ Run = Callable[..., Outcome]
 
 @pytest.fixture
 def run(tmp_path: Path) -> Run:
-    def runner(*arguments: object, cwd: Path = tmp_path) -> Outcome:
+    def runner(*arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = ()) -> Outcome:
         done = subprocess.run(
-            [sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
+            [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
             cwd=cwd,
             env={name: value for name, value in os.environ.items() if name != 'COLUMNS'},
             capture_output=True,
