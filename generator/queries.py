@@ -27,6 +27,7 @@ class Family(Enum):
     GROUP_OPEN = 'group_always_open'
     STARVATION = 'starvation'
     SELF_OVERLAP = 'self_overlap'
+    PROGRESS = 'progress'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +75,7 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),
         *(_self_overlap(callback) for callback in unit.callbacks),
+        *(_progress(callback, unit) for callback in unit.callbacks if callback.needs),
     )
 
 
@@ -169,5 +171,16 @@ def _self_overlap(callback: UnitCallback) -> Query:
         family=Family.SELF_OVERLAP,
         formula=f'A[] cb_runs({callback.index}) <= 1',
         words=f'{callback.name} never overlaps itself',
+        callbacks=(callback.name,),
+    )
+
+
+def _progress(callback: UnitCallback, unit: Unit) -> Query:
+    """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
+    needs = ' and '.join(dict.fromkeys(unit.callbacks[place].name for place in callback.needs))
+    return Query(
+        family=Family.PROGRESS,
+        formula=f'A[] not (deadlock and cb_running({callback.index}))',
+        words=f'{callback.name} always ends: {needs} can run while it waits',
         callbacks=(callback.name,),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from ros2cc_extract.generator.unit import ExecutorKind
+from ros2cc_extract.generator.serving import ExecutorKind
 
 
 class Profile(Enum):

@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
+from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
+from ros2cc_extract.generator.waits import needs_of, server_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback, CallbackType, EntityKind, Spec
-
-
-class ExecutorKind(Enum):
-    """The executors of rclpy, by class name."""
-
-    SINGLE_THREADED = 'SingleThreadedExecutor'
-    MULTI_THREADED = 'MultiThreadedExecutor'
-    EVENTS = 'EventsExecutor'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +18,8 @@ class UnitCallback:
     :param group: place of its group.
     :param node: place of its node.
     :param rank: when it is served among what is ready, 0 first.
+    :param needs: places of the callbacks it waits for while it runs, in the order of its waits.
+    :param server: place of the service that answers a client of the unit.
     """
 
     index: int
@@ -34,6 +28,8 @@ class UnitCallback:
     group: int
     node: int
     rank: int
+    needs: tuple[int, ...]
+    server: int | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +59,25 @@ class Unit:
     max_cycle: int | None
 
     @property
+    def num_waits(self) -> int:
+        """The largest number of waits in one callback."""
+        return max(len(callback.needs) for callback in self.callbacks)
+
+    @property
+    def called(self) -> frozenset[int]:
+        """Places of the clients whose answers a callback waits for: nothing else arrives there."""
+        needed = {place for callback in self.callbacks for place in callback.needs}
+        return frozenset(place for place in needed if self.callbacks[place].type == 'CLT')
+
+    @property
+    def queue_depth(self) -> int:
+        """How much can wait for one callback: what arrives by itself, and what others ask for."""
+        asked = sum(len(callback.needs) for callback in self.callbacks)
+        if self.max_cycle is None:
+            return 1 + asked * len(self.threads)
+        return self.max_cycle * (1 + asked)
+
+    @property
     def servers(self) -> tuple[str, ...]:
         """The instances that serve callbacks, in system order: executor, threads, groups."""
         return (self.executor, *self.threads, *(group.name for group in self.groups))
@@ -80,12 +95,13 @@ class Unit:
 def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     """Give every callback and group of ``closed`` its place, in the order of the spec."""
     spec = closed.spec
+    places = {callback.name: index for index, callback in enumerate(spec.callbacks)}
     groups = {group.name: index for index, group in enumerate(spec.groups)}
     nodes = {callback.node: 0 for callback in spec.callbacks}
     nodes = {node: index for index, node in enumerate(nodes)}
     return Unit(
         name=spec.name,
-        kind=_executor_kind(spec),
+        kind=executor_kind(spec),
         num_nodes=len(nodes),
         callbacks=tuple(
             UnitCallback(
@@ -94,7 +110,9 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 type=callback.type.value,
                 group=groups[callback.group],
                 node=nodes[callback.node],
-                rank=_rank(callback),
+                rank=rank_of(callback),
+                needs=tuple(places[name] for name in needs_of(callback, spec)),
+                server=places.get(server_of(callback, spec) or ''),
             )
             for index, callback in enumerate(spec.callbacks)
         ),
@@ -106,47 +124,3 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         executor=spec.executor.name,
         max_cycle=max_cycle,
     )
-
-
-def _executor_kind(spec: Spec) -> ExecutorKind:
-    """A class of the user's own counts as the class of rclpy with as many threads."""
-    for kind in ExecutorKind:
-        if spec.executor.kind == kind.value:
-            return kind
-    is_single = len(spec.executor.threads) == 1
-    return ExecutorKind.SINGLE_THREADED if is_single else ExecutorKind.MULTI_THREADED
-
-
-# Source: rclpy 7.1.6, executors.py, _wait_for_ready_callbacks: tasks, then the waitables of all
-# nodes, then node by node timers, subscriptions, guard conditions, clients, services.
-_TASK, _WAITABLE, _TIMER, _SUBSCRIPTION, _GUARD, _CLIENT, _SERVICE = range(7)
-
-_RANK = {
-    EntityKind.ACTION_EXECUTE: _TASK,
-    EntityKind.DONE_CALLBACK: _TASK,
-    EntityKind.TASK: _TASK,
-    EntityKind.ACTION_SERVER: _WAITABLE,
-    EntityKind.ACTION_CLIENT: _WAITABLE,
-    EntityKind.WAITABLE: _WAITABLE,
-    EntityKind.QOS_EVENT: _WAITABLE,
-    EntityKind.TIMER: _TIMER,
-    EntityKind.SUBSCRIPTION: _SUBSCRIPTION,
-    EntityKind.GUARD_CONDITION: _GUARD,
-    EntityKind.CLIENT: _CLIENT,
-    EntityKind.SERVICE: _SERVICE,
-    EntityKind.PARAMETER_SERVICE: _SERVICE,
-    EntityKind.LIFECYCLE_SERVICE: _SERVICE,
-}
-
-_RANK_OF_TYPE = {
-    CallbackType.TMR: _TIMER,
-    CallbackType.SUB: _SUBSCRIPTION,
-    CallbackType.CLT: _CLIENT,
-    CallbackType.SRV: _SERVICE,
-}
-
-
-def _rank(callback: Callback) -> int:
-    if callback.entity is None:
-        return _RANK_OF_TYPE[callback.type]
-    return _RANK[callback.entity]

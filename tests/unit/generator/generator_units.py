@@ -3,46 +3,67 @@
 from __future__ import annotations
 
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.generator.unit import ExecutorKind
+from ros2cc_extract.generator.serving import ExecutorKind
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.model import (
+    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,
+    EntityKind,
     Executor,
     GroupType,
     Spec,
 )
 
 
+ENTITY = {'SRV': EntityKind.SERVICE, 'CLT': EntityKind.CLIENT}
+
+
 def every_text(callbacks: str, groups: str) -> dict[str, str]:
-    """Render a unit in all ways there are: XML by profile and text or executor."""
+    """Render a unit in all ways there are: XML by profile, text, executor and waits."""
+    wait = f'{callbacks.partition(":")[0]}:{callbacks.rpartition(" ")[2].partition(":")[0]}'
     paper = {
         f'paper-{text.value}': render(closed_unit(callbacks, groups, 2), text=text).xml
         for text in Text
     }
     rclpy = {
-        f'rclpy-{kind.value}': render(
-            closed_unit(callbacks, groups, 2, kind.value), profile=Profile.RCLPY
+        f'rclpy-{kind.value}{"-waiting" if waits else ""}': render(
+            closed_unit(callbacks, groups, 2, kind.value, waits), profile=Profile.RCLPY
         ).xml
         for kind in ExecutorKind
+        for waits in ('', wait)
     }
     return paper | rclpy
 
 
 def closed_unit(
-    callbacks: str, groups: str, threads: int, executor: str | None = None
+    callbacks: str, groups: str, threads: int, executor: str | None = None, waits: str = ''
 ) -> ClosedSpec:
     """
     Build a unit from text: ``'scan:SUB:g tick:TMR:g'``, ``'g:EXCLUSIVE'``.
 
+    Services and clients are entities of the name ``plan``.
+
     :param executor: class of the executor.
+    :param waits: ``'tick:reply'`` where callback tick waits for callback reply.
     """
     return close(
         Spec(
             name='arm',
             callbacks=tuple(
-                Callback(name=name, type=CallbackType(kind), group=group)
+                Callback(
+                    name=name,
+                    type=CallbackType(kind),
+                    group=group,
+                    entity=ENTITY.get(kind),
+                    key='plan' if kind in ENTITY else None,
+                    blocking=tuple(
+                        Blocking(call='client.call', on=needed)
+                        for waiting, needed in _rows(waits)
+                        if waiting == name
+                    ),
+                )
                 for name, kind, group in _rows(callbacks)
             ),
             groups=tuple(

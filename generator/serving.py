@@ -1,0 +1,60 @@
+"""Which executor of rclpy serves a unit, and in which order it serves what is ready."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from ros2cc_extract.spec.model import Callback, CallbackType, EntityKind, Spec
+
+
+class ExecutorKind(Enum):
+    """The executors of rclpy, by class name."""
+
+    SINGLE_THREADED = 'SingleThreadedExecutor'
+    MULTI_THREADED = 'MultiThreadedExecutor'
+    EVENTS = 'EventsExecutor'
+
+
+def executor_kind(spec: Spec) -> ExecutorKind:
+    """Name the executor; a class of the user's own counts as the one with as many threads."""
+    for kind in ExecutorKind:
+        if spec.executor.kind == kind.value:
+            return kind
+    is_single = len(spec.executor.threads) == 1
+    return ExecutorKind.SINGLE_THREADED if is_single else ExecutorKind.MULTI_THREADED
+
+
+# Source: rclpy 7.1.6, executors.py, _wait_for_ready_callbacks: tasks, then the waitables of all
+# nodes, then node by node timers, subscriptions, guard conditions, clients, services.
+_TASK, _WAITABLE, _TIMER, _SUBSCRIPTION, _GUARD, _CLIENT, _SERVICE = range(7)
+
+_RANK = {
+    EntityKind.ACTION_EXECUTE: _TASK,
+    EntityKind.DONE_CALLBACK: _TASK,
+    EntityKind.TASK: _TASK,
+    EntityKind.ACTION_SERVER: _WAITABLE,
+    EntityKind.ACTION_CLIENT: _WAITABLE,
+    EntityKind.WAITABLE: _WAITABLE,
+    EntityKind.QOS_EVENT: _WAITABLE,
+    EntityKind.TIMER: _TIMER,
+    EntityKind.SUBSCRIPTION: _SUBSCRIPTION,
+    EntityKind.GUARD_CONDITION: _GUARD,
+    EntityKind.CLIENT: _CLIENT,
+    EntityKind.SERVICE: _SERVICE,
+    EntityKind.PARAMETER_SERVICE: _SERVICE,
+    EntityKind.LIFECYCLE_SERVICE: _SERVICE,
+}
+
+_RANK_OF_TYPE = {
+    CallbackType.TMR: _TIMER,
+    CallbackType.SUB: _SUBSCRIPTION,
+    CallbackType.CLT: _CLIENT,
+    CallbackType.SRV: _SERVICE,
+}
+
+
+def rank_of(callback: Callback) -> int:
+    """Tell when an entity is served among what is ready: 0 first."""
+    if callback.entity is None:
+        return _RANK_OF_TYPE[callback.type]
+    return _RANK[callback.entity]

@@ -1,0 +1,98 @@
+"""
+Dead-locks by waiting inside a callback, as they were seen on rclpy 7.1.6 and 9.1.2.
+
+``ask`` calls the service ``plan`` synchronously by the client ``reply``.
+"""
+
+from dataclasses import replace
+
+import pytest
+from generator_units import closed_unit
+
+from ros2cc_extract.checker.api import Query, Verdict, check, read_model
+from ros2cc_extract.generator.build import Family, Profile, render
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Blocking
+
+SINGLE, MULTI = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
+
+
+def stuck(unit: ClosedSpec) -> list[str]:
+    """The callbacks that may never end; none where the model has no dead-lock."""
+    model = render(unit, profile=Profile.RCLPY)
+    read = read_model(model.xml, 'arm.xml')
+    queries = [q for q in model.queries if q.family in (Family.PROGRESS, Family.DEADLOCK)]
+    answers = check(read, [Query(q.formula, '', None) for q in queries]).answers
+    bad = [q for q, a in zip(queries, answers, strict=True) if a.verdict is not Verdict.SATISFIED]
+    assert bool(bad) == (Family.DEADLOCK in {query.family for query in bad})
+    return [query.callbacks[0] for query in bad if query.family is Family.PROGRESS]
+
+
+@pytest.mark.parametrize(
+    ('groups', 'ask', 'reply', 'threads', 'executor', 'is_stuck'),
+    [
+        pytest.param('g:EXCLUSIVE', 'g', 'g', 1, SINGLE, True, id='same exclusive, single'),
+        pytest.param('g:EXCLUSIVE', 'g', 'g', 4, MULTI, True, id='same exclusive, multi'),
+        pytest.param('g:EXCLUSIVE h:EXCLUSIVE', 'g', 'h', 1, SINGLE, True, id='other, single'),
+        pytest.param('g:EXCLUSIVE h:EXCLUSIVE', 'g', 'h', 2, MULTI, False, id='other, multi'),
+        pytest.param('g:EXCLUSIVE h:EXCLUSIVE', 'g', 'h', 1, MULTI, True, id='other, one worker'),
+        pytest.param('g:REENTRANT', 'g', 'g', 1, SINGLE, True, id='reentrant, single'),
+        pytest.param('g:REENTRANT', 'g', 'g', 2, MULTI, False, id='reentrant, multi'),
+    ],
+)
+def test_a_synchronous_call(
+    groups: str, ask: str, reply: str, threads: int, executor: str, is_stuck: bool
+):
+    callbacks = f'ask:TMR:{ask} reply:CLT:{reply}'
+    unit = closed_unit(callbacks, groups, threads, executor, waits='ask:reply')
+    assert stuck(unit) == (['ask'] if is_stuck else [])
+
+
+@pytest.mark.parametrize(('group', 'is_stuck'), [('g', True), ('h', True), ('i', False)])
+def test_a_call_to_a_service_of_the_same_node(group: str, is_stuck: bool):
+    """The service must be outside the caller's group, and the reply needs no other worker."""
+    callbacks = f'ask:TMR:g reply:CLT:h plan:SRV:{group}'
+    threads = 1 if group == 'h' else 2
+    unit = closed_unit(
+        callbacks, 'g:EXCLUSIVE h:EXCLUSIVE i:EXCLUSIVE', threads, MULTI, 'ask:reply'
+    )
+    assert stuck(unit) == (['ask'] if is_stuck else [])
+
+
+@pytest.mark.parametrize(('threads', 'expected'), [(2, ['a1', 'a2']), (3, [])])
+def test_as_many_waiting_callbacks_as_workers_exhaust_the_pool(threads: int, expected: list[str]):
+    callbacks = 'a1:TMR:g a2:TMR:g r1:CLT:g r2:CLT:g'
+    unit = closed_unit(callbacks, 'g:REENTRANT', threads, MULTI, 'a1:r1 a2:r2')
+    assert stuck(unit) == expected
+
+
+@pytest.mark.parametrize(
+    ('groups', 'threads', 'executor', 'is_stuck'),
+    [('g h', 1, SINGLE, True), ('g h', 2, MULTI, False), ('g g', 2, MULTI, True)],
+)
+def test_an_event_that_another_callback_sets(
+    groups: str, threads: int, executor: str, is_stuck: bool
+):
+    one, other = groups.split()
+    unit = closed_unit(
+        f'wait:SUB:{one} set:SUB:{other}',
+        'g:EXCLUSIVE h:EXCLUSIVE',
+        threads,
+        executor,
+        waits='wait:set',
+    )
+    assert stuck(unit) == (['wait'] if is_stuck else [])
+
+
+def test_a_wait_with_a_time_out_ends_by_itself():
+    unit = closed_unit('ask:TMR:g reply:CLT:g', 'g:EXCLUSIVE', 2, MULTI)
+    ask, reply = unit.spec.callbacks
+    ask = replace(ask, blocking=(Blocking(call='client.call', on='reply', seconds=1.0),))
+    unit = replace(unit, spec=replace(unit.spec, callbacks=(ask, reply)))
+    assert stuck(unit) == []
+
+
+def test_an_answer_is_for_the_callback_that_asked():
+    """Two callbacks share a client: one answer lets one of them go on."""
+    unit = closed_unit('a:TMR:g b:TMR:g r:CLT:g', 'g:REENTRANT', 3, MULTI, 'a:r b:r')
+    assert stuck(unit) == []
