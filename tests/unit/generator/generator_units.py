@@ -16,7 +16,6 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 
-
 ENTITY = {'SRV': EntityKind.SERVICE, 'CLT': EntityKind.CLIENT}
 
 
