@@ -47,6 +47,20 @@ def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
     return extraction.units
 
 
+def read_input(path: Path) -> str:
+    """
+    Read a text file that the user named.
+
+    :raises InputError: when it is not there, or no text.
+    """
+    try:
+        return path.read_text(encoding='utf-8')
+    except UnicodeDecodeError:
+        raise InputError('no UTF-8 text', Place(str(path))) from None
+    except OSError as error:
+        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from None
+
+
 def print_diagnostics(diagnostics: Sequence[Diagnostic], stderr: TextIO) -> None:
     """Print what the scan noticed, one line each."""
     for diagnostic in diagnostics:

@@ -1,0 +1,122 @@
+"""``[tool.ros2cc]`` of the nearest ``pyproject.toml``: what a project asks of every check."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.findings.requirements import Requirement, read_requirements
+from ros2cc_extract.findings.selection import Selection
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.assume import Assumptions, read_assumptions
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+FILE = 'pyproject.toml'
+TABLE = 'ros2cc'
+REQUIREMENTS = ('never_together', 'can_overlap', 'never_starves')
+KEYS = (*REQUIREMENTS, 'ignore', 'per_path', 'assume', 'baseline', 'timeout')
+
+
+@dataclass(frozen=True, kw_only=True)
+class Config:
+    """
+    What the table says; the command line goes before it.
+
+    :param root: folder of the file, to which paths in it are relative.
+    """
+
+    root: Path
+    selection: Selection = field(default_factory=Selection)
+    requirements: tuple[Requirement, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    baseline: Path | None = None
+    timeout: float | None = None
+
+
+def load_config(start: Path) -> Config:
+    """
+    Read the table of the first ``pyproject.toml`` at or above ``start`` that has one.
+
+    :raises InputError: when the file is no TOML, or a key of the table is unknown or malformed.
+    """
+    folder = start if start.is_dir() else start.parent
+    for candidate in (folder.resolve(), *folder.resolve().parents):
+        path = candidate / FILE
+        if path.is_file():
+            table = _table(path)
+            if table is not None:
+                return _config(table, path)
+    return Config(root=Path.cwd())
+
+
+def assumptions_of(config: Config, given: Sequence[str]) -> Assumptions:
+    """Join the table's assumptions with those of the command line, which win."""
+    place = Place(str(config.root / FILE))
+    read_assumptions(config.assumptions, place)
+    return read_assumptions([*config.assumptions, *given])
+
+
+def _table(path: Path) -> Mapping[str, Any] | None:
+    try:
+        data = tomllib.loads(path.read_text(encoding='utf-8'))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f'no TOML: {error}', Place(str(path)), 'mend the file') from None
+    except (OSError, UnicodeDecodeError):
+        return None
+    table = data.get('tool', {}).get(TABLE)
+    if table is not None and not isinstance(table, dict):
+        raise _malformed(path, TABLE, 'a table')
+    return table
+
+
+def _config(table: Mapping[str, Any], path: Path) -> Config:
+    for key in table:
+        if key not in KEYS:
+            raise InputError(
+                f'unknown key {key!r} in [tool.{TABLE}]',
+                Place(str(path)),
+                f'known keys: {", ".join(KEYS)}',
+            )
+    baseline = table.get('baseline')
+    if baseline is not None and not isinstance(baseline, str):
+        raise _malformed(path, 'baseline', 'a path')
+    timeout = table.get('timeout')
+    if timeout is not None and not (isinstance(timeout, int | float) and timeout > 0):
+        raise _malformed(path, 'timeout', 'a number of seconds')
+    return Config(
+        root=path.parent,
+        selection=Selection(
+            ignore=_texts(table.get('ignore', []), path, 'ignore'),
+            per_path=_per_path(table.get('per_path', {}), path),
+        ),
+        requirements=read_requirements(table, Place(str(path))),
+        assumptions=_texts(table.get('assume', []), path, 'assume'),
+        baseline=path.parent / baseline if baseline is not None else None,
+        timeout=timeout,
+    )
+
+
+def _per_path(value: object, path: Path) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    if not isinstance(value, dict):
+        raise _malformed(path, 'per_path', 'a table of patterns')
+    return tuple(
+        (pattern, _texts(codes, path, f'per_path."{pattern}"')) for pattern, codes in value.items()
+    )
+
+
+def _texts(value: object, path: Path, key: str) -> tuple[str, ...]:
+    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+        raise _malformed(path, key, 'a list of texts')
+    return tuple(value)
+
+
+def _malformed(path: Path, key: str, wanted: str) -> InputError:
+    return InputError(f'{key} of [tool.{TABLE}] must be {wanted}', Place(str(path)))
