@@ -35,6 +35,7 @@ COMMANDS = {
 }
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
 EXIT_INTERRUPTED = 130
+LONGEST_MESSAGE = 300
 
 
 class Command(Protocol):
@@ -64,7 +65,8 @@ def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM}: error: the input is nested too deeply', file=stderr)
         return EXIT_ERROR
     except Exception as error:
-        print(f'{PROGRAM}: internal error: {type(error).__name__}: {error}', file=stderr)
+        told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
+        print(f'{PROGRAM}: internal error: {type(error).__name__}: {told}', file=stderr)
         print('this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where', file=stderr)
         if os.environ.get('ROS2CC_TRACEBACK'):
             traceback.print_exception(error, file=stderr)
