@@ -6,7 +6,9 @@ import ast
 
 from ros2cc_extract.extract.static import builtin_methods
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.relevance import reassigned_attributes
 from ros2cc_extract.extract.static.values import (
+    NONE,
     Bound,
     Call,
     Choice,
@@ -27,6 +29,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import When
 
 
 class Attributes(Machine):
@@ -34,7 +37,7 @@ class Attributes(Machine):
 
     def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
         """``value.name``."""
-        found = self._find(value, name, place)
+        found = self._find(value, name, place, text)
         if isinstance(found, Choice):
             return choice(list(options_of(found)))
         if found is not None:
@@ -55,7 +58,9 @@ class Attributes(Machine):
             return None
         return False
 
-    def _find(self, value: Value, name: str, place: Place) -> Value | None:
+    def _find(
+        self, value: Value, name: str, place: Place, text: str | ast.expr = ''
+    ) -> Value | None:
         if isinstance(value, Instance):
             return self._of_instance(value, name, place)
         if isinstance(value, Class):
@@ -67,6 +72,9 @@ class Attributes(Machine):
             return member or self.library(f'{value.name}.{name}')
         if isinstance(value, Super):
             return self._of_super(value, name, place)
+        if value == NONE:
+            unset = Mystery(Unknown('it is None here and set elsewhere', place), text)
+            return self.member_of_mystery(unset, name, place)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)
         if isinstance(value, Mystery):
@@ -75,11 +83,24 @@ class Attributes(Machine):
 
     def _of_instance(self, value: Instance, name: str, place: Place) -> Value | None:
         if name in value.slots and isinstance(value.slots[name], Value):
-            found: Value = value.slots[name]
-            return found
+            return self._as_of_now(value, name, value.slots[name], place)
         if name == '__class__':
             return value.cls
         return self._in_order(value.mro, value, name, place)
+
+    def _as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
+        """
+        What an attribute holds once the set-up is over.
+
+        A plain constant that other methods assign anew may be anything by then.
+        """
+        if self.world.when is When.START or not isinstance(held, Const):
+            return held
+        for cls in owner.mro:
+            if isinstance(cls, Class) and name in reassigned_attributes(cls.node):
+                changed = Unknown(f'attribute {name!r} is assigned anew by other methods', place)
+                return choice([held, Mystery(changed, f'self.{name}')])
+        return held
 
     def _in_order(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place

@@ -94,9 +94,13 @@ def _is_large(text: str, name: str, args: list[Any]) -> bool:
 def _joined(machine: Machine, receiver: Const, call: Call) -> Value:
     items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
     texts = [item.value for item in items if isinstance(item, Const)]
-    if rest is None and len(texts) == len(items) and all(isinstance(t, str) for t in texts):
-        if sum(len(text) + len(receiver.value) for text in texts) < _TEXT_LIMIT:
-            return Const(receiver.value.join(texts))
+    if (
+        rest is None
+        and len(texts) == len(items)
+        and all(isinstance(t, str) for t in texts)
+        and sum(len(text) + len(receiver.value) for text in texts) < _TEXT_LIMIT
+    ):
+        return Const(receiver.value.join(texts))
     return machine.mystery('text from str.join', call.place, 'str.join')
 
 

@@ -94,8 +94,7 @@ class Calls(Machine):
         if frame.yields:
             return Sequence(tuple(frame.yields), 'generator', Unknown('a generator', call.place))
         if not flow & (NEXT | RETURN) and flow & DEAD:
-            self.stop_program()
-            return NONE
+            return self.mystery(f'{function.name} only raises', call.place, function.name)
         results = [*frame.results, NONE] if flow & NEXT else frame.results
         return choice(results) if results else NONE
 
@@ -235,6 +234,7 @@ class Calls(Machine):
                 old = frame.scope.slots.get(node.name)
                 return old if isinstance(old, Value) else value
             wrapper = self.evaluate(decorator, frame)
+            self.world.decorated.append(function)
             if isinstance(wrapper, (Function, Bound, Partial, Class, Native)):
                 result = self.call(wrapper, Call(frame.place(decorator), [value]))
                 value = result if not isinstance(result, Mystery) else value

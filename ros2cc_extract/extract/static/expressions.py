@@ -35,6 +35,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.world import AccessKind
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import When
 
 _DEPTH_LIMIT = 120
 
@@ -135,6 +136,8 @@ def _may_be_absent(value: Value) -> bool:
 
 def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
     value = machine.look_up(node.id, frame.scope)
+    if value == NONE and machine.world.when is not When.START:
+        value = _global_as_of_now(machine, node, frame)
     if value is not None:
         if isinstance(value, Choice):
             return choice(list(options_of(value)))
@@ -150,6 +153,16 @@ def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
             if not isinstance(known, Mystery):
                 return known
     return machine.mystery(f'name {node.id!r} is not defined here', frame.place(node), node.id)
+
+
+def _global_as_of_now(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
+    """``None`` in a global that functions assign may be anything once the set-up is over."""
+    held = frame.module.slots.get(node.id)
+    if held != NONE or node.id in frame.scope.slots:
+        return NONE
+    if node.id not in machine.changed_globals(frame.module):
+        return NONE
+    return machine.mystery(f'global {node.id!r} is assigned by functions', frame.place(node), node)
 
 
 def _note_free_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
@@ -171,10 +184,11 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     if machine.world.deeds is not None:
         for option in options_of(owner):
             machine.note_attribute(option, node.attr, AccessKind.READ, place)
-    text: str | ast.expr = node if isinstance(owner, Mystery) else ''
+    text: str | ast.expr = node if isinstance(owner, (Mystery, Const)) else ''
     if isinstance(owner, Choice):
         options = options_of(owner)
-        able = [o for o in options if machine.has_attribute(o, node.attr) is not False]
+        set_ones = [o for o in options if o != NONE] or options
+        able = [o for o in set_ones if machine.has_attribute(o, node.attr) is not False]
         return choice([machine.attribute(o, node.attr, place) for o in able or options])
     return machine.attribute(owner, node.attr, place, text)
 

@@ -11,19 +11,23 @@ from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, result_of
 from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
 from ros2cc_extract.extract.static.values import (
     NONE,
+    Bound,
     Call,
     Class,
+    Function,
     Instance,
     Library,
     Mystery,
     Native,
+    Partial,
     Value,
     options_of,
 )
 from ros2cc_extract.extract.static.world import NodeState, PlainState
 from ros2cc_extract.places import Place, Unknown
 
-_NODE_ONLY = frozenset((*CREATE_CALLS, 'create_publisher', 'create_rate'))
+_ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
+_NODE_ONLY = _ENTITY_ONLY | {'create_publisher'}
 
 # Helpers of the ROS libraries that take a node and add nothing its executor would serve.
 _HARMLESS = (
@@ -43,6 +47,9 @@ class Libraries(Machine):
     def library(self, name: str) -> Value:
         """What a dotted name of a library stands for."""
         known = rclpy_api.canonical(name)
+        constant = rclpy_api.table().constants.get(known)
+        if constant is not None:
+            return constant
         handler = rclpy_api.table().functions.get(known)
         return Native(known, handler) if handler else Library(known)
 
@@ -83,6 +90,7 @@ class Libraries(Machine):
         name = function.name if isinstance(function, Library) else ''
         if isinstance(function, Mystery):
             name = function.text
+        self._keep_escaped(call)
         if not name or self._is_standard(name):
             return
         for argument in (*call.args, *call.keywords.values()):
@@ -90,6 +98,13 @@ class Libraries(Machine):
                 if isinstance(option, Instance) and isinstance(option.state, NodeState):
                     reason = f'the node is passed to {name}, which is not scanned'
                     option.state.more.append((reason, call.place))
+
+    def _keep_escaped(self, call: Call) -> None:
+        """Functions that are handed to unknown code may be called by it, later."""
+        for argument in (*call.args, *call.keywords.values()):
+            for option in options_of(argument):
+                if isinstance(option, (Function, Bound, Partial)):
+                    self.world.escaped.append((option, call.place))
 
     def _is_standard(self, name: str) -> bool:
         return name.partition('.')[0] in sys.stdlib_module_names
@@ -136,13 +151,12 @@ class Libraries(Machine):
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
         """A node's method on a class whose base is not in sight makes it a node."""
-        if name not in _NODE_ONLY or not isinstance(receiver, Instance):
+        if not isinstance(receiver, Instance):
             return None
-        if isinstance(receiver.state, NodeState) or receiver.state is not None:
+        if name in _NODE_ONLY:
+            self.become_node(receiver)
+        if not isinstance(receiver.state, NodeState) or self._unknown_base(receiver) is None:
             return None
-        if self._unknown_base(receiver) is None:
-            return None
-        self.become_node(receiver)
         return self.library_member(Library(NODE), receiver, name, place)
 
     def become_node(self, instance: Instance) -> Instance | None:
@@ -170,7 +184,7 @@ class Libraries(Machine):
 
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
         """Attribute ``name`` of a value that must be a node."""
-        if name in CREATE_CALLS and value.text and not _is_no_node(value):
+        if name in _ENTITY_ONLY and value.text and not _is_no_node(value):
             return self.library_member(Library(NODE), ghost_node(self, value), name, place)
         return None
 

@@ -37,6 +37,7 @@ class Library:
     classes: dict[str, LibraryClass] = field(default_factory=dict)
     functions: dict[str, Handler] = field(default_factory=dict)
     aliases: dict[str, str] = field(default_factory=dict)
+    constants: dict[str, Value] = field(default_factory=dict)
 
 
 def merged(tables: list[Library]) -> Library:
@@ -46,4 +47,5 @@ def merged(tables: list[Library]) -> Library:
         whole.classes.update(table.classes)
         whole.functions.update(table.functions)
         whole.aliases.update(table.aliases)
+        whole.constants.update(table.constants)
     return whole

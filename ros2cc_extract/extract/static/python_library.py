@@ -335,6 +335,12 @@ _FUNCTIONS: dict[str, Handler] = {
     'os.environ.get': _environment,
 }
 
+
+def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
+    return machine.mystery('result of asyncio.sleep', call.place, 'asyncio.sleep')
+
+
 _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_coroutine,
     'create_task': _run_coroutine,
@@ -353,9 +359,15 @@ TABLE = Library(
     },
     functions={
         **_FUNCTIONS,
+        'asyncio.sleep': _asyncio_sleep,
         'asyncio.get_event_loop': _event_loop,
         'asyncio.new_event_loop': _event_loop,
         'asyncio.get_running_loop': _event_loop,
+    },
+    constants={
+        'os.name': Const('posix'),
+        'sys.platform': Const('linux'),
+        'typing.TYPE_CHECKING': Const(False),
     },
 )
 

@@ -86,3 +86,23 @@ def _changed_names(part: ast.AST) -> list[str]:
     if isinstance(part, ast.Attribute) and part.attr in CHANGING_METHODS:
         return [part.value.id] if isinstance(part.value, ast.Name) else []
     return []
+
+
+_REASSIGNED: dict[int, tuple[ast.AST, frozenset[str]]] = {}
+
+
+def reassigned_attributes(cls: ast.ClassDef) -> frozenset[str]:
+    """Attributes of ``self`` that a method other than ``__init__`` assigns."""
+    known = _REASSIGNED.get(id(cls))
+    if known is not None and known[0] is cls:
+        return known[1]
+    names = frozenset(
+        part.attr
+        for method in cls.body
+        if isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
+        and method.name != '__init__'
+        for part in ast.walk(method)
+        if isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+    )
+    _REASSIGNED[id(cls)] = (cls, names)
+    return names

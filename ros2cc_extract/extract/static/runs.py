@@ -18,7 +18,9 @@ from ros2cc_extract.extract.static.values import (
     Class,
     Function,
     Instance,
+    Module,
     Mystery,
+    Partial,
     Value,
     options_of,
 )
@@ -54,9 +56,37 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
                 machine.run_if_coroutine(result, place)
 
     guarded(machine, follow, place)
+    _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
     return machine
+
+
+def _run_escaped(machine: Interpreter) -> None:
+    """Functions handed to code that is not scanned, such as the loop of another framework."""
+    for value, place in machine.world.escaped[:_CALLBACK_LIMIT]:
+        inner = value
+        while isinstance(inner, Partial):
+            inner = inner.function
+        function = inner.function if isinstance(inner, Bound) else inner
+        if not isinstance(function, Function) or id(function.node) in machine.world.called:
+            continue
+        if creates_entities(function.node):
+            _run_escaped_one(machine, value, function, place)
+
+
+def _run_escaped_one(machine: Interpreter, value: Value, function: Function, place: Place) -> None:
+    def follow() -> None:
+        machine.world.path = ((place, -3),)
+        machine.world.when = When.LATER
+        machine.world.after_spin = False
+        skip = 1 if isinstance(value, Bound) else 0
+        call = (
+            Call(place) if isinstance(value, Partial) else unknown_arguments(function, place, skip)
+        )
+        machine.run_if_coroutine(machine.call(value, call), place)
+
+    guarded(machine, follow, place)
 
 
 def run_library(
@@ -73,9 +103,7 @@ def run_library(
     place = Place(source.shown, 1, 1)
     guarded(machine, lambda: machine.run_module(source, source.module_name) and None, place)
     module = machine.modules[source.shown]
-    values: list[Class | Function] = [
-        value for value in module.slots.values() if isinstance(value, (Class, Function))
-    ]
+    values = _definitions(machine, module)
     bases = _bases_in_use(values)
     for value in sorted(values, key=lambda v: (isinstance(v, Function), v.node.lineno)):
         if id(value.node) in covered or value.module is not module:
@@ -96,6 +124,19 @@ def _has_uncovered(tree: ast.Module, covered: frozenset[int]) -> bool:
         for node in tree.body
         if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef))
     )
+
+
+def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]:
+    """Classes and functions of a module, also those that a decorator hides."""
+    found = [
+        option
+        for value in module.slots.values()
+        if isinstance(value, Value)
+        for option in options_of(value)
+        if isinstance(option, (Class, Function))
+    ]
+    hidden = [f for f in machine.world.decorated if f.owner is None and f.module is module]
+    return [*found, *(f for f in hidden if '<locals>' not in f.qualname and f not in found)]
 
 
 def _bases_in_use(values: list[Class | Function]) -> set[int]:
@@ -234,15 +275,18 @@ def run_rest_of_instances(machine: Interpreter) -> None:
     while seen < min(len(machine.world.instances), _CALLBACK_LIMIT):
         instance = machine.world.instances[seen]
         seen += 1
-        for name, method in _methods_of(instance):
+        for name, method in _methods_of(machine, instance):
             if id(method.node) in machine.world.called or not creates_entities(method.node):
                 continue
             _run_later(machine, instance, name, method)
             run_callbacks(machine)
 
 
-def _methods_of(instance: Instance) -> list[tuple[str, Function]]:
+def _methods_of(machine: Interpreter, instance: Instance) -> list[tuple[str, Function]]:
     found: dict[str, Function] = {}
+    for function in machine.world.decorated:
+        if function.owner is not None and function.owner in instance.mro:
+            found.setdefault(function.name, function)
     for cls in instance.mro:
         if isinstance(cls, Class):
             for name, value in cls.slots.items():

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.extract.static.values import Call, Instance, Path, Value
+from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
 
@@ -207,6 +207,8 @@ class World:
     executors: list[Instance] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: set[int] = field(default_factory=set)
+    decorated: list[Function] = field(default_factory=list)
+    escaped: list[tuple[Value, Place]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
     ghosts: dict[str, Instance] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
