@@ -39,6 +39,7 @@ class RenderedModel:
     A model ready to be written.
 
     :param name: name of the unit.
+    :param text: the text it is, plain where the profile has no compact one.
     :param xml: the complete model, as UPPAAL opens it, queries included.
     :param queries: in the order of ``q`` and of the queries of ``xml``.
     :param published: the files of the published tool by file name, to be pasted into the
@@ -46,6 +47,7 @@ class RenderedModel:
     """
 
     name: str
+    text: Text
     xml: str
     queries: tuple[Query, ...]
     q: str
@@ -73,9 +75,12 @@ def render(
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
     published = paper_queries(unit)
-    queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
+    queries = published
+    if profile is Profile.RCLPY:
+        queries, text = rclpy_queries(unit), Text.PLAIN
     return RenderedModel(
         name=unit.name,
+        text=text,
         xml=_write_xml(unit, queries, choose_sources(profile, text, unit.kind)),
         queries=queries,
         q=write_query_file(queries),

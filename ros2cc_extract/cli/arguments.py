@@ -38,7 +38,9 @@ def add_model_arguments(
     group: argparse._ActionsContainer, *, text: str, ranges: bool = False
 ) -> None:
     """Add which model of a unit is meant; ``text`` is the default text."""
-    group.add_argument('--profile', choices=['paper'], default='paper', help='model profile')
+    group.add_argument(
+        '--profile', choices=['paper', 'rclpy'], default='paper', help='model profile'
+    )
     group.add_argument(
         '--text',
         choices=['plain', 'compact'],
