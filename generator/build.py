@@ -22,15 +22,17 @@ from ros2cc_extract.generator.queries import (
     rclpy_queries,
     write_query_file,
 )
-from ros2cc_extract.generator.sources import PUBLISHED, Profile, Sources, Text, choose_sources
+from ros2cc_extract.generator.sources import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 
 __all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
 
-#: What the compact text lets move; docs/model.md shows that more would change no verdict.
+#: What compact texts let move; docs/model.md shows that more would change no verdict.
 CALLBACKS_IN_PLAY = 2
 THREADS_IN_PLAY = 2
+#: Unlimited arrivals: the member of a group served first starves by two others, not by one.
+CALLBACKS_IN_PLAY_FOR_EVER = 3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +41,6 @@ class RenderedModel:
     A model ready to be written.
 
     :param name: name of the unit.
-    :param text: the text it is, plain where the profile has no compact one.
     :param xml: the complete model, as UPPAAL opens it, queries included.
     :param queries: in the order of ``q`` and of the queries of ``xml``.
     :param published: the files of the published tool by file name, to be pasted into the
@@ -47,7 +48,6 @@ class RenderedModel:
     """
 
     name: str
-    text: Text
     xml: str
     queries: tuple[Query, ...]
     q: str
@@ -75,29 +75,31 @@ def render(
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
     published = paper_queries(unit)
-    queries = published
-    if profile is Profile.RCLPY:
-        queries, text = rclpy_queries(unit), Text.PLAIN
+    queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
     return RenderedModel(
         name=unit.name,
-        text=text,
-        xml=_write_xml(unit, queries, choose_sources(profile, text, unit.kind)),
+        xml=_write_xml(unit, queries, profile, text),
         queries=queries,
         q=write_query_file(queries),
         published=_write_published_files(unit, published),
     )
 
 
-def _write_xml(unit: Unit, queries: tuple[Query, ...], sources: Sources) -> str:
+def _write_xml(unit: Unit, queries: tuple[Query, ...], profile: Profile, text: Text) -> str:
+    sources = choose_sources(profile, text, unit.kind)
+    in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
+    values = {
+        'unit': unit,
+        'callbacks_in_play': in_play if text is Text.COMPACT else None,
+        'threads_in_play': THREADS_IN_PLAY,
+    }
     return _fill(
         'shared/model.xml.j2',
-        unit=unit,
+        **values,
         queries=queries,
         automata=sources.automata,
-        declarations=_fill(sources.declarations, unit=unit),
-        system=_fill(sources.system, unit=unit),
-        callbacks_in_play=CALLBACKS_IN_PLAY,
-        threads_in_play=THREADS_IN_PLAY,
+        declarations=_fill(sources.declarations, **values),
+        system=_fill(sources.system, **values),
     )
 
 

@@ -17,10 +17,10 @@ class Profile(Enum):
 
 class Text(Enum):
     """
-    Which text of a profile: as published, or one with few states and the same verdicts.
+    Which text of a profile: the whole one, or one with few states and the same verdicts.
 
     The compact text answers the queries it is rendered with, no others: it lets only so many
-    callbacks move as one of these queries names. Profile rclpy has the plain text only.
+    callbacks move as these queries need.
     """
 
     PLAIN = 'plain'

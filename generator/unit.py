@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
@@ -68,6 +69,16 @@ class Unit:
         """Places of the clients whose answers a callback waits for: nothing else arrives there."""
         needed = {place for callback in self.callbacks for place in callback.needs}
         return frozenset(place for place in needed if self.callbacks[place].type == 'CLT')
+
+    @property
+    def related(self) -> frozenset[int]:
+        """Places of the callbacks that wait for another one or are waited for."""
+        waiting = {callback.index for callback in self.callbacks if callback.needs}
+        return frozenset(waiting.union(*(callback.needs for callback in self.callbacks)))
+
+    def flags(self, places: Collection[int]) -> str:
+        """Write a truth value for each callback: whether its place is among ``places``."""
+        return ', '.join(str(c.index in places).lower() for c in self.callbacks)
 
     @property
     def queue_depth(self) -> int:

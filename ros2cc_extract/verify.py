@@ -142,7 +142,7 @@ def verify_unit(
         result,
         results,
         profile=options.profile.value,
-        text=rendered.text.value,
+        text=options.text.value,
         assumptions=closed.assumptions,
         notes=_caveats(closed, options),
     )
@@ -182,7 +182,7 @@ def _ask_verifyta(
     return Verification(
         model=rendered.name,
         profile=options.profile.value,
-        text=rendered.text.value,
+        text=options.text.value,
         engine='verifyta',
         states=max(answer.states for answer in answers),
         transitions=0,
