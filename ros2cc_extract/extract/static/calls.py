@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
+from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -34,7 +34,7 @@ from ros2cc_extract.extract.static.world import PlainState
 from ros2cc_extract.places import Place, Unknown
 
 _CALL_DEPTH = 40
-_SAME_FUNCTION = 3
+_SAME_FUNCTION = 2
 
 
 class Calls(Machine):
@@ -353,5 +353,3 @@ _CALLABLE: dict[type[Value], Callable[..., Value]] = {
     Library: _call_library,
     Instance: _call_instance,
 }
-
-__all__ = ['BudgetError', 'Calls', 'resolution_order']

@@ -18,15 +18,11 @@ from ros2cc_extract.extract.static.values import (
     Choice,
     Class,
     Const,
-    Coroutine,
-    Function,
     Instance,
     Library,
     Mapping,
-    Module,
     Mystery,
     Native,
-    Partial,
     Scope,
     Sequence,
     Value,
@@ -502,5 +498,3 @@ _EXPRESSIONS: dict[type[ast.expr], Callable[..., Value]] = {
     ast.DictComp: _comprehension,
     ast.Starred: _starred,
 }
-
-__all__ = ['Coroutine', 'Expressions', 'Function', 'Module', 'Partial', 'arguments']

@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import changed_globals
 from ros2cc_extract.extract.static.source import SourceFile
-from ros2cc_extract.extract.static.values import Const, Instance, Library, Module, Scope, Value
+from ros2cc_extract.extract.static.values import Const, Instance, Module, Scope, Value
 from ros2cc_extract.places import Place
 
 
@@ -82,6 +82,3 @@ class Imports(Machine):
         """Remember the first name under which a group, an executor … is stored."""
         if isinstance(value, Instance) and value.hint is None:
             value.hint = name
-
-
-__all__ = ['Imports', 'Library']

@@ -24,7 +24,6 @@ from ros2cc_extract.extract.static.values import (
     Library,
     Module,
     Mystery,
-    Path,
     Scope,
     Value,
     choice,
@@ -296,6 +295,3 @@ class Machine(ABC):
             return act(value)
         options = value.options
         return self.branch([partial(act, option) for option in options], place)
-
-
-__all__ = ['BudgetError', 'Frame', 'Library', 'Machine', 'Path']

@@ -7,6 +7,7 @@ import ast
 from ros2cc_extract.extract.static import folding
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.threads_library import run_in_executor
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -14,7 +15,6 @@ from ros2cc_extract.extract.static.values import (
     Choice,
     Class,
     Const,
-    Coroutine,
     Function,
     Handler,
     Instance,
@@ -345,6 +345,7 @@ _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_coroutine,
     'create_task': _run_coroutine,
     'run_forever': _print,
+    'run_in_executor': run_in_executor,
 }
 
 
@@ -370,5 +371,3 @@ TABLE = Library(
         'typing.TYPE_CHECKING': Const(False),
     },
 )
-
-__all__ = ['TABLE', 'Coroutine']

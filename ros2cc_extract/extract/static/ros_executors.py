@@ -22,7 +22,6 @@ from ros2cc_extract.extract.static.values import (
     Handler,
     Instance,
     Mystery,
-    Native,
     Value,
     choice,
     options_of,
@@ -395,5 +394,3 @@ TABLE = Library(
         'rclpy.executors.EventsExecutor': EVENTS,
     },
 )
-
-__all__ = ['TABLE', 'Native', 'add_task', 'as_executor', 'as_node', 'groupless']

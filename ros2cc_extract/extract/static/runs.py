@@ -14,7 +14,6 @@ from ros2cc_extract.extract.static.source import SourceFile
 from ros2cc_extract.extract.static.values import (
     Bound,
     Call,
-    Choice,
     Class,
     Function,
     Instance,
@@ -317,6 +316,3 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
 
     guarded(machine, follow, place)
     machine.world.called.add(id(method.node))
-
-
-__all__ = ['Choice', 'run_entry', 'run_library']

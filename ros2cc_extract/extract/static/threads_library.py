@@ -8,9 +8,7 @@ from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
     Call,
-    Class,
     Const,
-    Function,
     Handler,
     Instance,
     Mapping,
@@ -18,7 +16,6 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
-from ros2cc_extract.places import Unknown
 
 
 def _thread_state(machine: Machine, instance: Instance) -> ThreadState:
@@ -92,7 +89,8 @@ def _submit(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'pool')
 
 
-def _run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``loop.run_in_executor(pool, function, …)``."""
     if len(call.args) > 1:
         run_in_thread(machine, call.args[1], Call(call.place, call.args[2:]))
     return machine.future(call.place, 'pool')
@@ -192,5 +190,3 @@ TABLE = Library(
         'concurrent.futures.thread.ThreadPoolExecutor': 'concurrent.futures.ThreadPoolExecutor'
     },
 )
-
-__all__ = ['TABLE', 'Class', 'Function', 'Unknown', 'run_in_thread']

@@ -9,8 +9,7 @@ from ros2cc_extract.extract.static.ros_executors import nodes_of
 from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
 from ros2cc_extract.extract.static.values import Class, Instance, Path, options_of
 from ros2cc_extract.extract.static.values import Value as AnyValue
-from ros2cc_extract.extract.static.world import ExecutorState, Spin, World
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.extract.static.world import Spin, World
 from ros2cc_extract.spec.model import Spec, collect_unresolved
 
 NO_EXECUTOR = 'no executor or spin found for this node'
@@ -63,9 +62,14 @@ def units_of(world: World) -> list[Unit]:
     served = {id(node) for unit in units for node in unit.nodes}
     for executor in world.executors:
         nodes = [n for n in _filled_nodes(executor, world) if id(n) not in served]
-        if nodes:
+        if not nodes:
+            continue
+        served.update(id(node) for node in nodes)
+        spun = next((unit for unit in units if unit.executor is executor), None)
+        if spun is not None:
+            spun.nodes.extend(nodes)
+        else:
             units.append(Unit(executor, nodes, None))
-            served.update(id(node) for node in nodes)
     seen: set[object] = set()
     for node in world.nodes:
         if id(node) in served:
@@ -147,6 +151,3 @@ def exclusive(one: Path, other: Path) -> bool:
     """Whether two paths cannot both be taken: different branches of one statement."""
     branches = {place: index for place, index in one if index >= 0}
     return any(index >= 0 and branches.get(place, index) != index for place, index in other)
-
-
-__all__ = ['ExecutorState', 'Unknown', 'specs_of']

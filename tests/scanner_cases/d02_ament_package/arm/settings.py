@@ -1,0 +1,2 @@
+PERIOD = 1 / 4
+THREADS = 3

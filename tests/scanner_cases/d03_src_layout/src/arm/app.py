@@ -1,0 +1,7 @@
+import arm.nodes
+import rclpy
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(arm.nodes.A())

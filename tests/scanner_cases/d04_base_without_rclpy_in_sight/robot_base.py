@@ -1,0 +1,5 @@
+from rclpy.node import Node
+
+
+class RobotBase(Node):
+    pass

@@ -1,0 +1,4 @@
+import rclpy
+
+def broken(:
+    pass

@@ -1,0 +1,2 @@
+from .nodes import *
+from .groups import make_group

@@ -1,0 +1,143 @@
+"""Odd and hostile files end in a result or in a diagnostic with its place, never in a crash."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.static.api import scan, scan_text
+
+HEAD = 'import rclpy\n'
+SPIN = 'rclpy.spin(rclpy.create_node("a"))\n'
+
+
+def slugs(extraction_of: bytes | str, folder: Path) -> list[tuple[str, int]]:
+    path = folder / 'node.py'
+    data = extraction_of.encode() if isinstance(extraction_of, str) else extraction_of
+    path.write_bytes(data)
+    found = scan([path], root=folder).diagnostics
+    return [(diagnostic.slug, diagnostic.place.line) for diagnostic in found]
+
+
+@pytest.mark.parametrize(
+    ('content', 'expected'),
+    [
+        ('', []),
+        (HEAD + 'def f(:\n', [('syntax-error', 2)]),
+        (HEAD + 'print "x"\n', [('python-2', 2)]),
+        (b'import rclpy\x00\nx = 1\n', [('binary-file', 1)]),
+        (b'import rclpy\nx = "\xe9"\n', [('undecodable-file', 2)]),
+        (b'# coding: nonsense\nimport rclpy\n', [('undecodable-file', 1)]),
+        (HEAD + 'x = ' + '(' * 5000 + ')' * 5000, [('nested-too-deeply', 2)]),
+        (HEAD + 'x = 1\n' * 200_000, [('file-too-large', 0)]),
+        (HEAD + 'x = ' + '+'.join(['a'] * 10_000) + '\n', []),
+        (HEAD + 'x = a' + '.b' * 5_000 + '\n', []),
+        (HEAD + 'x = a' + '()' * 2_000 + '\n', []),
+    ],
+    ids=lambda value: None,
+)
+def test_odd_file(content: bytes | str, expected: list[tuple[str, int]], tmp_path: Path) -> None:
+    assert slugs(content, tmp_path) == expected
+
+
+@pytest.mark.parametrize(
+    'content',
+    [
+        b'\xef\xbb\xbf' + (HEAD + SPIN).encode(),
+        (HEAD + SPIN).replace('\n', '\r\n').encode(),
+        b'# -*- coding: latin-1 -*-\nname = "\xe9"\n' + (HEAD + SPIN).encode(),
+    ],
+    ids=['bom', 'crlf', 'latin-1'],
+)
+def test_unusual_encodings_are_read(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / 'node.py'
+    path.write_bytes(content)
+    assert [unit.name for unit in scan([path]).units] == ['a']
+
+
+def test_missing_path_is_an_input_error(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match='no such file or directory'):
+        scan([tmp_path / 'none.py'])
+
+
+def test_directory_without_python_is_an_input_error(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match='no Python file'):
+        scan([tmp_path])
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason='root may read everything')
+def test_unreadable_file_is_a_diagnostic(tmp_path: Path) -> None:
+    path = tmp_path / 'node.py'
+    path.write_text(HEAD)
+    path.chmod(0)
+    assert [d.slug for d in scan([path]).diagnostics] == ['unreadable-file']
+
+
+def test_broken_link_is_a_diagnostic(tmp_path: Path) -> None:
+    (tmp_path / 'gone.py').symlink_to(tmp_path / 'nowhere.py')
+    (tmp_path / 'node.py').write_text(HEAD + SPIN)
+    found = scan([tmp_path])
+    assert [d.slug for d in found.diagnostics] == ['unreadable-file']
+    assert [unit.name for unit in found.units] == ['a']
+
+
+def test_links_in_a_circle_are_not_followed(tmp_path: Path) -> None:
+    (tmp_path / 'inner').mkdir()
+    (tmp_path / 'inner' / 'loop').symlink_to(tmp_path)
+    (tmp_path / 'node.py').write_text(HEAD + SPIN)
+    assert scan([tmp_path], root=tmp_path).files_seen == ('node.py',)
+
+
+ENDLESS = {
+    'exponential calls': 'def f0(x): return x\n'
+    + ''.join(f'def f{i}(x): return f{i - 1}(f{i - 1}(x))\n' for i in range(1, 30))
+    + 'f29(1)\n',
+    'deep loops': 'def f():\n'
+    + ''.join('  ' * (i + 1) + f'for i{i} in range(60):\n' for i in range(8))
+    + '  ' * 9
+    + 'x = 1\nf()\n',
+}
+
+
+@pytest.mark.parametrize('text', ENDLESS.values(), ids=list(ENDLESS))
+def test_a_program_without_end_is_cut_off_and_said_so(text: str) -> None:
+    assert [d.slug for d in scan_text(HEAD + text + SPIN).diagnostics] == ['not-followed']
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'class A(B): pass\nclass B(A): pass\nclass C(C): pass\n',
+        'def f(n): return g(n)\ndef g(n): return f(n) + g(n)\nf(1)\n',
+        'x = "a" * 10**9\ny = 2 ** 10**9\nz = "%1000000000d" % 1\nu = [0] * 10**9\n',
+        'w = "{:>1000000000}".format(1)\nv = f"{1:>1000000000}"\ns = "a".zfill(10**9)\n',
+        'for i in range(10**12): x = i\n',
+        'import sys\nsys.exit(1)\n',
+        'a, *b, c = unknown\n(d, e), f = (1, 2), 3\nglobal g\n',
+        'x: int\ndel y\nassert z, w\nraise ValueError\n',
+    ],
+)
+def test_odd_programs_end(text: str) -> None:
+    assert scan_text(HEAD + text).diagnostics == ()
+
+
+def test_progress_ends_at_the_total(tmp_path: Path) -> None:
+    (tmp_path / 'one.py').write_text(HEAD + SPIN)
+    (tmp_path / 'two.py').write_text(HEAD)
+    steps: list[tuple[int, int]] = []
+    scan([tmp_path], progress=lambda done, total: steps.append((done, total)))
+    assert steps[-1][0] == steps[-1][1]
+
+
+def test_two_scans_say_the_same() -> None:
+    text = HEAD + 'def main():\n    n = rclpy.create_node("a")\n' + SPIN
+    assert scan_text(text) == scan_text(text)
+
+
+def test_scanned_code_is_never_run(tmp_path: Path) -> None:
+    flag = tmp_path / 'flag'
+    scan_text(f'import rclpy\nopen({str(flag)!r}, "w").write("x")\n' + SPIN)
+    assert not flag.exists()
