@@ -4,8 +4,8 @@ from ros2cc_extract.checker.nativecode import Predicate
 
 OPERATIONS: list[str]
 
-class CheckFailed(Exception): ...
-class Endless(Exception): ...
+class CheckError(Exception): ...
+class EndlessError(Exception): ...
 
 class Answer:
     path: list[list[int]]
@@ -31,6 +31,7 @@ def search(
     variables: list[int],
     initial: list[int],
     locations: list[list[int]],
+    forgettings: list[tuple[list[int], int, list[int]]],
     goals: Sequence[Predicate],
     lassos: Sequence[tuple[Predicate, Predicate | None]],
     is_fair: bool,

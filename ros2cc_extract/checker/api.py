@@ -209,7 +209,7 @@ def check(
             verdict=outcome.verdict,
             reason=outcome.reason,
             seconds=outcome.seconds,
-            path=replayer.run(prop, outcome.path) if outcome.path else None,
+            path=replayer.run(prop, outcome.path, result.reduce) if outcome.path else None,
         )
         for query, prop, outcome in zip(queries, properties, result.outcomes, strict=True)
     )

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from ros2cc_extract.checker.dead import forget, forgettings
 from ros2cc_extract.checker.interpret import endless_error, site_error
 from ros2cc_extract.checker.limits import Limits, Progress, Watch
 from ros2cc_extract.checker.nativecode import Lowering, Predicate
@@ -16,6 +18,7 @@ from ros2cc_extract.checker.search import (
     Outcome,
     SearchResult,
     StatePath,
+    formulas_of,
     found,
     goal_of,
     inside_of,
@@ -53,6 +56,11 @@ def search(
     liveness = positions(properties, reachability=False)
     goals = [lowering.predicate(goal_of(properties[i])) for i in reachability]
     lassos = [_lasso(lowering, properties[i]) for i in liveness]
+    reduce = None
+    if reduction:
+        forgotten = forgettings(network, formulas_of(properties))
+        lowering.forget(forgotten)
+        reduce = functools.partial(forget, forgotten)
     watching = _Watching(Watch(limits, progress))
     try:
         result = _core.search(
@@ -62,10 +70,10 @@ def search(
             is_fair=fairness is Fairness.WEAK,
             watch=watching,
         )
-    except _core.CheckFailed as error:
+    except _core.CheckError as error:
         site, value = error.args
         raise site_error(network.sites[site], value) from None
-    except _core.Endless as error:
+    except _core.EndlessError as error:
         raise endless_error(network.functions[error.args[0]]) from None
     answers = _Answers(network, properties, watching)
     outcomes = dict(zip(reachability, map(answers.goal, reachability, result.goals), strict=True))
@@ -76,6 +84,7 @@ def search(
         watching.watch.seconds(),
         result.is_complete,
         tuple(outcomes[i] for i in range(len(properties))),
+        reduce,
     )
 
 

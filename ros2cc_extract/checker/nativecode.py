@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from ros2cc_extract.checker.dead import Forgetting
 from ros2cc_extract.checker.network import (
     Assign,
     AtLocation,
@@ -31,6 +32,7 @@ from ros2cc_extract.checker.network import (
     LocalElement,
     Network,
     Op,
+    Process,
     Return,
     Stmt,
     Table,
@@ -58,6 +60,7 @@ class Tables:
     variables: list[int] = field(default_factory=list)
     initial: list[int] = field(default_factory=list)
     locations: list[list[int]] = field(default_factory=list)
+    forgettings: list[tuple[list[int], int, list[int]]] = field(default_factory=list)
 
 
 class Lowering:
@@ -108,6 +111,33 @@ class Lowering:
             sorted(reads.variables),
             sorted(reads.processes),
         )
+
+    def forget(self, forgettings: Sequence[Forgetting]) -> None:
+        """Add what processes make forgettable."""
+        for process, forgetting in zip(self._network.processes, forgettings, strict=True):
+            self.tables.forgettings.append(self._forgetting(process, forgetting))
+
+    def _forgetting(
+        self, process: Process, forgetting: Forgetting
+    ) -> tuple[list[int], int, list[int]]:
+        if not forgetting.resets:
+            return [], 0, []
+        controls: list[int] = []
+        strides: list[int] = []
+        stride = 1
+        for slot in forgetting.controls:
+            variable = self._network.variables[slot]
+            controls += [slot, variable.low, stride]
+            strides.append(stride)
+            stride *= variable.high - variable.low + 1
+        places = [NONE] * (len(process.locations) * stride)
+        for (location, values), resets in forgetting.resets.items():
+            place = location * stride
+            for value, low, step in zip(values, controls[1::3], strides, strict=True):
+                place += (value - low) * step
+            flat = [number for pair in resets for number in pair]
+            places[place] = self._list([len(resets), *flat])
+        return controls, stride, places
 
     def _lower_network(self) -> None:
         tables = self.tables

@@ -8,15 +8,26 @@ ends are established here anew. A disagreement is a defect of this tool.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from ros2cc_extract.checker.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.run import EdgeRef, Naming, Run, Step
-from ros2cc_extract.checker.search import End, Fairness, StatePath
-from ros2cc_extract.checker.semantics import Semantics, State, Transition
+from ros2cc_extract.checker.search import End, Fairness, Reduce, StatePath
+from ros2cc_extract.checker.semantics import Edges, Semantics, State, Transition
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration
 from ros2cc_extract.errors import CoreMismatchError
 
 _MEND = 'please report this model: it is a defect of the checker'
+
+
+@dataclass
+class _RealPath:
+    """States of the model and the moves between them; with a cycle the last state closes it."""
+
+    states: list[State]
+    moves: list[Transition]
+    cycle_start: int | None
+    end: End | None
 
 
 class Replayer:
@@ -28,10 +39,11 @@ class Replayer:
         self._semantics = Semantics(network)
         self._naming = Naming(elaboration, network)
 
-    def run(self, prop: Property, path: StatePath) -> Run:
+    def run(self, prop: Property, path: StatePath, reduce: Reduce | None) -> Run:
         """
-        Return the path with its edges and names.
+        Return the path with its edges and names, in states of the model as it stands.
 
+        :param reduce: what the search did to each state it reached; the path is in such states.
         :raises CoreMismatchError: the path is none of the model, or does not show what it should.
         """
         if path.states[0] != self._semantics.initial():
@@ -39,27 +51,68 @@ class Replayer:
         states = list(path.states)
         if path.cycle_start is not None:
             states.append(states[path.cycle_start])
-        moves = [self._move(states[i], states[i + 1]) for i in range(len(states) - 1)]
-        if path.cycle_start is not None and self._fairness is Fairness.WEAK:
-            moves = self._fair_moves(states, moves, path.cycle_start)
-        self._check_formulas(prop, path)
-        steps = tuple(
-            self._step(state, move) for state, move in zip(states, moves, strict=False)
-        )
-        end = path.end.value if path.end else None
-        return Run(self._naming.view(states[0]), steps, path.cycle_start, end)
+        moves = self._moves(states, path.cycle_start, reduce)
+        real = self._walk(moves, path)
+        self._check_formulas(prop, real)
+        return self._told(real)
 
-    def _move(self, state: State, target: State) -> Transition:
-        for transition in self._semantics.successors(state):
-            if transition.target == target:
-                return transition
-        raise _mismatch('one of its steps is no transition of the model')
+    def _moves(
+        self, states: Sequence[State], cycle_start: int | None, reduce: Reduce | None
+    ) -> list[Edges]:
+        """Return the edges between the states of a path, on a fair cycle serving everybody."""
+        is_fair = cycle_start is not None and self._fairness is Fairness.WEAK
+        unserved = set(range(len(self._network.processes))) if is_fair else set()
+        moves: list[Edges] = []
+        for index, state in enumerate(states[:-1]):
+            leaving = list(self._semantics.successors(state))
+            fitting = [
+                t.edges
+                for t in leaving
+                if (reduce(t.target, t.edges) if reduce else t.target) == states[index + 1]
+            ]
+            if not fitting:
+                raise _mismatch('one of its steps is no transition of the model')
+            if cycle_start is not None and index >= cycle_start:
+                unserved &= {process for t in leaving for process, _ in t.edges}
+            moves.append(max(fitting, key=lambda edges: len({p for p, _ in edges} & unserved)))
+            if cycle_start is not None and index >= cycle_start:
+                unserved -= {process for process, _ in moves[-1]}
+        if unserved:
+            raise _mismatch('its cycle is not fair to every process')
+        return moves
+
+    def _walk(self, moves: Sequence[Edges], path: StatePath) -> _RealPath:
+        """
+        Take the moves from the initial state.
+
+        After one round of a cycle, values that nobody reads may differ from those at its start;
+        so rounds are added until a round ends where one began.
+        """
+        real = _RealPath([self._semantics.initial()], [], None, path.end)
+        stem = len(moves) if path.cycle_start is None else path.cycle_start
+        self._extend(real, moves[:stem])
+        if path.cycle_start is None:
+            return real
+        begun: dict[State, int] = {}
+        while real.states[-1] not in begun:
+            begun[real.states[-1]] = len(real.states) - 1
+            self._extend(real, moves[stem:])
+        real.cycle_start = begun[real.states[-1]]
+        return real
+
+    def _extend(self, real: _RealPath, moves: Sequence[Edges]) -> None:
+        for edges in moves:
+            taken = [t for t in self._semantics.successors(real.states[-1]) if t.edges == edges]
+            if not taken:
+                raise _mismatch('one of its steps is not enabled')
+            real.moves.append(taken[0])
+            real.states.append(taken[0].target)
 
     # -- what the path should show -------------------------------------------------------
     def _holds(self, formula: Expr, state: State) -> bool:
         return bool(self._semantics.evaluate(formula, state))
 
-    def _check_formulas(self, prop: Property, path: StatePath) -> None:
+    def _check_formulas(self, prop: Property, path: _RealPath) -> None:
         last = path.states[-1]
         if prop.kind in (QueryKind.INVARIANT, QueryKind.REACHABLE):
             if self._holds(prop.formula, last) is (prop.kind is QueryKind.INVARIANT):
@@ -71,7 +124,7 @@ class Replayer:
         if any(self._holds(prop.formula, state) is not inside for state in path.states[begin:]):
             raise _mismatch('it leaves the states it should stay in')
 
-    def _premise_index(self, prop: Property, path: StatePath) -> int:
+    def _premise_index(self, prop: Property, path: _RealPath) -> int:
         """Return from where on a leads-to counterexample must avoid the conclusion."""
         if prop.premise is None:
             return 0
@@ -83,7 +136,7 @@ class Replayer:
                 return index
         raise _mismatch('its premise does not hold before it')
 
-    def _check_end(self, path: StatePath) -> None:
+    def _check_end(self, path: _RealPath) -> None:
         if path.cycle_start is not None:
             return
         last = path.states[-1]
@@ -95,24 +148,14 @@ class Replayer:
             return
         raise _mismatch('it does not end as a maximal path')
 
-    def _fair_moves(
-        self, states: Sequence[State], moves: list[Transition], cycle_start: int
-    ) -> list[Transition]:
-        """Choose among parallel transitions so that every process is served on the cycle."""
-        unserved = set(range(len(self._network.processes)))
-        for index in range(cycle_start, len(moves)):
-            parallel = list(self._semantics.successors(states[index]))
-            enabled = {process for t in parallel for process, _ in t.edges}
-            unserved &= enabled
-            same = [t for t in parallel if t.target == states[index + 1]]
-            best = max(same, key=lambda t: len({p for p, _ in t.edges} & unserved))
-            moves[index] = best
-            unserved -= {process for process, _ in best.edges}
-        if unserved:
-            raise _mismatch('its cycle is not fair to every process')
-        return moves
-
     # -- names ---------------------------------------------------------------------------
+    def _told(self, real: _RealPath) -> Run:
+        steps = tuple(
+            self._step(state, move) for state, move in zip(real.states, real.moves, strict=False)
+        )
+        end = real.end.value if real.end else None
+        return Run(self._naming.view(real.states[0]), steps, real.cycle_start, end)
+
     def _step(self, state: State, move: Transition) -> Step:
         sync = self._semantics.edge(move.edges[0]).sync
         channel = None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.checker.network import Expr, Property, QueryKind
-from ros2cc_extract.checker.semantics import State
+from ros2cc_extract.checker.semantics import Edges, State
 from ros2cc_extract.checker.uppaal.arithmetic import negation
 
 
@@ -37,6 +37,9 @@ class End(Enum):
     DEADLOCK = 'deadlock'
     IDLE = 'idle'
 
+
+#: What a search does to a state that was reached by some edges, before it stores it.
+Reduce = Callable[[State, Edges], State]
 
 INTERRUPTED = 'interrupted'
 
@@ -71,6 +74,7 @@ class SearchResult:
     Answers to all properties of one exploration.
 
     :param complete: whether every reachable state was explored.
+    :param reduce: how the states of the paths came from those of the model; None: as they are.
     """
 
     states: int
@@ -78,6 +82,7 @@ class SearchResult:
     seconds: float
     complete: bool
     outcomes: tuple[Outcome, ...]
+    reduce: Reduce | None = None
 
 
 def refutes(kind: QueryKind) -> bool:
@@ -93,6 +98,12 @@ def goal_of(prop: Property) -> Expr:
 def inside_of(prop: Property) -> Expr:
     """Return what all states of a lasso must fulfil to decide a liveness query."""
     return prop.formula if prop.kind is QueryKind.POSSIBLY_ALWAYS else negation(prop.formula)
+
+
+def formulas_of(properties: Sequence[Property]) -> list[Expr]:
+    """Return all state formulae, whose values a reduction must keep."""
+    formulas = [prop.formula for prop in properties]
+    return formulas + [prop.premise for prop in properties if prop.premise is not None]
 
 
 def is_reachability(prop: Property) -> bool:

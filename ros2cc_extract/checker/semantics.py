@@ -19,6 +19,10 @@ from ros2cc_extract.checker.network import Direction, Edge, Expr, Network
 EdgeRef = tuple[int, int]
 
 
+#: The edges that move together, the sender first.
+Edges = tuple[EdgeRef, ...]
+
+
 @dataclass(frozen=True)
 class State:
     """One location per process, then one value per variable."""
@@ -29,9 +33,9 @@ class State:
 
 @dataclass(frozen=True)
 class Transition:
-    """The edges that move together, the sender first, and the state they lead to."""
+    """Edges that move together, and the state they lead to."""
 
-    edges: tuple[EdgeRef, ...]
+    edges: Edges
     target: State
 
 

@@ -56,10 +56,7 @@ CbId thread_cb_assign_table[NUM_THREAD];
 chan group_close[NUM_CB_GROUP], group_open[NUM_CB_GROUP], cb_assign_signal[NUM_THREAD];
 broadcast chan thread_free;
 bool cb_running(CbId c) {{
-    for (t : ThreadId)
-        if (thread_running[t] && thread_cb_assign_table[t] == c)
-            return true;
-    return false;
+    return exists (t : ThreadId) thread_running[t] && thread_cb_assign_table[t] == c;
 }}
 """
 

@@ -26,9 +26,26 @@ std::vector<Range> ranges_from(const Ints& flat) {
   return ranges;
 }
 
+// Slots, lows and strides of the controls, the stride of the location, the lists of resets.
+using RawForgetting = std::tuple<Ints, int32_t, Ints>;
+
+std::vector<Forgetting> forgettings_from(const std::vector<RawForgetting>& raw) {
+  std::vector<Forgetting> forgettings;
+  for (const auto& [controls, stride, resets] : raw) {
+    Forgetting forgetting;
+    for (size_t i = 0; i < controls.size(); i += 3) {
+      forgetting.controls.push_back({controls[i], controls[i + 1], controls[i + 2]});
+    }
+    forgetting.stride = stride;
+    forgetting.resets = resets;
+    forgettings.push_back(std::move(forgetting));
+  }
+  return forgettings;
+}
+
 Model model_from(const Ints& nodes, Ints lists, const Ints& ranges, const Ints& functions,
                  const Ints& edges, Ints channels, const Ints& variables, Ints initial,
-                 std::vector<Ints> locations) {
+                 std::vector<Ints> locations, const std::vector<RawForgetting>& forgettings) {
   Model model;
   for (size_t i = 0; i < nodes.size(); i += 4) {
     model.nodes.push_back({static_cast<Op>(nodes[i]), nodes[i + 1], nodes[i + 2], nodes[i + 3]});
@@ -46,6 +63,7 @@ Model model_from(const Ints& nodes, Ints lists, const Ints& ranges, const Ints& 
   model.channels = std::move(channels);
   model.initial = std::move(initial);
   model.locations = std::move(locations);
+  model.forgettings = forgettings_from(forgettings);
   return model;
 }
 
@@ -74,8 +92,8 @@ PYBIND11_MODULE(_core, module) {
 #undef CORE_NAME
   module.attr("OPERATIONS") = py::cast(operations);
 
-  static py::exception<CheckFailed> check_failed(module, "CheckFailed");
-  static py::exception<Endless> endless(module, "Endless");
+  static py::exception<CheckFailed> check_failed(module, "CheckError");
+  static py::exception<Endless> endless(module, "EndlessError");
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
@@ -102,19 +120,20 @@ PYBIND11_MODULE(_core, module) {
       "search",
       [](const Ints& nodes, Ints lists, const Ints& ranges, const Ints& functions,
          const Ints& edges, Ints channels, const Ints& variables, Ints initial,
-         std::vector<Ints> locations, const std::vector<RawPredicate>& goals,
+         std::vector<Ints> locations, const std::vector<RawForgetting>& forgettings,
+         const std::vector<RawPredicate>& goals,
          const std::vector<RawLasso>& lassos, bool is_fair, const Ask& watch) {
         // pybind11 takes the lock again around each call of `watch`.
         py::gil_scoped_release release;
         const Model model =
             model_from(nodes, std::move(lists), ranges, functions, edges, std::move(channels),
-                       variables, std::move(initial), std::move(locations));
+                       variables, std::move(initial), std::move(locations), forgettings);
         std::vector<Predicate> predicates;
         for (const RawPredicate& goal : goals) predicates.push_back(predicate_from(goal));
         return search(model, predicates, lassos_from(lassos), is_fair, watch);
       },
       py::kw_only(), py::arg("nodes"), py::arg("lists"), py::arg("ranges"),
       py::arg("functions"), py::arg("edges"), py::arg("channels"), py::arg("variables"),
-      py::arg("initial"), py::arg("locations"), py::arg("goals"), py::arg("lassos"),
-      py::arg("is_fair"), py::arg("watch"));
+      py::arg("initial"), py::arg("locations"), py::arg("forgettings"), py::arg("goals"),
+      py::arg("lassos"), py::arg("is_fair"), py::arg("watch"));
 }

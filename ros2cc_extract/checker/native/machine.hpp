@@ -49,6 +49,22 @@ class Machine {
     at[process] = to;
   }
 
+  // Reset what nobody will read, now that a process has arrived where it is.
+  void forget(int32_t process) {
+    const Forgetting& forgetting = model_.forgettings[process];
+    if (forgetting.resets.empty()) return;
+    int32_t place = at[process] * forgetting.stride;
+    for (const Control& control : forgetting.controls) {
+      place += (value[control.slot] - control.low) * control.stride;
+    }
+    const int32_t list = forgetting.resets[place];
+    if (list < 0) return;
+    const int32_t* pair = model_.lists.data() + list;
+    for (int32_t i = *pair++; i > 0; --i, pair += 2) {
+      if (value[pair[0]] != pair[1]) set(pair[0], pair[1]);
+    }
+  }
+
   // Back to the state that was loaded; `words` are its words.
   void restore(const uint64_t* words) {
     for (auto it = undo_.rbegin(); it != undo_.rend(); ++it) value[it->slot] = it->old;

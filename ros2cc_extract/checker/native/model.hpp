@@ -59,6 +59,17 @@ struct Range {
   int32_t low, high;
 };
 
+// What may be forgotten once a process has arrived somewhere: see dead.py. The place is its
+// location and the values of its controls, counted through as one number.
+struct Control {
+  int32_t slot, low, stride;
+};
+struct Forgetting {
+  std::vector<Control> controls;
+  int32_t stride = 0;          // of the location
+  std::vector<int32_t> resets;  // by place: offset of a list of slots and values, or -1
+};
+
 struct Model {
   std::vector<Node> nodes;
   std::vector<int32_t> lists;
@@ -69,6 +80,7 @@ struct Model {
   std::vector<Range> variables;
   std::vector<int32_t> initial;                   // locations, then variables
   std::vector<std::vector<int32_t>> locations;    // flags, by process
+  std::vector<Forgetting> forgettings;            // by process; empty: nothing is forgotten
 };
 
 // A predicate over states and the variables and locations it may read.

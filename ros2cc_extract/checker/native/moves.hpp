@@ -148,6 +148,9 @@ class Moves {
       if (edge.source != edge.target) machine_.move(edge.process, edge.target);
       if (edge.updates >= 0) machine_.run(edge.updates);
     }
+    if (!model_.forgettings.empty()) {
+      for (const int32_t number : moving_) machine_.forget(model_.edges[number].process);
+    }
     visit(moving_);
     machine_.restore(words);
   }

@@ -186,11 +186,21 @@ class States {
     if (log_ == kMaxLog) throw std::length_error("more than 3 * 2^30 states");
     table_ = Block<uint32_t>();
     resize(log_ + 1);
-    for (uint64_t i = 0; i < states_.size(); ++i) {
-      const uint64_t hash = hash_of(states_[i], words_);
-      uint64_t at = hash & mask_;
-      while (table_[at]) at = (at + 1) & mask_;
-      table_[at] = tag_of(hash) | static_cast<uint32_t>(i + 1);
+    // Hashes are worked out some states ahead, so that their places arrive in time.
+    constexpr uint64_t kAhead = 16;
+    uint64_t hashes[kAhead];
+    const uint64_t count = states_.size();
+    for (uint64_t i = 0; i < count + kAhead; ++i) {
+      if (i >= kAhead) {
+        const uint64_t hash = hashes[i % kAhead];
+        uint64_t at = hash & mask_;
+        while (table_[at]) at = (at + 1) & mask_;
+        table_[at] = tag_of(hash) | static_cast<uint32_t>(i - kAhead + 1);
+      }
+      if (i < count) {
+        hashes[i % kAhead] = hash_of(states_[i], words_);
+        prefetch(hashes[i % kAhead]);
+      }
     }
   }
 

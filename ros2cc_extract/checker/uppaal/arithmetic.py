@@ -52,6 +52,7 @@ OPERATIONS: dict[Op, Callable[[int, int], int]] = {
     Op.AND: lambda a, b: int(a != 0 and b != 0),
     Op.OR: lambda a, b: int(a != 0 or b != 0),
 }
+_NEUTRAL = {Op.ADD: FALSE, Op.SUB: FALSE, Op.MUL: TRUE}
 _TRUTH = (Op.EQ, Op.NE, Op.LT, Op.LE, Op.GT, Op.GE, Op.AND, Op.OR)
 _AT_CORNERS = (Op.ADD, Op.SUB, Op.MUL, Op.SHL, Op.SHR, Op.MIN, Op.MAX)
 
@@ -92,6 +93,10 @@ def binary(op: Op, left: Expr, right: Expr) -> Expr:
         return _connective(op, left, right)
     if isinstance(left, Const) and isinstance(right, Const):
         return const(OPERATIONS[op](left.low, right.low))
+    if right == _NEUTRAL.get(op):
+        return left
+    if op in (Op.ADD, Op.MUL) and left == _NEUTRAL[op]:
+        return right
     return Binary(*interval(op, left, right), op, left, right)
 
 
