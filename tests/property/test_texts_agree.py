@@ -5,31 +5,54 @@ Units are drawn by number, so that one that disagrees can be drawn again. Where 
 is too large to be explored in full, the queries it decided are compared.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable
+from dataclasses import dataclass
 from random import Random
 
 import pytest
-from closed_specs import random_unit
+from closed_specs import random_rclpy_unit, random_unit
 
-from ros2cc_extract.checker.api import Limits, Verdict, check, read_model
-from ros2cc_extract.generator.build import RenderedModel, Text, render
-
-
-def verdicts(model: RenderedModel, states: int) -> dict[str, Verdict]:
-    """Verdict by formula, from an exploration of at most so many states."""
-    read = read_model(model.xml, f'{model.name}.xml')
-    answers = check(read, read.queries, limits=Limits(states=states)).answers
-    return {answer.query.formula: answer.verdict for answer in answers}
+from ros2cc_extract.checker.api import Fairness, Limits, Verdict, check, read_model
+from ros2cc_extract.generator.build import Profile, Text, render
+from ros2cc_extract.spec.close import ClosedSpec
 
 
-def disagreements(number: int, states: int) -> tuple[bool, dict[str, tuple[str, str]]]:
-    """Whether unit ``number`` was decided in full, and formula to plain and compact verdict."""
+@dataclass(frozen=True)
+class Case:
+    """A drawn unit; without a bound on arrivals only fair runs count."""
+
+    unit: ClosedSpec
+    profile: Profile
+    max_cycle: int | None
+
+
+def paper_case(number: int) -> Case:
     random = Random(number)
     max_cycle = random.randint(1, 3)
     unit = random_unit(random, callbacks=4, groups=3, threads=3)
-    plain, compact = (
-        verdicts(render(unit, text=text, max_cycle=max_cycle), states) for text in Text
-    )
+    return Case(unit, Profile.PAPER, max_cycle)
+
+
+def rclpy_case(number: int) -> Case:
+    random = Random(number)
+    max_cycle = random.choice((1, 1, 2, None))
+    unit = random_rclpy_unit(random, callbacks=4, groups=3, threads=3)
+    return Case(unit, Profile.RCLPY, max_cycle)
+
+
+def verdicts(case: Case, text: Text, states: int) -> dict[str, Verdict]:
+    """Verdict by formula, from an exploration of at most so many states."""
+    model = render(case.unit, profile=case.profile, text=text, max_cycle=case.max_cycle)
+    read = read_model(model.xml, f'{model.name}.xml')
+    fairness = Fairness.WEAK if case.max_cycle is None else Fairness.NONE
+    limits = Limits(states=states)
+    answers = check(read, read.queries, limits=limits, fairness=fairness).answers
+    return {answer.query.formula: answer.verdict for answer in answers}
+
+
+def disagreements(case: Case, states: int) -> tuple[bool, dict[str, tuple[str, str]]]:
+    """Whether the unit was decided in full, and formula to plain and compact verdict."""
+    plain, compact = (verdicts(case, text, states) for text in Text)
     decided = {f: v for f, v in plain.items() if v is not Verdict.UNDECIDED}
     return len(decided) == len(plain), {
         formula: (verdict.value, compact[formula].value)
@@ -38,11 +61,13 @@ def disagreements(number: int, states: int) -> tuple[bool, dict[str, tuple[str, 
     }
 
 
-def assert_agreement(numbers: Iterable[int], enough: int, states: int) -> None:
+def assert_agreement(
+    draw: Callable[[int], Case], numbers: range, enough: int, states: int
+) -> None:
     """Compare units until ``enough`` of them were decided in full."""
-    compared = ((number, *disagreements(number, states)) for number in numbers)
     full = 0
-    for number, is_full, differing in compared:
+    for number in numbers:
+        is_full, differing = disagreements(draw(number), states)
         assert not differing, f'unit {number}: {differing}'
         full += is_full
         if full == enough:
@@ -50,10 +75,12 @@ def assert_agreement(numbers: Iterable[int], enough: int, states: int) -> None:
     pytest.fail(f'only {full} of {enough} units were small enough')
 
 
-def test_texts_agree_on_small_units():
-    assert_agreement(range(1_000), enough=40, states=8_000)
+@pytest.mark.parametrize('draw', [paper_case, rclpy_case])
+def test_texts_agree_on_small_units(draw: Callable[[int], Case]):
+    assert_agreement(draw, range(1_000), enough=40, states=8_000)
 
 
 @pytest.mark.slow
-def test_texts_agree_on_two_thousand_units():
-    assert_agreement(range(1_000, 10_000), enough=2_000, states=5_000_000)
+@pytest.mark.parametrize('draw', [paper_case, rclpy_case])
+def test_texts_agree_on_two_thousand_units(draw: Callable[[int], Case]):
+    assert_agreement(draw, range(1_000, 10_000), enough=2_000, states=5_000_000)

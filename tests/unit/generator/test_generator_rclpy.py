@@ -6,7 +6,7 @@ import pytest
 from generator_units import closed_unit
 
 from ros2cc_extract.checker.api import Fairness, Query, Verdict, check, read_model
-from ros2cc_extract.generator.build import Family, Profile, RenderedModel, render
+from ros2cc_extract.generator.build import Family, Profile, RenderedModel, Text, render
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import EntityKind
 
@@ -110,6 +110,13 @@ def test_who_starves_under_unlimited_arrivals(
 ):
     unit = closed_unit(callbacks, f'g:{kind}', 2, executor)
     assert starving(unit, None) == expected
+
+
+def test_the_compact_text_knows_that_two_rivals_starve_the_member_served_first():
+    unit = closed_unit('a:SUB:g b:SUB:g c:SUB:g d:SUB:g', 'g:EXCLUSIVE', 2, MULTI)
+    model = render(unit, profile=Profile.RCLPY, text=Text.COMPACT, max_cycle=None)
+    first = next(query for query in model.queries if query.family is Family.STARVATION)
+    assert not holds(model, first.formula, Fairness.WEAK)
 
 
 def test_a_class_of_the_users_own_counts_by_its_threads():
