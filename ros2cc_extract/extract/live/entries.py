@@ -114,6 +114,15 @@ class EntityRecord:
         self.destroyed = False
         self.made = 1
         self.timings = Timings()
+        # Its text in the recording, with the state that it was written for.
+        self.text: tuple[tuple[int, ...], str] | None = None
+
+    def state(self) -> tuple[int, ...]:
+        """Differ whenever anything that is written of it may have changed."""
+        timings = self.timings
+        flags = self.complete, self.destroyed, self.late, self.creation is None
+        measured = timings.runs, timings.durations.count, timings.refused
+        return *flags, *measured, self.made, self.node or 0, self.group
 
     def signature(self) -> tuple[Any, ...]:
         """Equal for entities that one line of the program makes again and again."""

@@ -7,6 +7,7 @@ neighbours. ``recording.py`` reads what is written here.
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import sys
@@ -31,18 +32,26 @@ def snapshot(recorder: Recorder, *, ended: bool) -> str:
     program waiting.
     """
     sections = (
-        ('executors', map(_executor, recorder.all_executors)),
-        ('nodes', map(_node, recorder.all_nodes)),
-        ('groups', map(_group, recorder.all_groups)),
-        ('entities', map(_entity, recorder.all_entities)),
-        ('tasks', map(_task, list(recorder.tasks.values()))),
+        ('executors', map(json.dumps, map(_executor, recorder.all_executors))),
+        ('nodes', map(json.dumps, map(_node, recorder.all_nodes))),
+        ('groups', map(json.dumps, map(_group, recorder.all_groups))),
+        ('entities', map(_entity_text, recorder.all_entities)),
+        ('tasks', map(json.dumps, map(_task, list(recorder.tasks.values())))),
     )
     head = json.dumps({**_head(recorder), 'ended': ended})[:-1]
     return head + ''.join(_section(name, rows) for name, rows in sections) + '\n}\n'
 
 
-def _section(name: str, rows: Iterable[dict[str, Any]]) -> str:
-    return f',\n"{name}": [' + ',\n'.join(json.dumps(row) for row in rows) + ']'
+def _section(name: str, rows: Iterable[str]) -> str:
+    return f',\n"{name}": [' + ',\n'.join(rows) + ']'
+
+
+def _entity_text(record: EntityRecord) -> str:
+    """Write an entity anew only if something has changed: of thousands, few run at a time."""
+    state = record.state()
+    if record.text is None or record.text[0] != state:
+        record.text = state, json.dumps(_entity(record))
+    return record.text[1]
 
 
 def _head(recorder: Recorder) -> dict[str, Any]:
@@ -62,7 +71,9 @@ def _head(recorder: Recorder) -> dict[str, Any]:
     }
 
 
+@functools.cache
 def _rclpy_version() -> str | None:
+    """Ask once: the answer takes a walk over all that is installed."""
     from importlib import metadata
 
     for package in _RCLPY_PACKAGES:

@@ -19,10 +19,9 @@ from .record import COLLECT, PAUSE, RUN, TAKE, Recorder
 Replace = Callable[[type, str, Any], None]
 
 
-def report(recorder: Recorder, what: int, record: EntityRecord | TaskRecord | None) -> None:
-    """Report an event; of what was never recorded there is nothing to tell."""
-    if record is not None:
-        recorder.events.append((time.monotonic_ns(), get_ident(), what, record))
+def report(recorder: Recorder, what: int, record: EntityRecord | TaskRecord) -> None:
+    """Report an event that happens here and now."""
+    recorder.events.append((time.monotonic_ns(), get_ident(), what, record))
 
 
 def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> None:
@@ -35,20 +34,25 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
     original = executor_class.__dict__.get('_make_handler')
     if original is None:
         return
-    entities, lose = recorder.entities, recorder.lose
+    entities, append, lose = recorder.entities, recorder.events.append, recorder.lose
+    clock = time.monotonic_ns
 
     @functools.wraps(original)
     def make_handler(executor: Any, entity: Any, node: Any, take: Any, *more: Any) -> Any:
         def traced_take(taken: Any) -> Any:
             data = take(taken)
             try:
-                report(recorder, TAKE, entities.get(id(taken)))
+                record = entities.get(id(taken))
+                if record is not None:
+                    append((clock(), get_ident(), TAKE, record))
             except Exception as error:
                 lose(error)
             return data
 
         try:
-            report(recorder, COLLECT, entities.get(id(entity)))
+            record = entities.get(id(entity))
+            if record is not None:
+                append((clock(), get_ident(), COLLECT, record))
         except Exception as error:
             lose(error)
         return original(executor, entity, node, traced_take, *more)
@@ -70,6 +74,8 @@ def trace_runs(
     @functools.wraps(original)
     def run(task: Any) -> Any:
         record = records.get(id(task))
+        if record is None:
+            return original(task)
         try:
             report(recorder, RUN, record)
         except Exception as error:
@@ -79,7 +85,7 @@ def trace_runs(
         finally:
             try:
                 report(recorder, PAUSE, record)
-                if record is not None and task.done():
+                if task.done():
                     records.pop(id(task), None)
             except Exception as error:
                 lose(error)

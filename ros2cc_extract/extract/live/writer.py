@@ -20,7 +20,7 @@ from .snapshot import snapshot
 from .spinning import look_for_spinning_threads
 from .tracefile import TraceFile
 
-# The file is at most this old, twice: once to notice a change, once for a slow write.
+# The file is at most 0.5 s old: something new is written at once, mere counts every other time.
 INTERVAL_S = 0.2
 # Writing takes at most this share of one processor, however much there is to write.
 LARGEST_SHARE = 0.02
@@ -47,6 +47,7 @@ class Writer:
         self._looked_changes = 0
         self._written_changes = (0, 0)
         self._not_before = 0.0
+        self._counts_turn = False
         self._complained = False
 
     def start(self) -> None:
@@ -86,9 +87,15 @@ class Writer:
             recorder.settle()
         look_for_spinning_threads(recorder)
         changes = recorder.changes, recorder.measured
-        if changes == self._written_changes or time.monotonic() < self._not_before:
+        is_new = changes[0] != self._written_changes[0]
+        is_turn = self._counts_turn = not self._counts_turn
+        if not is_new and not (is_turn and changes != self._written_changes):
             return
-        self._written_changes = changes
+        if time.monotonic() >= self._not_before:
+            self._written_changes = changes
+            self._rewrite()
+
+    def _rewrite(self) -> None:
         started = time.thread_time()
         done = self._write(ended=False)
         spent = time.thread_time() - started
