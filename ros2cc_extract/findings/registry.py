@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.findings.rules import (
+    asyncio_sleep,
+    execute_holds_thread,
     executor_spun_twice,
     group_overload,
     groups_on_one_thread,
@@ -34,8 +36,10 @@ RULES: tuple[Rule, ...] = (
     rate_on_one_thread.RULE,
     nested_spin.RULE,
     executor_spun_twice.RULE,
+    asyncio_sleep.RULE,
     long_sleep.RULE,
     group_overload.RULE,
+    execute_holds_thread.RULE,
     lost_update.RULE,
     unordered_write.RULE,
     outside_groups.RULE,

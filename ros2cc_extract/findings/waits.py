@@ -31,6 +31,7 @@ class WaitKind(Enum):
 
 
 BUSY_WAIT = 'busy wait'
+ASYNCIO_SLEEP = 'asyncio.sleep'
 _KINDS = {
     'client.call': WaitKind.ANSWER,
     'send_goal': WaitKind.ANSWER,
@@ -141,3 +142,8 @@ def waits_for(wait: Wait) -> str:
         what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
         return f'the answer of {what}{name}'
     return needed.display_name
+
+
+def waits_in(wait: Wait) -> str:
+    """Say where it waits: the call, or the loop."""
+    return 'a busy loop' if wait.block.call == BUSY_WAIT else wait.block.call

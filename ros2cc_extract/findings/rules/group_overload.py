@@ -65,8 +65,10 @@ def _hit(group: CallbackGroup, busy: list[Callback], victims: list[Callback], lo
     sleepers = [c for c in busy if load_of(c) > 0]
     return Hit(
         place=sleep.source or last.defined or last.source or Place(last.name),
-        message=f'{shown(sleepers)} in {group_words(group)} sleep {load:.0%} of the time: '
-        f'whenever the group opens one of them is due, so {shown(victims)}, served after them, '
+        message=f'{shown(sleepers)} in {group_words(group)} '
+        f'{"sleeps" if len(sleepers) == 1 else "sleep"} {load:.0%} of the time: '
+        f'whenever the group opens {"it" if len(sleepers) == 1 else "one of them"} is due, so '
+        f'{shown(victims)}, served after {"it" if len(sleepers) == 1 else "them"}, '
         'may never run',
         help='give the timer that sleeps a group of its own, or a period longer than its work; '
         'within a group the order of creation decides who starves',

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by
-from ros2cc_extract.findings.waits import Wait, waits_for, waits_of
+from ros2cc_extract.findings.waits import Wait, waits_for, waits_in, waits_of
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import is_one_thread
 
@@ -26,7 +26,7 @@ def _hit(wait: Wait, context: Context) -> Hit:
     group = ' and give the client a group of its own' if shut_out_by(wait, context) else ''
     return Hit(
         place=wait.place,
-        message=f'{wait.caller.display_name} waits in {wait.block.call} for {waits_for(wait)} on '
+        message=f'{wait.caller.display_name} waits in {waits_in(wait)} for {waits_for(wait)} on '
         f'the only thread of the {executor.kind or "executor"}, so nobody can take it: {end}',
         help=f'serve the node with MultiThreadedExecutor(num_threads=2) or more{group}, or use '
         'call_async and continue in a done-callback',

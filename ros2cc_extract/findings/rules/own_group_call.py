@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_of
+from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_in, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import is_one_thread
 from ros2cc_extract.spec.model import Callback
@@ -38,7 +38,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     end = 'it always runs into its time-out' if wait.has_timeout else 'it waits for ever'
     return Hit(
         place=wait.place,
-        message=f'{caller} waits in {wait.block.call} for {waits_for(wait)}, but '
+        message=f'{caller} waits in {waits_in(wait)} for {waits_for(wait)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
         f'runs: {end}',
         help=f'give the {_what(shut_out)}'

@@ -67,7 +67,7 @@ def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:
     free = timer('free', 'other')
     assert found(unit(threads(2), early, late, free)) == []
     assert only(unit(threads(2), late, early, free), 'CC202').message.endswith(
-        'so early, served after them, may never run'
+        'so early, served after it, may never run'
     )
 
 

@@ -1,0 +1,51 @@
+"""One small node per known bug with what is found in it, and its mended twin."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.generator.build import Text
+from ros2cc_extract.spec.close import close
+from ros2cc_extract.verify import Options, verify_unit
+
+HERE = Path(__file__).parent
+COMPACT = Options(text=Text.COMPACT)
+MARK = '\n# finds: '
+CASES = sorted(path for path in HERE.glob('*.py') if not path.name.startswith('test_'))
+BUGS = [path for path in CASES if not path.stem.endswith('_mended')]
+
+
+def findings_in(path: Path) -> tuple[Finding, ...]:
+    """All findings, with the verdicts of the model as the check has them."""
+    extraction = scan_text(path.read_text(encoding='utf-8'), path.name)
+    verifications = [verify_unit(close(unit), COMPACT) for unit in extraction.units]
+    return findings_of(extraction.units, extraction.diagnostics, verifications)
+
+
+def words(findings: tuple[Finding, ...]) -> str:
+    return ', '.join(map(_short, findings)) or 'nothing'
+
+
+def _short(finding: Finding) -> str:
+    weight = '' if finding.severity is Severity.ERROR else f' {finding.severity.value}'
+    return f'{finding.code}:{finding.place.line}{weight}'
+
+
+@pytest.mark.parametrize('path', CASES, ids=lambda path: path.stem)
+def test_findings_are_those_of_the_last_line(path: Path) -> None:
+    expected = path.read_text(encoding='utf-8').rpartition(MARK)[2].strip()
+    assert words(findings_in(path)) == expected
+
+
+@pytest.mark.parametrize('path', BUGS, ids=lambda path: path.stem)
+def test_nothing_is_left_to_mend_in_the_twin(path: Path) -> None:
+    twin = path.with_name(f'{path.stem}_mended.py')
+    assert [f for f in findings_in(twin) if f.severity is not Severity.NOTE] == []
+    mended = {finding.code for finding in findings_in(path)} - {'CC501'}
+    assert not mended & {finding.code for finding in findings_in(twin)}
