@@ -332,6 +332,7 @@ def _filled(mine: Callback, theirs: Callback) -> Callback:
         unresolved=None if theirs.function else mine.unresolved,
         source=mine.source or theirs.source,
         defined=mine.defined or theirs.defined,
+        measured=theirs.measured,
     )
 
 

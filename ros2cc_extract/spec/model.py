@@ -163,6 +163,37 @@ class Act:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Distribution:
+    """Measured times in seconds; median and p99 are of the last runs, the extremes of all."""
+
+    min_s: float
+    median_s: float
+    p99_s: float
+    max_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """
+    What a live run measured of a callback.
+
+    :param count: executions begun.
+    :param refused: starts that the group refused.
+    :param running: executions that had not ended when this was written.
+    :param threads: how many different threads ran it.
+    :param period: from one begin to the next.
+    :param duration: from begin to end; of a coroutine with its waits.
+    """
+
+    count: int
+    refused: int = 0
+    running: int = 0
+    threads: int = 0
+    period: Distribution | None = None
+    duration: Distribution | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Callback:
     """
     One entity that an executor serves, or one piece of work outside every group.
@@ -210,6 +241,7 @@ class Callback:
     locks: tuple[Act, ...] = ()
     publishes: tuple[Act, ...] = ()
     changes: tuple[Act, ...] = ()
+    measured: Measured | None = None
 
     @property
     def display_name(self) -> str:

@@ -30,9 +30,11 @@ from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,
     CallbackType,
+    Distribution,
     EntityKind,
     Executor,
     GroupType,
+    Measured,
     Unresolved,
     When,
 )
@@ -88,6 +90,32 @@ ACT = record(
         Open(('name',), 'name', TEXT, ('name_resolved', False), 'name_'),
         *plain_rows(Act, (_SOURCE, _CHAIN)),
     ),
+    flow=True,
+)
+
+
+DISTRIBUTION = record(
+    Distribution,
+    tuple(Plain(name, name, SECONDS) for name in ('min_s', 'median_s', 'p99_s', 'max_s')),
+    required=('min_s', 'median_s', 'p99_s', 'max_s'),
+    flow=True,
+)
+MEASURED = record(
+    Measured,
+    (
+        Plain('count', 'count', COUNT),
+        *plain_rows(
+            Measured,
+            (
+                ('refused', 'refused', COUNT),
+                ('running', 'running', COUNT),
+                ('threads', 'threads', COUNT),
+                ('period', 'period', optional(DISTRIBUTION)),
+                ('duration', 'duration', optional(DISTRIBUTION)),
+            ),
+        ),
+    ),
+    required=('count',),
     flow=True,
 )
 
@@ -162,6 +190,7 @@ CALLBACK = record(
                 ('locks', 'locks', listing(ACT)),
                 ('publishes', 'publishes', listing(ACT)),
                 ('changes', 'changes', listing(ACT)),
+                ('measured', 'measured', optional(MEASURED)),
                 _SOURCE,
                 ('defined', 'defined', _OPTIONAL_PLACE),
             ),

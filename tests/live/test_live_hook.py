@@ -17,6 +17,7 @@ from ros2cc_extract.extract.live.recording import Recording
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
+from ros2cc_extract.spec.yaml_io import read_specs, write_specs
 
 PROGRAMS = Path(__file__).with_name('programs')
 Start = Callable[..., Child]
@@ -124,11 +125,18 @@ def test_own_classes_are_named_and_unresolved(run: RunProgram) -> None:
 
 
 def test_group_that_calls_its_base_is_counted_once(run: RunProgram) -> None:
-    (recording,) = run('own_classes.py').recordings
-    (timer,) = [entity for entity in recording.entities if entity.kind == 'timer']
-    assert (timer.measured.count, timer.measured.running, timer.measured.threads) == (5, 0, 1)
-    assert timer.measured.period is not None
-    assert timer.measured.duration is not None
+    (unit,) = run('own_classes.py').units.values()
+    (timer,) = written(unit)
+    measured = timer.measured
+    assert measured is not None
+    assert (measured.count, measured.running, measured.threads) == (5, 0, 1)
+    assert measured.period is not None
+    assert measured.duration is not None
+
+
+def test_specification_with_measurements_is_read_as_it_was_written(run: RunProgram) -> None:
+    units = tuple(run('own_classes.py').units.values())
+    assert read_specs(write_specs(units), 'live.yaml') == units
 
 
 def test_hidden_entities_and_groupless_work_are_recorded(run: RunProgram) -> None:

@@ -179,6 +179,7 @@ class _Unit:
             builtin=entity.builtin,
             destroyed=entity.destroyed,
             unresolved=unresolved,
+            measured=entity.measured if entity.measured.count or entity.measured.refused else None,
             source=entity.created,
             defined=function.defined if function else None,
         )

@@ -15,6 +15,7 @@ from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Distribution, Measured
 
 FORMAT = 'ros2cc live recording'
 VERSION = 1
@@ -28,35 +29,6 @@ class Function:
     name: str
     defined: Place | None
     coroutine: bool
-
-
-@dataclass(frozen=True, kw_only=True)
-class Distribution:
-    """Seconds; the median and p99 are of the last runs, the extremes of all."""
-
-    min_s: float
-    median_s: float
-    p99_s: float
-    max_s: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Measured:
-    """
-    What was measured of one entity.
-
-    :param count: executions begun.
-    :param refused: starts that the group refused.
-    :param running: executions not ended when the file was written.
-    :param threads: how many different threads ran it.
-    """
-
-    count: int
-    refused: int
-    running: int
-    threads: int
-    period: Distribution | None
-    duration: Distribution | None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,10 +39,10 @@ class Distribution:
             return None
         ordered = sorted(self.last)
         return {
-            'min_s': self.smallest / 1e9,
-            'median_s': _quantile(ordered, 0.5) / 1e9,
-            'p99_s': _quantile(ordered, 0.99) / 1e9,
-            'max_s': self.largest / 1e9,
+            'min_s': _seconds(self.smallest),
+            'median_s': _seconds(_quantile(ordered, 0.5)),
+            'p99_s': _seconds(_quantile(ordered, 0.99)),
+            'max_s': _seconds(self.largest),
         }
 
 
@@ -87,6 +87,11 @@ class Timings:
             'period': self.periods.describe(),
             'duration': self.durations.describe(),
         }
+
+
+def _seconds(nanoseconds: int) -> float:
+    """Give microseconds, beyond which nothing here is exact."""
+    return round(nanoseconds / 1e9, 6)
 
 
 def _quantile(ordered: Sequence[int], share: float) -> int:
