@@ -311,6 +311,10 @@ class Expressions:
             target = self.array(node.target, scope)
             if target is not None:
                 return self._array_assignment(node, target, scope)
+        if isinstance(node, syntax.Call):
+            inlined = self.functions.updates(node, scope)
+            if inlined is not None:
+                return inlined
         return [self.value(node, scope)]
 
     def _array_assignment(

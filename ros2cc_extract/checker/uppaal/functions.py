@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from ros2cc_extract.checker.network import (
     Assign,
     Call,
+    Check,
     Const,
     Element,
     Evaluate,
@@ -27,8 +28,9 @@ from ros2cc_extract.checker.network import (
     While,
 )
 from ros2cc_extract.checker.uppaal import syntax
-from ros2cc_extract.checker.uppaal.arithmetic import TRUE, const, is_atomic
+from ros2cc_extract.checker.uppaal.arithmetic import TRUE, choice, const, is_atomic
 from ros2cc_extract.checker.uppaal.expressions import Expressions
+from ros2cc_extract.checker.uppaal.inlining import is_expression, statements_of
 from ros2cc_extract.checker.uppaal.types import (
     ArrayType,
     FunctionSymbol,
@@ -164,29 +166,106 @@ class FunctionCompiler:
         )
 
     # -- calls ---------------------------------------------------------------------------
+    def updates(self, node: syntax.Call, scope: Scope) -> list[Expr] | None:
+        """
+        Return the assignments of a called function that is nothing but assignments.
+
+        None when it is more than that, or when an argument could change on the way.
+        """
+        symbol = scope.find(node.function.name) if isinstance(node.function, syntax.Name) else None
+        if not isinstance(symbol, FunctionSymbol) or symbol in self._open:
+            return None
+        body = symbol.function.body
+        is_plain = not body.declarations and all(
+            isinstance(statement, syntax.ExpressionStatement) for statement in body.statements
+        )
+        has_all = len(node.arguments) == len(symbol.function.parameters)
+        if symbol.function.type.base != 'void' or not is_plain or not has_all:
+            return None
+        references, values = self._arguments(node, symbol, scope)
+        if not all(isinstance(value, Const) for _, value in values.values()):
+            return None
+        self._open.append(symbol)
+        try:
+            inner = self._bound_scope(symbol, references, values)
+            return [
+                update
+                for statement in body.statements
+                if isinstance(statement, syntax.ExpressionStatement)
+                for update in self._expressions.update(statement.expression, inner)
+            ]
+        finally:
+            self._open.pop()
+
+    def _bound_scope(
+        self,
+        symbol: FunctionSymbol,
+        references: dict[str, Reference],
+        values: dict[str, tuple[IntType, Expr]],
+    ) -> Scope:
+        scope = symbol.scope.inner()
+        scope.names.update(references)
+        for name, (declared, value) in values.items():
+            scope.names[name] = ValueSymbol(declared, value)
+        return scope
+
     def _inlined(
         self,
         symbol: FunctionSymbol,
         references: dict[str, Reference],
         values: dict[str, tuple[IntType, Expr]],
     ) -> Expr | None:
-        body = symbol.function.body
-        if body.declarations or len(body.statements) != 1:
+        """Return the call as one expression, where the function is one."""
+        body, returns = symbol.function.body, self._return_type(symbol)
+        if returns is None or not all(is_atomic(value) for _, value in values.values()):
             return None
-        only = body.statements[0]
-        if not isinstance(only, syntax.Return) or only.value is None:
+        if not is_expression(body):
             return None
-        if not all(is_atomic(value) for _, value in values.values()):
+        scope = self._bound_scope(symbol, references, values)
+        for declaration in body.declarations:
+            if not self._bind_locals(declaration, scope):
+                return None
+        return self._as_expression(body.statements, scope, returns, symbol.function.name)
+
+    def _bind_locals(
+        self, declaration: syntax.Variables | syntax.Typedef, scope: Scope
+    ) -> bool:
+        """Let local names stand for their initial values; false where that would not do."""
+        if isinstance(declaration, syntax.Typedef):
+            return False
+        base = self._expressions.type_of(declaration.type, scope)
+        if not isinstance(base, IntType):
+            return False
+        for declarator in declaration.declarators:
+            if declarator.dimensions or not isinstance(declarator.initial, syntax.Expression):
+                return False
+            value = self._expressions.value(declarator.initial, scope)
+            line = declarator.line
+            coerced = self._expressions.coerced(value, base, declarator.name, scope, line)
+            # A check that is evaluated later, or not at all, would be a different program.
+            if any(isinstance(node, (Check, Call, Assign)) for node in walk(coerced)):
+                return False
+            scope.names[declarator.name] = ValueSymbol(base, coerced)
+        return True
+
+    def _as_expression(
+        self, statements: Sequence[syntax.Statement], scope: Scope, returns: IntType, name: str
+    ) -> Expr | None:
+        first, rest = statements[0], statements[1:]
+        if isinstance(first, syntax.Return):
+            assert first.value is not None
+            result = self._expressions.value(first.value, scope)
+            if has_effect(result, self._tables.functions):
+                return None
+            return self._expressions.coerced(result, returns, name, scope, first.line)
+        assert isinstance(first, syntax.Branch)
+        condition = self._expressions.condition(first.condition, scope)
+        then = self._as_expression(statements_of(first.then), scope, returns, name)
+        otherwise = statements_of(first.otherwise) if first.otherwise else rest
+        other = self._as_expression(otherwise, scope, returns, name)
+        if then is None or other is None or has_effect(condition, self._tables.functions):
             return None
-        scope = symbol.scope.inner()
-        scope.names.update(references)
-        for name, (declared, value) in values.items():
-            scope.names[name] = ValueSymbol(declared, value)
-        result = self._expressions.value(only.value, scope)
-        returns = self._return_type(symbol)
-        if returns is None or has_effect(result, self._tables.functions):
-            return None
-        return self._expressions.coerced(result, returns, symbol.function.name, scope, only.line)
+        return choice(condition, then, other)
 
     def _real_call(
         self,
