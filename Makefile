@@ -10,7 +10,7 @@ BIN := $(VENV)/bin
 TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 
-.PHONY: demo test test-long lint schema clean
+.PHONY: demo test test-long lint schema paper clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -28,6 +28,11 @@ lint: $(VENV)/developed
 	@rm -rf $(TYPES) && mkdir -p $(TYPES)/ros2cc_extract
 	@ln -s $(CURDIR)/ros2cc_extract/* $(CURDIR)/generator $(TYPES)/ros2cc_extract/
 	cd $(TYPES) && $(CURDIR)/$(BIN)/mypy --config-file $(CURDIR)/pyproject.toml
+
+# The publication from our own tools: docs/paper.md and its picture.
+paper: $(VENV)/developed $(JAZZY)/installed
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[bench]'
+	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python benchmarks/paper.py
 
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
