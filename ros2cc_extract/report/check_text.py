@@ -8,6 +8,7 @@ from pathlib import Path
 from rich.console import Console
 
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.findings_text import print_findings
 from ros2cc_extract.report.spec_text import print_spec
 from ros2cc_extract.report.verdict_text import print_digest, print_evidence, print_table
@@ -32,7 +33,7 @@ def print_check(
         _print_verification(verification, console)
         console.print()
     print_findings(findings, Path.cwd(), console)
-    console.print(', '.join(_counted(number, what) for what, number in summary.items()))
+    console.print(', '.join(counted(number, what) for what, number in summary.items()))
 
 
 def _print_verification(verification: Verification, console: Console) -> None:
@@ -57,8 +58,3 @@ def _first_of_each_family(
             runs += 1
             shown.setdefault(result.family, (number, result))
     return list(shown.values()), runs - len(shown)
-
-
-def _counted(number: int, what: str) -> str:
-    one = what[:-1] if number == 1 and what.endswith('s') else what
-    return f'{number} {one.replace("_", " ")}'
