@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.fingerprints import relative
 from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.report.counts import counted
 
 SHOWN_PER_KIND = 10
 _KINDS = {Severity.ERROR: 'error', Severity.WARNING: 'warning', Severity.NOTE: 'notice'}
@@ -34,7 +35,7 @@ def step_summary(
     findings: Sequence[Finding], summary: Mapping[str, int], *, root: str = ''
 ) -> str:
     """Write the whole list as Markdown, for the file ``$GITHUB_STEP_SUMMARY``."""
-    counts = ', '.join(f'{number} {what}' for what, number in summary.items())
+    counts = ', '.join(counted(number, what) for what, number in summary.items())
     lines = ['## ros2cc-extract', '', counts, '']
     if not findings:
         return '\n'.join([*lines, 'No findings.', ''])
