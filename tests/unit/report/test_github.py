@@ -36,7 +36,7 @@ def test_ten_of_a_kind_the_most_important_first() -> None:
 
 def test_the_summary_holds_all_findings() -> None:
     text = step_summary(FINDINGS, {'files': 2, 'errors': 1})
-    assert '2 files, 1 errors' in text
+    assert '2 files, 1 error\n' in text
     assert 'CC101: 1, CC301: 1, CC501: 1' in text
     assert '| 🟠 | CC301 | `src/arm node.py:30` | tick updates Arm.count \\| too |  |' in text
     assert len([line for line in text.splitlines() if line.startswith('| ')]) == 4
