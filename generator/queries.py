@@ -180,7 +180,7 @@ def _progress(callback: UnitCallback, unit: Unit) -> Query:
     needs = ' and '.join(dict.fromkeys(unit.callbacks[place].name for place in callback.needs))
     return Query(
         family=Family.PROGRESS,
-        formula=f'A[] not (deadlock and cb_running({callback.index}))',
+        formula=f'A[] not (deadlock and cb_unfinished({callback.index}))',
         words=f'{callback.name} always ends: {needs} can run while it waits',
         callbacks=(callback.name,),
     )

@@ -6,8 +6,16 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
-from ros2cc_extract.generator.waits import needs_of, server_of
+from ros2cc_extract.generator.waits import server_of, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
+
+
+@dataclass(frozen=True)
+class UnitWait:
+    """A wait for the callback at ``place``; an ``await`` frees the thread."""
+
+    place: int
+    frees_thread: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +27,7 @@ class UnitCallback:
     :param group: place of its group.
     :param node: place of its node.
     :param rank: when it is served among what is ready, 0 first.
-    :param needs: places of the callbacks it waits for while it runs, in the order of its waits.
+    :param waits: what it waits for while it runs, in order.
     :param server: place of the service that answers a client of the unit.
     """
 
@@ -29,8 +37,13 @@ class UnitCallback:
     group: int
     node: int
     rank: int
-    needs: tuple[int, ...]
+    waits: tuple[UnitWait, ...]
     server: int | None
+
+    @property
+    def needs(self) -> tuple[int, ...]:
+        """Places of the callbacks it waits for."""
+        return tuple(wait.place for wait in self.waits)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +76,11 @@ class Unit:
     def num_waits(self) -> int:
         """The largest number of waits in one callback."""
         return max(len(callback.needs) for callback in self.callbacks)
+
+    @property
+    def has_awaits(self) -> bool:
+        """True when a callback suspends itself."""
+        return any(wait.frees_thread for callback in self.callbacks for wait in callback.waits)
 
     @property
     def called(self) -> frozenset[int]:
@@ -122,7 +140,10 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 group=groups[callback.group],
                 node=nodes[callback.node],
                 rank=rank_of(callback),
-                needs=tuple(places[name] for name in needs_of(callback, spec)),
+                waits=tuple(
+                    UnitWait(places[wait.needed], wait.frees_thread)
+                    for wait in waits_of(callback, spec)
+                ),
                 server=places.get(server_of(callback, spec) or ''),
             )
             for index, callback in enumerate(spec.callbacks)

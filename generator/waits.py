@@ -2,12 +2,14 @@
 Which callbacks of the unit must run before a running callback can go on.
 
 Source: rclpy 7.1.6, ``client.py`` (``call`` waits for an event that is set when the executor has
-run the client), ``action/client.py``, ``timer.py`` (``Rate``); ``threading.Event.wait``.
+run the client), ``action/client.py``, ``timer.py`` (``Rate``); ``threading.Event.wait``;
+``task.py`` (``await`` suspends the handler, ``callback_groups.py`` ends it only when it is done).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ros2cc_extract.spec.model import Blocking, Callback, EntityKind, Spec
 
@@ -17,17 +19,31 @@ _SERVER = {
 }
 
 
-def needs_of(callback: Callback, spec: Spec) -> Iterator[str]:
-    """Name the callbacks it waits for, one per wait; a wait with a time-out ends by itself."""
+@dataclass(frozen=True)
+class NamedWait:
+    """
+    One wait of a callback.
+
+    :param needed: name of the callback of the unit that must run before it ends.
+    :param frees_thread: an ``await``, which holds the group alone.
+    """
+
+    needed: str
+    frees_thread: bool
+
+
+def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+    """List the waits that other callbacks end; one with a time-out ends by itself."""
     others = {other.name for other in spec.callbacks} - {callback.name}
     for block in callback.blocking:
-        if _holds_its_thread(block) and block.seconds is None and block.on in others:
-            yield str(block.on)
+        needed = block.on if isinstance(block.on, str) else None
+        if needed in others and block.seconds is None and not _spins(block):
+            yield NamedWait(needed, block.call == 'await')
 
 
-def _holds_its_thread(block: Blocking) -> bool:
-    """An ``await`` frees the thread, a nested spin lets it serve others."""
-    return block.call != 'await' and not block.call.rpartition('.')[2].startswith('spin')
+def _spins(block: Blocking) -> bool:
+    """A nested spin lets its thread serve others."""
+    return block.call.rpartition('.')[2].startswith('spin')
 
 
 def server_of(client: Callback, spec: Spec) -> str | None:

@@ -28,12 +28,13 @@ def compare(prefix: str, xml: str) -> None:
 
 
 def waiting_unit(kind: ExecutorKind) -> ClosedSpec:
-    """The recorded unit, in which the watchdog calls a service."""
+    """The recorded unit, in which the watchdog calls a service and the service awaits it."""
     (spec,) = load_specs(SPEC)
-    *others, watchdog = spec.callbacks
+    home, *others, watchdog = spec.callbacks
+    home = replace(home, blocking=(Blocking(call='await', on='plan_reply'),))
     watchdog = replace(watchdog, blocking=(Blocking(call='client.call', on='plan_reply'),))
     executor = replace(spec.executor, kind=kind.value)
-    return close(replace(spec, callbacks=(*others, watchdog), executor=executor))
+    return close(replace(spec, callbacks=(home, *others, watchdog), executor=executor))
 
 
 @pytest.mark.parametrize('text', Text)

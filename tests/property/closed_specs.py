@@ -59,7 +59,7 @@ _EXECUTORS = ('SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor
 
 
 def random_rclpy_unit(random: Random, *, callbacks: int, groups: int, threads: int) -> ClosedSpec:
-    """Draw a unit of up to two nodes, whose callbacks call services and wait for each other."""
+    """Draw a unit of up to two nodes, whose callbacks call, wait for and await each other."""
     unit = random_unit(random, callbacks=callbacks, groups=groups, threads=threads)
     names = [callback.name for callback in unit.spec.callbacks]
     served = tuple(_enrich(callback, names, random) for callback in unit.spec.callbacks)
@@ -74,5 +74,8 @@ def _enrich(callback: Callback, names: list[str], random: Random) -> Callback:
         node=random.choice(('left', 'left', 'right')),
         entity=_ENTITY.get(callback.type),
         key=random.choice(('plan', 'home')) if callback.type in _ENTITY else None,
-        blocking=tuple(Blocking(call='wait', on=random.choice(names)) for _ in range(waits)),
+        blocking=tuple(
+            Blocking(call=random.choice(('client.call', 'await')), on=random.choice(names))
+            for _ in range(waits)
+        ),
     )

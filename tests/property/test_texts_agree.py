@@ -46,8 +46,8 @@ def verdicts(case: Case, text: Text, states: int) -> dict[str, Verdict]:
     read = read_model(model.xml, f'{model.name}.xml')
     fairness = Fairness.WEAK if case.max_cycle is None else Fairness.NONE
     limits = Limits(states=states)
-    answers = check(read, read.queries, limits=limits, fairness=fairness).answers
-    return {answer.query.formula: answer.verdict for answer in answers}
+    result = check(read, read.queries, limits=limits, fairness=fairness, reduction=False)
+    return {answer.query.formula: answer.verdict for answer in result.answers}
 
 
 def disagreements(case: Case, states: int) -> tuple[bool, dict[str, tuple[str, str]]]:

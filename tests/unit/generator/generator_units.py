@@ -27,11 +27,11 @@ def every_text(callbacks: str, groups: str) -> dict[str, str]:
         for text in Text
     }
     rclpy = {
-        f'rclpy-{kind.value}{"-waiting" if waits else ""}': render(
+        f'rclpy-{kind.value}-{name}': render(
             closed_unit(callbacks, groups, 2, kind.value, waits), profile=Profile.RCLPY
         ).xml
         for kind in ExecutorKind
-        for waits in ('', wait)
+        for name, waits in {'': '', 'waiting': wait, 'awaiting': f'{wait}:await'}.items()
     }
     return paper | rclpy
 
@@ -45,7 +45,8 @@ def closed_unit(
     Services and clients are entities of the name ``plan``.
 
     :param executor: class of the executor.
-    :param waits: ``'tick:reply'`` where callback tick waits for callback reply.
+    :param waits: ``'tick:reply'`` where callback tick waits for callback reply, and
+        ``'tick:reply:await'`` where it awaits it.
     """
     return close(
         Spec(
@@ -57,11 +58,7 @@ def closed_unit(
                     group=group,
                     entity=ENTITY.get(kind),
                     key='plan' if kind in ENTITY else None,
-                    blocking=tuple(
-                        Blocking(call='client.call', on=needed)
-                        for waiting, needed in _rows(waits)
-                        if waiting == name
-                    ),
+                    blocking=tuple(_block(*row[1:]) for row in _rows(waits) if row[0] == name),
                 )
                 for name, kind, group in _rows(callbacks)
             ),
@@ -75,6 +72,10 @@ def closed_unit(
             ),
         )
     )
+
+
+def _block(needed: str, call: str = 'client.call') -> Blocking:
+    return Blocking(call=call, on=needed)
 
 
 def _rows(text: str) -> list[list[str]]:

@@ -14,7 +14,7 @@ from ros2cc_extract.generator.build import Family, Profile, render
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Blocking
 
-SINGLE, MULTI = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
+SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'
 
 
 def stuck(unit: ClosedSpec) -> list[str]:
@@ -96,3 +96,55 @@ def test_an_answer_is_for_the_callback_that_asked():
     """Two callbacks share a client: one answer lets one of them go on."""
     unit = closed_unit('a:TMR:g b:TMR:g r:CLT:g', 'g:REENTRANT', 3, MULTI, 'a:r b:r')
     assert stuck(unit) == []
+
+
+@pytest.mark.parametrize(
+    ('reply', 'threads', 'executor', 'is_stuck'),
+    [
+        pytest.param('g', 1, SINGLE, True, id='same exclusive, single'),
+        pytest.param('g', 4, MULTI, True, id='same exclusive, multi'),
+        pytest.param('g', 1, EVENTS, False, id='same exclusive, events'),
+        pytest.param('h', 1, SINGLE, False, id='other, single'),
+        pytest.param('h', 1, MULTI, False, id='other, one worker'),
+    ],
+)
+def test_an_awaited_call(reply: str, threads: int, executor: str, is_stuck: bool):
+    unit = closed_unit(
+        f'ask:SUB:g reply:CLT:{reply}',
+        'g:EXCLUSIVE h:EXCLUSIVE',
+        threads,
+        executor,
+        waits='ask:reply:await',
+    )
+    assert stuck(unit) == (['ask'] if is_stuck else [])
+
+
+def test_an_event_of_a_timer_that_the_awaiting_callback_keeps_out():
+    unit = closed_unit('ask:SRV:g tick:TMR:g', 'g:EXCLUSIVE', 4, MULTI, 'ask:tick:await')
+    assert stuck(unit) == ['ask']
+
+
+@pytest.mark.parametrize('executor', [SINGLE, MULTI])
+def test_an_await_keeps_the_group_and_frees_the_thread(executor: str):
+    callbacks = 'ask:SUB:g sibling:SUB:g other:SUB:h reply:CLT:h'
+    unit = closed_unit(callbacks, 'g:EXCLUSIVE h:EXCLUSIVE', 1, executor, 'ask:reply:await')
+    xml = render(unit, profile=Profile.RCLPY).xml
+    read = read_model(xml, 'arm.xml')
+    formulas = (
+        'E<> cb_suspended[0]',
+        'A[] not (cb_suspended[0] and cb_running(1))',
+        'E<> (cb_suspended[0] and cb_running(2))',
+        'A[] cb_suspended[0] imply group_closed[0]',
+    )
+    answers = check(read, [Query(formula, '', None) for formula in formulas]).answers
+    assert [answer.verdict for answer in answers] == [Verdict.SATISFIED] * len(formulas)
+
+
+def test_a_coroutine_may_go_on_on_another_thread():
+    callbacks = 'ask:SUB:g other:SUB:h reply:CLT:h'
+    unit = closed_unit(callbacks, 'g:EXCLUSIVE h:REENTRANT', 2, MULTI, 'ask:reply:await')
+    read = read_model(render(unit, profile=Profile.RCLPY).xml, 'arm.xml')
+    on_other = 'thread_1.waits_done == 1 and thread_1.running and thread_cb_assign_table[1] == 0'
+    began_first = 'E<> (cb_suspended[0] and thread_0.running and !thread_running[1])'
+    answers = check(read, [Query(f'E<> ({on_other})', '', None), Query(began_first, '', None)])
+    assert [answer.verdict for answer in answers.answers] == [Verdict.SATISFIED] * 2
