@@ -139,6 +139,8 @@ class Calls(Machine):
         """Make an instance of a scanned class and run its ``__init__``."""
         instance = Instance(cls, call.place)
         instance.path = self.world.path
+        instance.born = self.world.deeds
+        instance.number += sum(other.cls is cls for other in self.world.instances)
         self.prepare(instance)
         self.world.instances.append(instance)
         init = self.attribute(instance, '__init__', call.place)

@@ -42,13 +42,20 @@ class Effects(Machine):
     """Notes for the callback that is being followed; nothing while there is none."""
 
     def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
-        """An attribute is touched; methods, entities and locks are no shared data."""
+        """
+        An attribute is touched.
+
+        Methods, entities and locks are no shared data, and neither is an object that this
+        callback has made.
+        """
         if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
             return
         cls = owner.cls if isinstance(owner, Instance) else owner
         if not isinstance(cls, Class) or self._is_behaviour(owner, name):
             return
-        self._note_access(f'{cls.name}.{name}', kind, place)
+        if isinstance(owner, Instance) and owner.born is self.world.deeds:
+            return
+        self._note_access(f'{_object_name(owner, cls)}.{name}', kind, place)
 
     def _note_access(self, name: str, kind: AccessKind, place: Place) -> None:
         deeds = self.world.deeds
@@ -200,12 +207,20 @@ class Effects(Machine):
         deeds.publishes.append(Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_nested_spin(
-        self, how: str, node: Instance | None, executor: Value, place: Place
+        self,
+        how: str,
+        node: Instance | None,
+        executor: Value,
+        future: tuple[Value | None, Value | None],
+        place: Place,
     ) -> bool:
         """Whether a spin stands in a callback; then it is noted there and is no set-up."""
         if self.world.deeds is None:
             return False
         self.note_blocking(how, executor if node is None else node, None, place)
+        awaited, timeout = future
+        if awaited is not None:
+            self.note_blocking('spin for future', awaited, timeout, place)
         if node is not None:
             self.note_change(how, node, place)
         return True
@@ -227,6 +242,12 @@ class Effects(Machine):
                 return self.call(method, Call(place))
             return value
         return value
+
+
+def _object_name(owner: Instance | Class, cls: Class) -> str:
+    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
+    is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
+    return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
 
 
 def _seconds(value: Value | None, place: Place) -> float | Unknown | None:

@@ -67,7 +67,7 @@ class Imports(Machine):
         """Names of globals that some function of the module rebinds or changes in place."""
         known = self._changed.get(module.file)
         if known is None:
-            source = next((s for s in self.project.files if s.shown == module.file), None)
+            source = self.project.shown_as(module.file)
             tree = source.tree if source else None
             known = changed_globals(tree) if tree else frozenset()
             self._changed[module.file] = known

@@ -10,7 +10,6 @@ from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, result_of
 from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
 from ros2cc_extract.extract.static.values import (
-    NONE,
     Bound,
     Call,
     Class,
@@ -116,7 +115,7 @@ class Libraries(Machine):
         rows = _with_bases(cls.name)
         for row in rows:
             if receiver is None or not isinstance(receiver, Instance):
-                return self._unbound(row, name)
+                return self._unbound(cls, row, name)
             if name in row.properties:
                 return row.properties[name](self, receiver, place)
             if name == '__init__' and row.init is not None:
@@ -133,15 +132,15 @@ class Libraries(Machine):
             return NODE_EXECUTOR[1](self, receiver, place)
         return None
 
-    def _unbound(self, row: LibraryClass, name: str) -> Value | None:
+    def _unbound(self, cls: Library, row: LibraryClass, name: str) -> Value | None:
         """``Node.__init__(self, …)``: the receiver is the first argument."""
         handler = row.init if name == '__init__' else row.methods.get(name)
         if handler is None:
             return None
 
         def call_unbound(machine: Machine, receiver: Value, call: Call) -> Value:
-            if not call.args:
-                return NONE
+            if not call.args or not _is_of(call.args[0], cls):
+                return machine.mystery(f'{name} of something that is no {cls.name}', call.place)
             inner = Call(call.place, call.args[1:], call.keywords, call.more, call.text)
             return handler(machine, call.args[0], inner)
 
@@ -199,6 +198,14 @@ class Libraries(Machine):
         return made
 
 
+def _is_of(value: Value, cls: Library) -> bool:
+    return isinstance(value, Instance) and any(
+        isinstance(base, Library)
+        and rclpy_api.canonical(cls.name) in rclpy_api.with_bases(base.name)
+        for base in value.mro
+    )
+
+
 def _is_no_node(value: Mystery) -> bool:
     """Mocks of tests and clients of other frameworks have methods of the same names."""
     text = f'{value.text} {value.unknown.reason}'.lower()
@@ -208,11 +215,4 @@ def _is_no_node(value: Mystery) -> bool:
 def _with_bases(name: str) -> list[LibraryClass]:
     """The rows of a library class and of its bases, nearest first."""
     classes = rclpy_api.table().classes
-    rows: list[LibraryClass] = []
-    waiting = [rclpy_api.canonical(name)]
-    while waiting:
-        row = classes.get(waiting.pop(0))
-        if row is not None:
-            rows.append(row)
-            waiting.extend(row.bases)
-    return rows
+    return [classes[base] for base in rclpy_api.with_bases(name)]

@@ -222,9 +222,18 @@ class Machine(ABC):
 
     @abstractmethod
     def note_nested_spin(
-        self, how: str, node: Instance | None, executor: Value, place: Place
+        self,
+        how: str,
+        node: Instance | None,
+        executor: Value,
+        future: tuple[Value | None, Value | None],
+        place: Place,
     ) -> bool:
-        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
+        """
+        Whether a spin stands in a callback; then it is noted there and is no set-up.
+
+        :param future: what it waits for, with the time-out.
+        """
 
     @abstractmethod
     def note_change(self, what: str, node: Instance, place: Place) -> None:

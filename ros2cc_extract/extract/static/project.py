@@ -26,6 +26,7 @@ class Project:
         self._root = root
         self._files: dict[Path, SourceFile] = {}
         self._by_name: dict[str, list[SourceFile]] = {}
+        self._by_shown: dict[str, SourceFile] = {}
         self.given: list[SourceFile] = []
 
     @staticmethod
@@ -44,15 +45,20 @@ class Project:
     def of_text(text: str, name: str) -> Project:
         """A program of one file that is not on the disk."""
         project = Project(Path('/nonexistent'))
-        source = SourceFile(Path(name), name, Path(name).stem, '', text)
+        source = SourceFile(Path(name), name, Path(name).stem, '', text, named=True)
         project.given.append(source)
         project._files[Path(name)] = source
+        project._by_shown[name] = source
         return project
 
     @property
     def files(self) -> list[SourceFile]:
         """Every file that was given or followed."""
         return list(self._files.values())
+
+    def shown_as(self, shown: str) -> SourceFile | None:
+        """The file that is shown as ``shown``."""
+        return self._by_shown.get(shown)
 
     def script_folders(self) -> set[Path]:
         """Folders that may declare scripts: those above the given files, up to the packages."""
@@ -76,7 +82,7 @@ class Project:
         return candidates[0] if candidates else None
 
     def _search_folders(self, importer: str) -> Iterator[Path]:
-        source = next((file for file in self._files.values() if file.shown == importer), None)
+        source = self._by_shown.get(importer)
         if source is None or source.given_text is not None:
             return
         yield source.path.parent
@@ -104,7 +110,9 @@ class Project:
                 raise InputError('no Python file in this directory', Place(str(path)))
             self.given.extend(self._add_file(file) for file in found)
         elif path.exists():
-            self.given.append(self._add_file(path))
+            source = self._add_file(path)
+            source.named = True
+            self.given.append(source)
         else:
             raise InputError('no such file or directory', Place(str(path)))
 
@@ -119,6 +127,7 @@ class Project:
         source = SourceFile(full, self._shown(path, full), name, package)
         self._files[full] = source
         self._by_name.setdefault(name, []).append(source)
+        self._by_shown[source.shown] = source
         return source
 
     def _shown(self, path: Path, full: Path) -> str:

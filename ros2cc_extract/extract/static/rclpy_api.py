@@ -54,6 +54,19 @@ def table() -> Library:
     )
 
 
+@lru_cache(maxsize=4096)
+def with_bases(name: str) -> tuple[str, ...]:
+    """A library class and its bases, as they stand in the tables, nearest first."""
+    classes, found, waiting = table().classes, [], [canonical(name)]
+    while waiting:
+        known = waiting.pop(0)
+        if known in classes:
+            found.append(known)
+            waiting.extend(classes[known].bases)
+    return tuple(found)
+
+
+@lru_cache(maxsize=4096)
 def canonical(name: str) -> str:
     """The one name under which ``name`` stands in the tables."""
     whole = table()

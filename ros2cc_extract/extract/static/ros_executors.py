@@ -42,6 +42,7 @@ SINGLE = 'rclpy.executors.SingleThreadedExecutor'
 MULTI = 'rclpy.executors.MultiThreadedExecutor'
 EVENTS = 'rclpy.experimental.EventsExecutor'
 
+Awaited = tuple[Value | None, Value | None]
 _SPIN_OVERRIDES = frozenset(
     [
         'spin',
@@ -190,6 +191,14 @@ def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ev
         world.after_spin = True
 
 
+def _future_of(call: Call, position: int, how: str) -> Awaited:
+    """The future a nested spin waits for, with its time-out."""
+    if how != 'spin_until_future_complete':
+        return None, None
+    timeout = call.argument(position + 2 if position else 1, 'timeout_sec')
+    return call.argument(position, 'future'), timeout
+
+
 def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
     """``rclpy.spin`` and its kin: add the node, spin, take the node out again."""
 
@@ -200,7 +209,8 @@ def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
 
         def with_node(node_value: Value) -> Value:
             def with_executor(executor_value: Value) -> Value:
-                _spin_node(machine, node_value, executor_value, how, place, ever)
+                future = _future_of(call, 1, how)
+                _spin_node(machine, node_value, executor_value, how, place, ever, future)
                 return NONE
 
             return machine.each(executor if executor is not None else NONE, with_executor, place)
@@ -212,12 +222,18 @@ def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
 
 
 def _spin_node(
-    machine: Machine, node_value: Value, given: Value, how: str, place: Place, ever: bool
+    machine: Machine,
+    node_value: Value,
+    given: Value,
+    how: str,
+    place: Place,
+    ever: bool,
+    future: Awaited,
 ) -> None:
     node = as_node(machine, node_value)
     if node is None:
         return
-    if machine.note_nested_spin(f'rclpy.{how}', node, given, place):
+    if machine.note_nested_spin(f'rclpy.{how}', node, given, future, place):
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
     _warn_of_theft(machine, node, executor, how, place)
@@ -254,7 +270,8 @@ def _warn_of_theft(
 def _method_spin(how: str, ever: bool) -> Handler:
     def spin(machine: Machine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
-        if not machine.note_nested_spin(f'executor.{how}', None, receiver, call.place):
+        future = _future_of(call, 0, how)
+        if not machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
             record_spin(machine, receiver, how, call.place, ever)
         return machine.mystery(f'result of {how}', call.place)
 

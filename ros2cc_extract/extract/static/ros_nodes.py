@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.world import (
     PlainState,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Act, EntityKind, GroupType
+from ros2cc_extract.spec.model import Act, EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
@@ -127,15 +127,40 @@ def _creator(row: CreateCall) -> Handler:
         group = group_of(
             machine, receiver, call.argument(row.group_position, 'callback_group'), call.place
         )
+        key = call.argument(*row.key) if row.key else None
+        known = _made_before(machine, receiver, row.kind, key, call.place)
+        if known is not None:
+            return known
         entity = add_entity(machine, receiver, row.kind, group, call.place)
-        entity.key = call.argument(*row.key) if row.key else None
+        entity.key = key
         entity.callback = call.argument(*row.callback) if row.callback else None
         entity.period = call.argument(*row.period) if row.period else None
         made = Instance(Name(row.cls), call.place)
         made.state = entity
+        machine.world.made_in_callbacks[_site(receiver, row.kind, key, call.place)] = made
         return made
 
     return create
+
+
+def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> object:
+    text = key.value if isinstance(key, Const) else None
+    return (id(node), kind, place, text)
+
+
+def _made_before(
+    machine: Machine, node: Instance, kind: EntityKind, key: Value | None, place: Place
+) -> Instance | None:
+    """What a callback makes at one place is one entity, made again and again."""
+    if machine.world.when is not When.CALLBACK:
+        return None
+    known = machine.world.made_in_callbacks.get(_site(node, kind, key, place))
+    if known is None or known.state.when is not When.CALLBACK:
+        return None
+    if machine.world.deeds is not None:
+        act = Act(name=kind.value, source=place, chain=machine.world.chain[1:])
+        machine.world.deeds.changes.append(act)
+    return known
 
 
 def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:

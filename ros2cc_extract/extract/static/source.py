@@ -28,6 +28,7 @@ class SourceFile:
     :param shown: path as shown to the user.
     :param module_name: dotted name by which the program imports it.
     :param package: dotted name of the package it is in, empty outside packages.
+    :param named: the user named this very file; its trouble is told whatever it holds.
     """
 
     path: Path
@@ -35,6 +36,7 @@ class SourceFile:
     module_name: str
     package: str
     given_text: str | None = None
+    named: bool = False
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     @cached_property
@@ -55,6 +57,11 @@ class SourceFile:
     def mentions_ros(self) -> bool:
         """Whether the text names rclpy, or calls what a node of an unseen base class has."""
         return b'rclpy' in self.data or _CREATES.search(self.data) is not None
+
+    @property
+    def is_scanned(self) -> bool:
+        """Whether it is worth parsing for its own sake; others are parsed when imported."""
+        return self.named or self.mentions_ros
 
     @cached_property
     def tree(self) -> ast.Module | None:

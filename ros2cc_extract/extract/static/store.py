@@ -15,8 +15,6 @@ from ros2cc_extract.extract.static.values import ABSENT, Heaped, Value, choice
 Slot = tuple[Heaped, Any]
 Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any]]
 
-_MAX_OPTIONS = 16
-
 
 class Store:
     """The log of writes since the start of the run."""
@@ -96,7 +94,7 @@ def join_contents(ends: list[Any]) -> Any:
     if kinds <= {dict, type(ABSENT)}:
         return _join_entries([{} if end is ABSENT else end for end in ends])
     if all(isinstance(end, Value) for end in ends):
-        return choice(ends[:_MAX_OPTIONS])
+        return choice(ends)
     return next(end for end in reversed(ends) if end is not None and end is not ABSENT)
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.naming import (
     FunctionFacts,
+    Names,
     Wanted,
     constant_text,
     describe,
@@ -70,7 +71,7 @@ class UnitBuilder:
         self._executor = executor
         self._nodes = nodes
         self._spin = spin
-        self._taken: set[str] = set()
+        self._taken = Names()
         self._facts: list[Unresolved] = []
         self._node_names: dict[int, str] = {}
         self._group_names: dict[int, str] = {}
@@ -79,8 +80,7 @@ class UnitBuilder:
     def build(self, entry: str | None) -> Spec:
         """The specification."""
         names = self._name_nodes()
-        name = mend(_unit_label(names))
-        self._taken.add(name)
+        name = self._taken.take(names[0] if len(names) == 1 else _unit_label(names))
         threads = self._thread_names()
         entities = self._entities()
         facts = [self._facts_of(entity) for entity in entities]
@@ -107,12 +107,10 @@ class UnitBuilder:
         )
 
     def _name_nodes(self) -> list[str]:
-        names: list[str] = []
+        names = Names()
         for node in self._nodes:
-            name = mend(self._node_label(node), names)
-            names.append(name)
-            self._node_names[id(node)] = name
-        return names
+            self._node_names[id(node)] = names.take(self._node_label(node))
+        return list(self._node_names.values())
 
     def _node_label(self, node: Instance) -> str:
         state = node.state
@@ -140,11 +138,8 @@ class UnitBuilder:
     def _thread_names(self) -> tuple[str, ...]:
         state = self._state()
         number = state.threads if state else 1
-        names = []
-        for index in range(ASSUMED_THREADS if number is None else number):
-            names.append(mend(f'thread_{index}', self._taken))
-            self._taken.add(names[-1])
-        return tuple(names)
+        number = ASSUMED_THREADS if number is None else number
+        return tuple(self._taken.take(f'thread_{index}') for index in range(number))
 
     def _state(self) -> ExecutorState | None:
         state = self._executor.state if self._executor else None
@@ -206,8 +201,7 @@ class UnitBuilder:
         for entity, label in pairs:
             if id(entity.group) in self._group_names:
                 continue
-            name = mend(self._group_label(entity, label), self._taken)
-            self._taken.add(name)
+            name = self._taken.take(self._group_label(entity, label))
             self._group_names[id(entity.group)] = name
             groups.append(self._group(entity.group, name))
         return groups
@@ -215,7 +209,8 @@ class UnitBuilder:
     def _group_label(self, entity: EntityState, label: str) -> str:
         state = entity.group.state
         if state.default:
-            return f'{self._node_names[id(state.node)]}_default'
+            name = self._node_names.get(id(state.node))
+            return f'{name or _plain_label(state.node)}_default'
         return entity.group.hint or f'{label}_group'
 
     def _group(self, group: Instance, name: str) -> CallbackGroup:
@@ -295,10 +290,10 @@ class UnitBuilder:
     def _executor_value(self, threads: tuple[str, ...]) -> Executor:
         state = self._state()
         if state is None or self._executor is None:
-            name = mend('executor', self._taken)
+            name = self._taken.take('executor')
             at = self._nodes[0].place
             return Executor(name=name, threads=threads, kind=Unknown(NO_EXECUTOR, at))
-        name = mend(self._executor.hint or 'executor', self._taken)
+        name = self._taken.take(self._executor.hint or 'executor')
         unresolved = state.unknown or state.unresolved or state.threads_unresolved
         if self._spin is None and unresolved is None:
             reason = 'no call that spins this executor is in sight'
@@ -360,6 +355,11 @@ class UnitBuilder:
         if self._spin is not None:
             places.append(self._spin.place.file)
         return tuple(dict.fromkeys(file for file in places if file))
+
+
+def _plain_label(node: Instance) -> str:
+    """Name of a node of another unit, as far as it is known."""
+    return constant_text(node.state.name) or snake_case(node.class_name)
 
 
 def _threads_source(state: ExecutorState) -> str | None:

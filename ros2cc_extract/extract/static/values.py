@@ -308,9 +308,11 @@ class Instance(Heaped):
     :param state: what a library class adds to it (a node, a group, an executor, a thread …).
     :param path: the undecided branches under which it is made.
     :param hint: name of the first variable or attribute it is stored in.
+    :param born: what notes the callback that made it, if one did; private to it then.
+    :param number: which instance of its class it is, from 1.
     """
 
-    __slots__ = ('cls', 'hint', 'path', 'place', 'state')
+    __slots__ = ('born', 'cls', 'hint', 'number', 'path', 'place', 'state')
 
     def __init__(self, cls: Class | Library, place: Place) -> None:
         super().__init__()
@@ -319,6 +321,8 @@ class Instance(Heaped):
         self.state: Any = None
         self.path: Path = ()
         self.hint: str | None = None
+        self.born: object = None
+        self.number = 1
 
     @property
     def mro(self) -> tuple[Value, ...]:
@@ -451,6 +455,9 @@ def options_of(value: Value) -> tuple[Value, ...]:
     return () if value is ABSENT else (value,)
 
 
+_MAX_OPTIONS = 16
+
+
 def choice(values: list[Value]) -> Value:
     """One value that stands for all of ``values``, in order, each once."""
     flat: list[Value] = []
@@ -458,4 +465,6 @@ def choice(values: list[Value]) -> Value:
         for option in value.options if isinstance(value, Choice) else (value,):
             if option not in flat:
                 flat.append(option)
+        if len(flat) > _MAX_OPTIONS:
+            return Mystery(Unknown('one of many values, depending on branches'))
     return flat[0] if len(flat) == 1 else Choice(tuple(flat))

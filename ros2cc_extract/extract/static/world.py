@@ -217,6 +217,7 @@ class World:
     shutting_down: bool = False
     followed: int = 0
     cut: list[tuple[str, Place]] = field(default_factory=list)
+    made_in_callbacks: dict[object, Instance] = field(default_factory=dict)
     by_node: dict[int, list[EntityState]] = field(default_factory=dict)
     global_executor: Instance | None = None
     groupless: Instance | None = None
