@@ -9,7 +9,7 @@ A plain assignment is atomic in CPython; what breaks is *read, then write*: an u
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
@@ -17,7 +17,7 @@ from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.overlap import overlap
 from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.words import shown
+from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Access, Callback
 
@@ -48,14 +48,15 @@ class Use:
 @dataclass(frozen=True)
 class Race:
     """
-    One attribute that callbacks may change at the same time.
+    Attributes that callbacks may change at the same time.
 
-    :param first: the write at which something gets lost.
+    :param names: of the attributes; several when the same callback loses against the same others.
+    :param first: the write at which something gets lost, of the first attribute.
     :param others: the writes that may come in between, one per callback.
     :param run: a run of the model in which two of them overlap.
     """
 
-    name: str
+    names: tuple[str, ...]
     kind: RaceKind
     first: Use
     others: tuple[Use, ...]
@@ -68,14 +69,15 @@ class Race:
 
     @property
     def subjects(self) -> tuple[str, ...]:
-        """The attribute and the callbacks, which identify the race."""
+        """The attributes and the callbacks, which identify the race."""
         callbacks = (self.first, *self.others)
-        return (self.name, *dict.fromkeys(use.callback.name for use in callbacks))
+        return (*self.names, *dict.fromkeys(use.callback.name for use in callbacks))
 
     def related(self) -> tuple[Remark, ...]:
         """The other writes."""
         return tuple(
-            Remark(use.place, f'{use.callback.display_name} writes it here') for use in self.others
+            Remark(use.place, f'{use.callback.display_name} writes {use.access.name} here')
+            for use in self.others
         )
 
 
@@ -88,28 +90,40 @@ class _Conflict:
 
 
 def races_of(context: Context) -> Iterator[Race]:
-    """One race per attribute of a node, in the order of its first conflict."""
+    """One race per attributes that the same callbacks change, in the order of first conflicts."""
     by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
     for one, other in combinations(context.written, 2):
         if isinstance(one.node, str) and one.node == other.node:
             for conflict in _conflicts(one, other, context):
                 key = (one.node, conflict.first.access.name)
                 by_attribute.setdefault(key, []).append(conflict)
+    alike: dict[tuple[RaceKind, str, frozenset[str]], list[Race]] = {}
     for (_, name), conflicts in by_attribute.items():
-        yield _race(name, conflicts)
+        race = _race(name, conflicts)
+        others = frozenset(use.callback.name for use in race.others)
+        alike.setdefault((race.kind, race.first.callback.name, others), []).append(race)
+    yield from map(_join, alike.values())
+
+
+def _join(races: list[Race]) -> Race:
+    ordered = sorted(races, key=lambda race: race.first.place)
+    return replace(ordered[0], names=tuple(name for race in ordered for name in race.names))
 
 
 def describe(race: Race) -> str:
-    """Say what happens to the attribute."""
+    """Say what happens to the attributes."""
     first = race.first.callback.display_name
     others = shown(use.callback for use in race.others)
+    names = listing(race.names, limit=4)
+    it = 'it' if len(race.names) == 1 else 'them'
+    old = 'its old value' if len(race.names) == 1 else 'their old values'
     return {
-        RaceKind.LOST_UPDATE: f'{first} updates {race.name} from its old value, and {others} may '
-        'write it at the same time: one of the changes can get lost',
-        RaceKind.CHECK_THEN_ACT: f'{first} reads {race.name} and then writes it, and {others} may '
-        'write it in between: what was read no longer holds',
-        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {race.name} at the same time: '
-        'the last one wins',
+        RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
+        'at the same time: one of the changes can get lost',
+        RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
+        f'write {it} in between: what was read no longer holds',
+        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
+        'last one wins',
     }[race.kind]
 
 
@@ -149,9 +163,17 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use]:
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
     return not first.access.in_place and any(
-        read.name == first.access.name and not set(read.locks) & set(second.access.locks)
+        read.name == first.access.name
+        and _steps(read) < _steps(first.access)
+        and not set(read.locks) & set(second.access.locks)
         for read in first.callback.reads
     )
+
+
+def _steps(access: Access) -> tuple[Place, ...]:
+    """The way to an access; ways of one callback are ordered as its text is, loops apart."""
+    source = (access.source,) if access.source is not None else ()
+    return (*access.chain, *source)
 
 
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
@@ -161,7 +183,7 @@ def _race(name: str, conflicts: list[_Conflict]) -> Race:
     others.pop(worst.first.callback.name, None)
     order = dict.fromkeys(use.callback.name for use in uses)
     return Race(
-        name=name,
+        names=(name,),
         kind=worst.kind,
         first=worst.first,
         others=tuple(others[callback] for callback in order if callback in others),

@@ -26,11 +26,13 @@ class WaitKind(Enum):
     RATE = 'rate'
     AWAIT = 'await'
     SPIN = 'spin'
+    SPUN_FUTURE = 'spun future'
     SLEEP = 'sleep'
     OTHER = 'other'
 
 
 BUSY_WAIT = 'busy wait'
+SPIN_FOR_FUTURE = 'spin for future'
 ASYNCIO_SLEEP = 'asyncio.sleep'
 _KINDS = {
     'client.call': WaitKind.ANSWER,
@@ -43,6 +45,7 @@ _KINDS = {
     'Future.result': WaitKind.SIGNAL,
     BUSY_WAIT: WaitKind.SIGNAL,
     'Rate.sleep': WaitKind.RATE,
+    SPIN_FOR_FUTURE: WaitKind.SPUN_FUTURE,
     'await': WaitKind.AWAIT,
     'time.sleep': WaitKind.SLEEP,
 }
@@ -87,9 +90,8 @@ class Wait:
 
 def kind_of(block: Blocking) -> WaitKind:
     """Classify a blocking call by its name."""
-    if block.call.rpartition('.')[2].startswith('spin'):
-        return WaitKind.SPIN
-    return _KINDS.get(block.call, WaitKind.OTHER)
+    is_spin = block.call.rpartition('.')[2].startswith('spin')
+    return _KINDS.get(block.call, WaitKind.SPIN if is_spin else WaitKind.OTHER)
 
 
 def waits_of(context: Context) -> Iterator[Wait]:
@@ -145,5 +147,6 @@ def waits_for(wait: Wait) -> str:
 
 
 def waits_in(wait: Wait) -> str:
-    """Say where it waits: the call, or the loop."""
-    return 'a busy loop' if wait.block.call == BUSY_WAIT else wait.block.call
+    """Say where it waits: the call, the loop, the nested spin."""
+    words = {BUSY_WAIT: 'a busy loop', SPIN_FOR_FUTURE: 'a nested spin'}
+    return words.get(wait.block.call, wait.block.call)

@@ -11,7 +11,9 @@ from std_srvs.srv import Trigger
 class Asker(Node):
     def __init__(self):
         super().__init__('asker')
-        self.client = self.create_client(Trigger, 'answer')
+        self.client = self.create_client(
+            Trigger, 'answer', callback_group=MutuallyExclusiveCallbackGroup()
+        )
         self.create_timer(0.1, self.tick)
         self.create_subscription(
             String,

@@ -30,6 +30,7 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer ask in a_default every 1
 #     blocks rclpy.spin_until_future_complete on a @16
+#     blocks spin for future on other_client @16
 #     blocks rclpy.spin_once on a @17
 #     changes rclpy.spin_until_future_complete @16
 #     changes rclpy.spin_once @17

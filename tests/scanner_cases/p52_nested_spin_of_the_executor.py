@@ -32,4 +32,5 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer ask in a_default every 1
 #     blocks executor.spin_until_future_complete on executor @17
+#     blocks spin for future on other_client @17
 #   client other_client in a_default key=other

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.waits import ASYNCIO_SLEEP, waits_of
+from ros2cc_extract.findings.waits import ASYNCIO_SLEEP, Wait, waits_of
 from ros2cc_extract.findings.words import made_at
 
 
 def find(context: Context) -> Iterator[Hit]:
     for wait in waits_of(context):
-        if wait.caller.coroutine and wait.block.call == ASYNCIO_SLEEP:
+        if wait.caller.coroutine and is_real_sleep(wait):
             yield Hit(
                 place=wait.place,
                 message=f'{wait.caller.display_name} awaits asyncio.sleep, but its coroutine is '
@@ -22,6 +22,12 @@ def find(context: Context) -> Iterator[Hit]:
                 chain=wait.chain,
                 related=tuple(made_at(wait.caller)),
             )
+
+
+def is_real_sleep(wait: Wait) -> bool:
+    """A sleep of 0 s only yields, which an executor understands."""
+    seconds = wait.block.seconds
+    return wait.block.call == ASYNCIO_SLEEP and isinstance(seconds, float) and seconds > 0
 
 
 RULE = Rule(

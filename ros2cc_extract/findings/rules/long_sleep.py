@@ -9,15 +9,19 @@ from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import group_words, made_at, shown
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.model import EntityKind
 
 LONG_SLEEP_S = 1.0
 """From here on a sleep counts as long: our choice."""
 
 
 def find(context: Context) -> Iterator[Hit]:
+    """Execute callbacks are CC203's."""
     for wait in waits_of(context):
         seconds = wait.block.seconds
-        if wait.kind is WaitKind.SLEEP and isinstance(seconds, float) and seconds >= LONG_SLEEP_S:
+        if wait.kind is not WaitKind.SLEEP or not isinstance(seconds, float):
+            continue
+        if seconds >= LONG_SLEEP_S and wait.caller.entity is not EntityKind.ACTION_EXECUTE:
             yield from _hits(wait, seconds, context)
 
 

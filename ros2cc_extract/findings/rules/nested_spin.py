@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 
@@ -50,8 +51,8 @@ def _consequence(unit: Spec) -> str:
         )
     if is_global(unit):
         return (
-            'other callbacks run inside this one, and from rclpy 7.1.9 on the executor refuses '
-            'to be spun twice'
+            'callbacks of other groups run inside this one, members of its own group do not, and '
+            'from rclpy 7.1.9 on the executor refuses to be spun twice'
         )
     return f'the node leaves its {unit.executor.kind}, and none of its callbacks runs again'
 
@@ -65,7 +66,8 @@ def _severity(unit: Spec, is_own: bool) -> Severity | None:
 
 def is_global(unit: Spec) -> bool:
     """True when the unit is run by ``rclpy.spin(node)``, the executor that nested spins use."""
-    return (unit.executor.spun or '').startswith('rclpy.') and unit.executor.source is None
+    executor = unit.executor
+    return (executor.spun or '').startswith('rclpy.') and executor.kind == SINGLE
 
 
 RULE = Rule(
@@ -77,9 +79,10 @@ RULE = Rule(
     'on the node it belongs to.',
     why='These functions add the node to the global executor, which takes it out of the executor '
     'it is in, and remove it afterwards: then it is in none, and none of its callbacks runs '
-    'again. Under plain `rclpy.spin` it is the same executor, so that other callbacks run '
-    'inside this one; from rclpy 7.1.9 on that raises `RuntimeError: Executor is already '
-    'spinning`. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` (`spin_until_future_complete`), '
+    'again. Under plain `rclpy.spin` it is the same executor: callbacks of other groups run '
+    'inside this one, members of its own group do not; from rclpy 7.1.9 on that raises '
+    '`RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` '
+    '(`spin_until_future_complete`), '
     '`node.py` (setter of `executor`), `executors.py` (`add_node`). Measured: a timer fires once '
     'instead of about 20 times.',
     bad="""\

@@ -8,20 +8,22 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_in, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
-from ros2cc_extract.findings.workers import is_one_thread
+from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import Callback
 
 BLOCKING = (WaitKind.ANSWER, WaitKind.SIGNAL)
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """On one thread the group is not what blocks; that is CC102."""
-    if is_one_thread(context.unit.executor):
-        return
+    """On one thread the group is not what blocks, which is CC102, unless it spins meanwhile."""
+    executor = context.unit.executor
+    one_thread = is_one_thread(executor)
     for wait in waits_of(context):
-        shut_out = shut_out_by(wait, context)
-        if wait.kind in BLOCKING and shut_out is not None:
-            yield _hit(wait, shut_out, context)
+        counts = wait.kind is WaitKind.SPUN_FUTURE and honours_groups(executor)
+        if counts or (wait.kind in BLOCKING and not one_thread):
+            shut_out = shut_out_by(wait, context)
+            if shut_out is not None:
+                yield _hit(wait, shut_out, context)
 
 
 def shut_out_by(wait: Wait, context: Context) -> Callback | None:
@@ -67,7 +69,8 @@ RULE = Rule(
     title='Blocking call into the own callback group',
     what='A callback waits synchronously for something that only another callback of the same '
     'mutually exclusive group can deliver: the answer of a client in that group, a service of '
-    'that group, or an event that a member of the group sets. No number of threads helps.',
+    'that group, or an event that a member of the group sets. No number of threads helps, and '
+    'neither does a nested spin: the group stays closed while it spins.',
     why='The group is closed from `beginning_execution` until `ending_execution` of the caller, '
     'and the executor neither waits for nor runs members of a closed group. `Client.call` '
     'waits for a `threading.Event` that is set when the executor has run the client. '

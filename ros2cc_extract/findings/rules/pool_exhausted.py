@@ -44,37 +44,35 @@ def _judge(
     needed = capacity.at_least + 1
     if isinstance(workers, Unknown):
         if capacity.at_least > 1:
-            yield _hit(waits, capacity, f'on how many threads is not known ({workers})', True)
+            rest = f'on how many threads is not known ({workers})'
+            yield _hit(waits, capacity, rest, Severity.NOTE)
     elif workers.is_default:
         if capacity.at_least > 1:
-            yield _hit(
-                waits,
-                capacity,
-                f'with as many threads as CPUs, so on a machine with {capacity.at_least} or '
-                'fewer CPUs no thread is left for the answers and all wait for ever',
-                capacity.at_least < USUAL_CPUS,
+            rest = (
+                f'with as many threads as CPUs, so on a machine with {capacity.at_least} or fewer '
+                'CPUs no thread is left for the answers and all wait for ever'
             )
+            usual = capacity.at_least >= USUAL_CPUS
+            yield _hit(waits, capacity, rest, Severity.WARNING if usual else Severity.NOTE)
     elif capacity.at_least >= workers.count:
-        yield _hit(
-            waits,
-            capacity,
+        rest = (
             f'on {plural(workers.count, "thread")}: then none is left for the answers and all '
-            'wait for ever',
-            False,
+            'wait for ever'
         )
+        timed = all(wait.has_timeout for wait in waits)
+        yield _hit(waits, capacity, rest, Severity.WARNING if timed else None)
     elif capacity.unbounded:
         yield _overlap_hit(waits, capacity, workers, needed)
 
 
-def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, is_note: bool) -> Hit:
+def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:
     names = shown(capacity.together)
-    timed = all(wait.has_timeout for wait in waits)
     return Hit(
         place=_first(waits, capacity).place,
         message=f'{plural(capacity.at_least, "callback")} can wait at the same time ({names}) '
         f'{rest}',
         help=_help(capacity),
-        severity=Severity.NOTE if is_note else Severity.WARNING if timed else None,
+        severity=severity,
         subjects=tuple(callback.name for callback in capacity.together),
         chain=_first(waits, capacity).chain,
         related=_others(waits, capacity),

@@ -238,6 +238,29 @@ def test_nested_spin_takes_the_node_out_of_its_executor() -> None:
     assert nested(threads(4), 'helper', call) == []
 
 
+def test_a_nested_spin_for_a_client_of_the_own_group_never_ends() -> None:
+    waits = calls('plan_client', call='spin for future')
+    for executor, group, expected in (
+        (ONE_THREAD, 'arm_default', ['CC101:40']),
+        (threads(2), 'arm_default', ['CC101:40']),
+        (EVENTS_EXECUTOR, 'arm_default', []),
+        (ONE_THREAD, 'other', []),
+    ):
+        spec = unit(executor, timer('drive', blocking=waits), client('plan_client', group))
+        assert [f for f in found(spec) if f.startswith('CC1')] == expected
+
+
+def test_asyncio_sleep_kills_a_coroutine_but_a_sleep_of_zero_yields() -> None:
+    def spec(seconds: float | Unknown, coroutine: bool = True) -> Spec:
+        waits = calls(None, call='asyncio.sleep', seconds=seconds)
+        return unit(ONE_THREAD, timer('grip', coroutine=coroutine, blocking=waits))
+
+    assert found(spec(1.0)) == ['CC108:40']
+    assert found(spec(0.0)) == []
+    assert found(spec(Unknown('a parameter'))) == []
+    assert found(spec(1.0, coroutine=False)) == []
+
+
 def test_an_executor_spun_by_its_own_callback() -> None:
     assert nested(threads(4), 'executor', 'executor.spin_once') == ['CC107:40 warning']
     assert nested(threads(4), 'another', 'executor.spin_once') == []

@@ -112,7 +112,7 @@ def test_the_run_of_the_model_is_the_evidence() -> None:
     finding = only(counter(threads(2)), 'CC301', verification)
     assert finding.run is RUN
     assert [(remark.place, remark.text) for remark in finding.related] == [
-        (at(35), 'on_reset writes it here')
+        (at(35), 'on_reset writes Arm.count here')
     ]
     assert finding.message == (
         'tick updates Arm.count from its old value, and on_reset may write it at the same time: '
@@ -146,8 +146,10 @@ def test_an_unresolved_group_gives_nothing() -> None:
 def test_plain_assignments_are_a_note_and_a_test_before_makes_it_a_warning() -> None:
     plain = timer('tick', writes=writes('Arm.goal', 30))
     tested = timer('tick', reads=writes('Arm.goal', 29), writes=writes('Arm.goal', 30))
+    shown = timer('tick', reads=writes('Arm.goal', 31), writes=writes('Arm.goal', 30))
     other = subscription('on_goal', 'other', writes=writes('Arm.goal', 35))
     assert races(unit(threads(2), plain, other)) == ['CC302:30 note']
+    assert races(unit(threads(2), shown, other)) == ['CC302:30 note']
     assert races(unit(threads(2), tested, other)) == ['CC301:30 warning']
     assert races(unit(threads(2), other, tested)) == ['CC301:30 warning']
 
@@ -172,6 +174,17 @@ def test_one_finding_for_one_attribute() -> None:
     finding = only(spec, 'CC301')
     assert finding.place == at(30)
     assert finding.subjects == ('Arm.count', 'on_a', 'on_b', 'on_c')
+
+
+def test_attributes_of_the_same_callbacks_are_one_finding() -> None:
+    tick = timer('tick', writes=(*updates('Arm.b', 31), *updates('Arm.a', 30)))
+    reset = subscription('reset', 'other', writes=(*writes('Arm.a', 35), *writes('Arm.b', 36)))
+    finding = only(unit(threads(2), tick, reset), 'CC301')
+    assert finding.subjects == ('Arm.a', 'Arm.b', 'tick', 'reset')
+    assert finding.message == (
+        'tick updates Arm.a, Arm.b from their old values, and reset may write them at the same '
+        'time: one of the changes can get lost'
+    )
 
 
 def test_work_outside_every_group_overlaps_the_exclusive_group_too() -> None:

@@ -51,6 +51,12 @@ def test_a_long_sleep_on_one_thread_stops_everything() -> None:
     assert 'the only thread of the SingleThreadedExecutor' in only(spec, 'CC201').message
 
 
+def test_an_execute_callback_that_sleeps_hides_the_cancel_request() -> None:
+    execute = outside('execute', EntityKind.ACTION_EXECUTE, blocking=sleeps(5.0) + sleeps(5.0, 60))
+    assert found(unit(ONE_THREAD, execute)) == ['CC203:50 warning']
+    assert [f for f in found(unit(threads(2), execute)) if f.startswith('CC2')] == []
+
+
 def test_an_overloaded_group_starves_who_is_served_later() -> None:
     def codes(period: float, *callbacks: object) -> list[str]:
         busy = timer('camera', period_s=period, blocking=sleeps(0.2))
