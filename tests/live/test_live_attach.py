@@ -36,7 +36,7 @@ def attach(child: Child, folder: Path) -> Spec:
 @needs_injector
 @pytest.mark.parametrize(
     ('name', 'says'),
-    [('action_server', 'goals done'), ('lambda_in_loop', 'alpha'), ('two_groups', 'planned')],
+    [('action_server', 'goals done'), ('lambda_in_loop', 'alpha')],
 )
 def test_running_process_tells_what_it_holds_and_goes_on(
     name: str, says: str, start_example: Callable[..., Child], tmp_path: Path
