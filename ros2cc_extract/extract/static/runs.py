@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.call_order import callers_first, leading_to_entities
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.machine import BudgetError
@@ -104,17 +105,25 @@ def run_library(
     module = machine.modules[source.shown]
     values = _definitions(machine, module)
     bases = _bases_in_use(values)
-    for value in sorted(values, key=lambda v: (isinstance(v, Function), v.node.lineno)):
+    in_text = sorted(values, key=lambda v: (isinstance(v, Function), v.node.lineno))
+    names, nodes = [v.name for v in in_text], [v.node for v in in_text]
+    for value in callers_first(in_text, names, nodes):
         if id(value.node) in covered or value.module is not module:
             continue
-        if id(value.node) in machine.world.called or not creates_entities(value.node):
+        if _is_followed(machine, value) or not creates_entities(value.node):
             continue
         if id(value) in bases:
             continue
         _use_without_caller(machine, value)
-    run_callbacks(machine)
-    run_rest_of_instances(machine)
+        run_callbacks(machine)
+        run_rest_of_instances(machine)
     return machine
+
+
+def _is_followed(machine: Interpreter, value: Class | Function) -> bool:
+    if isinstance(value, Function):
+        return id(value.node) in machine.world.called
+    return any(instance.cls is value for instance in machine.world.instances)
 
 
 def _has_uncovered(tree: ast.Module, covered: frozenset[int]) -> bool:
@@ -274,11 +283,35 @@ def run_rest_of_instances(machine: Interpreter) -> None:
     while seen < min(len(machine.world.instances), _CALLBACK_LIMIT):
         instance = machine.world.instances[seen]
         seen += 1
-        for name, method in _methods_of(machine, instance):
-            if id(method.node) in machine.world.called or not creates_entities(method.node):
-                continue
-            _run_later(machine, instance, name, method)
-            run_callbacks(machine)
+        for name, method in _methods_without_caller(machine, instance):
+            if id(method.node) not in machine.world.called:
+                _run_later(machine, instance, name, method)
+                run_callbacks(machine)
+
+
+def _methods_without_caller(
+    machine: Interpreter, instance: Instance
+) -> list[tuple[str, Function]]:
+    """Methods not followed yet that lead to entities, callers before what they call."""
+    left = [
+        (name, method)
+        for name, method in _methods_of(machine, instance)
+        if id(method.node) not in machine.world.called
+    ]
+    makers = frozenset(name for _, method in left for name in _makers_in(method.module))
+    wanted = leading_to_entities({name: method.node for name, method in left}, makers)
+    left = [(name, method) for name, method in left if name in wanted]
+    names, nodes = [name for name, _ in left], [method.node for _, method in left]
+    return callers_first(left, names, nodes)
+
+
+def _makers_in(module: Module) -> list[str]:
+    """Names in ``module`` of scanned classes and functions that make entities."""
+    return [
+        name
+        for name, value in module.slots.items()
+        if isinstance(value, (Class, Function)) and creates_entities(value.node)
+    ]
 
 
 def _methods_of(machine: Interpreter, instance: Instance) -> list[tuple[str, Function]]:
