@@ -57,6 +57,21 @@ def load_config(start: Path) -> Config:
     return Config(root=Path.cwd())
 
 
+def read_config(path: Path) -> Config:
+    """
+    Read the table of one TOML file.
+
+    :raises InputError: as ``load_config``; also when the file cannot be read or has no table.
+    """
+    try:
+        table = _parse(path.read_text(encoding='utf-8'), path)
+    except (OSError, UnicodeDecodeError):
+        raise InputError('cannot be read', Place(str(path)), 'name a TOML file') from None
+    if table is None:
+        raise InputError(f'no table [tool.{TABLE}]', Place(str(path)), 'add one')
+    return _config(table, path)
+
+
 def assumptions_of(config: Config, given: Sequence[str]) -> Assumptions:
     """Join the table's assumptions with those of the command line, which win."""
     place = Place(str(config.root / FILE))
@@ -66,11 +81,16 @@ def assumptions_of(config: Config, given: Sequence[str]) -> Assumptions:
 
 def _table(path: Path) -> Mapping[str, Any] | None:
     try:
-        data = tomllib.loads(path.read_text(encoding='utf-8'))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f'no TOML: {error}', Place(str(path)), 'mend the file') from None
+        return _parse(path.read_text(encoding='utf-8'), path)
     except (OSError, UnicodeDecodeError):
         return None
+
+
+def _parse(text: str, path: Path) -> Mapping[str, Any] | None:
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f'no TOML: {error}', Place(str(path)), 'mend the file') from None
     table = data.get('tool', {}).get(TABLE)
     if table is not None and not isinstance(table, dict):
         raise _malformed(path, TABLE, 'a table')

@@ -31,6 +31,7 @@ COMMANDS = {
     'env': 'print the environment variables that switch the live hook on',
     'attach': 'write the specification of a process that already runs',
     'diff': 'compare two specifications of one program',
+    'init': 'write the test file, hook and job that guard a ROS 2 package',
     'merge': 'join a specification from source with one from a live run',
 }
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3

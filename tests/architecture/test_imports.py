@@ -11,6 +11,7 @@ PACKAGE = 'ros2cc_extract'
 LEAVES = {'errors', 'places', 'diagnostics', 'version'}
 ALLOWED = {
     'cli': {'*'},
+    'ros': {'*'},
     'report': {'findings', 'verify', 'spec', 'merge'},
     'findings': {'verify', 'spec'},
     'verify': {'generator', 'checker', 'spec'},

@@ -1,0 +1,36 @@
+"""The check with nothing but the project's own settings: what linter, hook and doctor ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ros2cc_extract.checker.api import Limits
+from ros2cc_extract.cli.config import Config, assumptions_of
+from ros2cc_extract.cli.pipeline import Job
+from ros2cc_extract.cli.sources import read_input
+from ros2cc_extract.findings.baseline import read_baseline
+from ros2cc_extract.spec.close import Policy
+from ros2cc_extract.verify import Options
+
+SECONDS_PER_UNIT = 20.0
+
+
+def standard_job(paths: Sequence[Path], config: Config) -> Job:
+    """
+    Set up a check of ``paths``.
+
+    :raises InputError: when the baseline of the settings cannot be used.
+    """
+    known: frozenset[str] = frozenset()
+    if config.baseline is not None:
+        known = read_baseline(read_input(config.baseline), str(config.baseline))
+    return Job(
+        paths=paths,
+        config=config,
+        policy=Policy(),
+        options=Options(limits=Limits(seconds=config.timeout or SECONDS_PER_UNIT)),
+        assumptions=assumptions_of(config, ()),
+        root=config.root.resolve(),
+        known=known,
+    )
