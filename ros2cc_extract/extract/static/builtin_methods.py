@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.values import (
     Native,
     Sequence,
     Value,
+    options_of,
 )
 from ros2cc_extract.places import Unknown
 
@@ -109,16 +110,18 @@ def _append(machine: Machine, receiver: Value, call: Call) -> Value:
     if call.args:
         item = call.args[-1]
         machine.store.write(receiver, 'items', (*receiver.items, item))
-        if isinstance(machine.world.count, Unknown) and receiver.rest is None:
-            machine.store.write(receiver, 'open', machine.world.count)
+        if isinstance(machine.world.count, Unknown):
+            many = {option: machine.why_many() for option in options_of(item)}
+            machine.store.write(receiver, 'many', {**receiver.many, **many})
     return NONE
 
 
 def _extend(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Sequence)
-    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
-    machine.store.write(receiver, 'items', (*receiver.items, *items))
-    machine.store.write(receiver, 'open', receiver.rest or rest)
+    more = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
+    machine.store.write(receiver, 'items', (*receiver.items, *more.known))
+    machine.store.write(receiver, 'open', receiver.others or more.others)
+    machine.store.write(receiver, 'many', {**receiver.many, **more.many})
     return NONE
 
 
@@ -149,14 +152,15 @@ def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
     else:
         machine.store.write(receiver, 'entries', {})  # type: ignore[arg-type]
     machine.store.write(receiver, 'open', None)  # type: ignore[arg-type]
+    machine.store.write(receiver, 'many', {})  # type: ignore[arg-type]
     return NONE
 
 
 def _copy(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Sequence):
-        return Sequence(receiver.items, receiver.kind, receiver.rest)
+        return Sequence(receiver.items, receiver.kind, receiver.others, receiver.many)
     assert isinstance(receiver, Mapping)
-    return Mapping(dict(receiver.entries), receiver.rest)
+    return Mapping(dict(receiver.entries), receiver.others, receiver.many)
 
 
 def _unordered(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -193,16 +197,18 @@ def _setdefault(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _update(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Mapping)
-    entries, rest = dict(receiver.entries), receiver.rest
+    entries, rest, many = dict(receiver.entries), receiver.others, dict(receiver.many)
     for argument in call.args:
         if isinstance(argument, Mapping):
             entries.update(argument.entries)
-            rest = rest or argument.rest
+            many.update(argument.many)
+            rest = rest or argument.others
         else:
             rest = rest or Unknown('updated from an unknown dictionary', call.place)
     entries.update({Const(name): value for name, value in call.keywords.items()})
     machine.store.write(receiver, 'entries', entries)
     machine.store.write(receiver, 'open', rest or call.more)
+    machine.store.write(receiver, 'many', many)
     return NONE
 
 
@@ -224,7 +230,12 @@ def _view(kind: str) -> Handler:
             items = tuple(entries.values())
         elif kind == 'items':
             items = tuple(Sequence((key, value), 'tuple') for key, value in entries.items())
-        return Sequence(items, 'list', receiver.rest)
+        many = {
+            item: receiver.many[key]
+            for item, key in zip(items, entries, strict=True)
+            if key in receiver.many
+        }
+        return Sequence(items, 'list', receiver.others, many)
 
     return handler
 

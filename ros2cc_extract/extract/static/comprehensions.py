@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from collections.abc import Sequence as Items
 
 from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.values import Mapping, Scope, Sequence, Value
+from ros2cc_extract.extract.static.values import Mapping, Mystery, Scope, Sequence, Value
 from ros2cc_extract.places import Unknown
 
 _NEXT = 1
@@ -24,50 +25,57 @@ class Comprehensions(Machine):
         scope = Scope(frame.module, frame.scope)
         inner = Frame(scope, frame.function, qualname=f'{frame.qualname or ""}')
         collected: list[tuple[Value, Value]] = []
-        rests: list[Unknown] = []
-        self._generate(node, node.generators, inner, collected, rests)
-        rest = rests[0] if rests else None
+        many: dict[Value, Value] = {}
+
+        def collect(why: Unknown | None) -> None:
+            key, value = self._element(node, inner)
+            collected.append((key, value))
+            if why is not None or isinstance(self.world.count, Unknown):
+                many[key] = Mystery(why) if why is not None else self.why_many()
+
+        self._generate(node.generators, inner, collect, None)
         if isinstance(node, ast.DictComp):
-            return Mapping(dict(collected), rest)
+            return Mapping(dict(collected), None, many)
         kind = 'set' if isinstance(node, ast.SetComp) else 'list'
-        return Sequence(tuple(value for _, value in collected), kind, rest)
+        return Sequence(tuple(value for _, value in collected), kind, None, many)
 
     def _generate(
         self,
-        node: Comprehension,
         generators: Items[ast.comprehension],
         frame: Frame,
-        collected: list[tuple[Value, Value]],
-        rests: list[Unknown],
+        collect: Callable[[Unknown | None], None],
+        why: Unknown | None,
     ) -> None:
+        """Run the loops; ``why`` an element may stand for several, or for none."""
         if not generators:
-            collected.append(self._element(node, frame))
+            collect(why)
             return
         generator, deeper = generators[0], generators[1:]
         place = frame.place(generator.iter)
-        items, rest = self.items_of(self.evaluate(generator.iter, frame), place)
-        if len(items) > loops.UNROLL_LIMIT:
-            rests.append(Unknown('a long comprehension', place))
-        elif rest is not None:
-            rests.append(rest)
+        items = loops.items_in(self, self.evaluate(generator.iter, frame), place)
+        is_long = len(items.known) > loops.UNROLL_LIMIT
+        here = Unknown('a long comprehension', place) if is_long else why
 
         def once(item: Value) -> int:
             self.assign(generator.target, item, frame)
-            if self._passes(generator, frame, rests):
-                self._generate(node, deeper, frame, collected, rests)
+            passes, unsure = self._passes(generator, frame)
+            if passes:
+                self._generate(deeper, frame, collect, unsure or here)
             return _NEXT
 
-        loops.run_loop(self, items, rest, once, place)
+        loops.run_loop(self, items, once, place)
 
-    def _passes(self, generator: ast.comprehension, frame: Frame, rests: list[Unknown]) -> bool:
+    def _passes(self, generator: ast.comprehension, frame: Frame) -> tuple[bool, Unknown | None]:
+        """Whether an item may pass the conditions, and why that is not certain."""
+        unsure: Unknown | None = None
         for condition in generator.ifs:
             holds = self.truth(self.evaluate(condition, frame))
             if holds is False:
-                return False
+                return False, None
             if holds is None:
                 place = frame.place(condition)
-                rests.append(Unknown('a condition that could not be followed', place))
-        return True
+                unsure = Unknown('a condition that could not be followed', place)
+        return True, unsure
 
     def _element(self, node: Comprehension, frame: Frame) -> tuple[Value, Value]:
         if isinstance(node, ast.DictComp):

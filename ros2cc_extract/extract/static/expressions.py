@@ -104,8 +104,9 @@ class Expressions(Machine):
     ) -> Value:
         """``left op right``."""
         if isinstance(left, Sequence) and isinstance(right, Sequence) and isinstance(op, ast.Add):
-            rest = left.rest or right.rest
-            return Sequence((*left.items, *right.items), left.kind, rest)
+            rest = left.others or right.others
+            many = {**left.many, **right.many}
+            return Sequence((*left.items, *right.items), left.kind, rest, many)
         if isinstance(left, Sequence) and isinstance(op, ast.Mult):
             return _repeated(left, right, frame, node)
         folded = folding.binary(op, left, right)
@@ -251,15 +252,17 @@ def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:
     def handler(machine: Expressions, node: ast.List | ast.Tuple | ast.Set, frame: Frame) -> Value:
         items: list[Value] = []
         rest: Unknown | None = None
+        many: dict[Value, Value] = {}
         for element in node.elts:
             if isinstance(element, ast.Starred):
                 value = machine.evaluate(element.value, frame)
-                more, unknown = machine.items_of(value, frame.place(element))
-                items.extend(more)
-                rest = rest or unknown
+                more = loops.items_in(machine, value, frame.place(element))
+                items.extend(more.known)
+                many.update(more.many)
+                rest = rest or more.others
             else:
                 items.append(machine.evaluate(element, frame))
-        return Sequence(tuple(items), kind, rest)
+        return Sequence(tuple(items), kind, rest, many)
 
     return handler
 
@@ -267,12 +270,14 @@ def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:
 def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
     entries: dict[Value, Value] = {}
     rest: Unknown | None = None
+    many: dict[Value, Value] = {}
     for key_node, value_node in zip(node.keys, node.values, strict=True):
         value = machine.evaluate(value_node, frame)
         if key_node is None:
             if isinstance(value, Mapping):
                 entries.update(value.entries)
-                rest = rest or value.rest
+                many.update(value.many)
+                rest = rest or value.others
             else:
                 rest = Unknown('spread dictionary that could not be followed', frame.place(node))
             continue
@@ -281,8 +286,8 @@ def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
         if loops.is_key(key):
             machine.name_value(value, loops.key_text(key))
         else:
-            rest = Unknown('a key could not be followed', frame.place(key_node))
-    return Mapping(entries, rest)
+            many[key] = NONE
+    return Mapping(entries, rest, many)
 
 
 def _subscript(machine: Expressions, node: ast.Subscript, frame: Frame) -> Value:
@@ -334,7 +339,7 @@ def _slice(machine: Expressions, owner: Sequence, node: ast.Slice, frame: Frame)
         bounds.append(value.value)
     if bounds[2] == 0:
         return machine.mystery('slice step zero', frame.place(node))
-    return Sequence(owner.items[slice(*bounds)], owner.kind, owner.rest)
+    return Sequence(owner.items[slice(*bounds)], owner.kind, owner.others, owner.many)
 
 
 def _slice_alone(machine: Expressions, node: ast.Slice, frame: Frame) -> Value:
@@ -385,7 +390,7 @@ def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
 
 def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.AST) -> Value:
     if isinstance(right, Const) and isinstance(right.value, int) and right.value <= 1000:
-        return Sequence(left.items * right.value, left.kind, left.rest)
+        return Sequence(left.items * right.value, left.kind, left.others, left.many)
     return Sequence(left.items, left.kind, Unknown('unknown length', frame.place(node)))
 
 

@@ -4,15 +4,55 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.values import ABSENT, Choice, Const, Instance, Mystery, Value
+from ros2cc_extract.extract.static.values import (
+    ABSENT,
+    NONE,
+    Choice,
+    Collection,
+    Const,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
 from ros2cc_extract.extract.static.values import choice as join
 from ros2cc_extract.places import Place, Unknown
 
 UNROLL_LIMIT = 64
 
 _NEXT, _RETURN, _BREAK, _CONTINUE = 1, 2, 4, 8
+
+
+@dataclass(frozen=True)
+class Items:
+    """
+    What a loop goes over.
+
+    :param known: the items that are known, in order.
+    :param others: why there may be some that no known one stands for.
+    :param many: as in ``Collection``.
+    """
+
+    known: tuple[Value, ...]
+    others: Unknown | None
+    many: dict[Value, Value]
+
+    def why_many(self, item: Value) -> Unknown | None:
+        """Why ``item`` stands for any number of items, ``None`` when it is one."""
+        whys = [self.many.get(option, NONE) for option in options_of(item)]
+        found = [o.unknown for why in whys for o in options_of(why) if isinstance(o, Mystery)]
+        return found[0] if found else None
+
+
+def items_in(machine: Machine, value: Value, place: Place) -> Items:
+    """What a loop over ``value`` goes over."""
+    known, rest = machine.items_of(value, place)
+    if isinstance(value, Collection):
+        return Items(known, value.others, value.many)
+    return Items(known, rest, {})
 
 
 @contextmanager
@@ -29,19 +69,18 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
         machine.world.count = before
 
 
-def run_loop(
-    machine: Machine,
-    items: tuple[Value, ...],
-    rest: Unknown | None,
-    once: Callable[[Value], int],
-    place: Place,
-) -> int:
+def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
     """Run the body of a ``for`` loop; returns how the loop may end."""
     path, ends = machine.world.path, 0
     try:
-        if len(items) > UNROLL_LIMIT:
-            return _run_many(machine, items, once, place)
-        for item in items:
+        if len(items.known) > UNROLL_LIMIT:
+            return _run_many(machine, items.known, once, place)
+        for item in items.known:
+            why = items.why_many(item)
+            if why is not None:
+                with counted(machine, why):
+                    ends |= after_loop(_run_item(machine, item, once, place))
+                continue
             flow = _run_item(machine, item, once, place)
             ends |= flow & _RETURN
             if flow & _BREAK and not flow & (_NEXT | _CONTINUE):
@@ -50,6 +89,7 @@ def run_loop(
                 return ends | (flow & ~(_BREAK | _CONTINUE))
             if flow & (_BREAK | _RETURN):
                 machine.world.path = (*machine.world.path, (place, -1))
+        rest = items.others
         if rest is not None:
             with counted(machine, Unknown(f'made in a loop: {rest.reason}', rest.at or place)):
                 item = Mystery(Unknown(f'loop variable: {rest.reason}', place), 'item')

@@ -15,6 +15,7 @@ from functools import partial
 
 from ros2cc_extract.extract.static.store import Store, Writes
 from ros2cc_extract.extract.static.values import (
+    NONE,
     Call,
     Choice,
     Class,
@@ -264,6 +265,11 @@ class Machine(ABC):
     def stop_program(self) -> None:
         """The program ends here on this branch (``sys.exit``)."""
         self.world.stopped = True
+
+    def why_many(self) -> Value:
+        """Why what is collected here stands for any number of items; ``NONE`` when for one."""
+        count = self.world.count
+        return Mystery(count) if isinstance(count, Unknown) else NONE
 
     def mystery(self, reason: str, place: Place | None, text: str | ast.expr = '') -> Mystery:
         """A value that cannot be followed."""

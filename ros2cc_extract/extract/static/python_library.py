@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static import folding
+from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.threads_library import run_in_executor
@@ -50,11 +50,20 @@ def _range(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _enumerate(machine: Machine, receiver: Value, call: Call) -> Value:
-    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
+    items = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
     start = call.argument(1, 'start')
     first = start.value if isinstance(start, Const) and isinstance(start.value, int) else 0
-    pairs = (Sequence((Const(first + i), item), 'tuple') for i, item in enumerate(items))
-    return Sequence(tuple(pairs), 'list', rest)
+    pairs: list[Value] = []
+    many: dict[Value, Value] = {}
+    for position, item in enumerate(items.known):
+        number: Value = Const(first + position)
+        if many or items.why_many(item) is not None:
+            number = machine.mystery('position in a collection of unknown size', call.place, 'i')
+        pairs.append(Sequence((number, item), 'tuple'))
+        why = items.why_many(item)
+        if why is not None:
+            many[pairs[-1]] = Mystery(why)
+    return Sequence(tuple(pairs), 'list', items.others, many)
 
 
 def _zip(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -68,23 +77,25 @@ def _converted(kind: str) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         if not call.args:
             return Sequence((), kind)
-        items, rest = machine.items_of(call.args[0], call.place)
-        return Sequence(items, kind, rest)
+        items = loops.items_in(machine, call.args[0], call.place)
+        return Sequence(items.known, kind, items.others, items.many)
 
     return handler
 
 
 def _reversed(machine: Machine, receiver: Value, call: Call) -> Value:
-    items, rest = machine.items_of(call.args[0], call.place) if call.args else ((), None)
-    return Sequence(items[::-1], 'list', rest)
+    items = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
+    return Sequence(items.known[::-1], 'list', items.others, items.many)
 
 
 def _dict(machine: Machine, receiver: Value, call: Call) -> Value:
     entries: dict[Value, Value] = {}
     rest = call.more
+    many: dict[Value, Value] = {}
     if call.args and isinstance(call.args[0], Mapping):
         entries.update(call.args[0].entries)
-        rest = rest or call.args[0].rest
+        many.update(call.args[0].many)
+        rest = rest or call.args[0].others
     elif call.args:
         pairs, unknown = machine.items_of(call.args[0], call.place)
         rest = rest or unknown
@@ -92,7 +103,7 @@ def _dict(machine: Machine, receiver: Value, call: Call) -> Value:
             if isinstance(pair, Sequence) and len(pair.items) == 2:
                 entries[pair.items[0]] = pair.items[1]
     entries.update({Const(name): value for name, value in call.keywords.items()})
-    return Mapping(entries, rest)
+    return Mapping(entries, rest, many)
 
 
 def _len(machine: Machine, receiver: Value, call: Call) -> Value:

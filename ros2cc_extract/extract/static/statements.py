@@ -121,10 +121,8 @@ class Statements(Machine):
                 _hint(value, loops.key_text(key))
                 self.store.write(owner, 'entries', {**owner.entries, key: value})
             else:
-                entries = {**owner.entries, key: value}
-                reason = 'a key of this dictionary could not be followed'
-                self.store.write(owner, 'entries', entries)
-                self.store.write(owner, 'open', Unknown(reason, frame.place(target)))
+                self.store.write(owner, 'entries', {**owner.entries, key: value})
+                self.store.write(owner, 'many', {**owner.many, key: self.why_many()})
         elif isinstance(owner, Items):
             index = loops.index_of(key, len(owner.items))
             if index is not None:
@@ -238,7 +236,7 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.store.write(old, 'items', (*old.items, *items))
-        machine.store.write(old, 'open', old.rest or rest)
+        machine.store.write(old, 'open', old.others or rest)
         return NEXT
     value = machine.evaluate(node.value, frame)
     machine.world.deeds = None
@@ -375,13 +373,13 @@ def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
 def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     place = frame.place(node.iter)
     values = machine.evaluate(node.iter, frame)
-    items, rest = machine.items_of(values, place)
+    items = loops.items_in(machine, values, place)
 
     def once(item: Value) -> int:
         machine.assign(node.target, item, frame)
         return machine.execute_block(node.body, frame)
 
-    flow = loops.run_loop(machine, items, rest, once, place)
+    flow = loops.run_loop(machine, items, once, place)
     if node.orelse and flow & NEXT:
         flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
     return flow
