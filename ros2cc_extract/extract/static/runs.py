@@ -292,26 +292,29 @@ def run_rest_of_instances(machine: Interpreter) -> None:
 def _methods_without_caller(
     machine: Interpreter, instance: Instance
 ) -> list[tuple[str, Function]]:
-    """Methods not followed yet that lead to entities, callers before what they call."""
+    """
+    Methods not followed yet that lead to entities, callers before what they call.
+
+    Using a scanned class or function that makes some leads to entities too.
+    """
     left = [
         (name, method)
         for name, method in _methods_of(machine, instance)
         if id(method.node) not in machine.world.called
     ]
-    makers = frozenset(name for _, method in left for name in _makers_in(method.module))
+    modules = {id(method.module): method.module for _, method in left}
+    makers = frozenset(
+        name
+        for module in modules.values()
+        for name, value in module.slots.items()
+        if isinstance(value, (Class, Function))
+        and value not in instance.mro
+        and creates_entities(value.node)
+    )
     wanted = leading_to_entities({name: method.node for name, method in left}, makers)
     left = [(name, method) for name, method in left if name in wanted]
     names, nodes = [name for name, _ in left], [method.node for _, method in left]
     return callers_first(left, names, nodes)
-
-
-def _makers_in(module: Module) -> list[str]:
-    """Names in ``module`` of scanned classes and functions that make entities."""
-    return [
-        name
-        for name, value in module.slots.items()
-        if isinstance(value, (Class, Function)) and creates_entities(value.node)
-    ]
 
 
 def _methods_of(machine: Interpreter, instance: Instance) -> list[tuple[str, Function]]:
