@@ -18,7 +18,6 @@ from typing import Any
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.evidence import Evidence, Moment
 from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.html_findings import finding_card
 from ros2cc_extract.report.html_parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html_unit import Numbered, unit_picture
@@ -99,7 +98,9 @@ def _header(findings: Sequence[Finding], summary: Mapping[str, int]) -> str:
         for severity, word in SEVERITY_WORDS.items()
     )
     facts = ', '.join(
-        counted(number, what) for what, number in summary.items() if what.rstrip('s') not in _TILES
+        f'{number} {what.replace("_", " ")}'
+        for what, number in summary.items()
+        if number and what.rstrip('s') not in _TILES
     )
     return tag(
         'header',
