@@ -22,18 +22,17 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.world import (
+    RECENT,
     AccessKind,
     EntityRef,
     EntityState,
     ExecutorState,
     NodeState,
     PlainState,
+    note_once,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking
-
-# A loop that is unrolled meets the same access again and again.
-_RECENT = 40
 
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
@@ -70,8 +69,7 @@ class Effects(Machine):
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if kind is AccessKind.READ else deeds.writes
-        if access not in accesses[-_RECENT:]:
-            accesses.append(access)
+        note_once(accesses, access)
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
         """The object in a name or attribute gets a new content or value from its old one."""
@@ -142,15 +140,15 @@ class Effects(Machine):
         deeds = self.world.deeds
         if deeds is None:
             return
-        deeds.blocking.append(
-            Blocking(
-                call=name,
-                source=place,
-                on=self._waited_for(on),
-                seconds=_seconds(seconds, place),
-                chain=self.world.chain[1:],
-            )
+        block = Blocking(
+            call=name,
+            source=place,
+            on=self._waited_for(on),
+            seconds=_seconds(seconds, place),
+            chain=self.world.chain[1:],
         )
+        if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
+            deeds.blocking.append(block)
 
     def _waited_for(self, value: Value | None) -> str | Unknown | None:
         if value is None or value == NONE:
@@ -184,7 +182,7 @@ class Effects(Machine):
                 self.world.held = (*self.world.held, name)
                 if self.world.deeds is not None:
                     act = Act(name=name, source=place, chain=self.world.chain[1:])
-                    self.world.deeds.locks.append(act)
+                    note_once(self.world.deeds.locks, act)
 
     def note_release(self, lock: Value) -> None:
         """A lock is given back."""
@@ -204,7 +202,7 @@ class Effects(Machine):
             name = str(key.value)
         elif isinstance(key, Mystery):
             name = key.unknown
-        deeds.publishes.append(Act(name=name, source=place, chain=self.world.chain[1:]))
+        note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_nested_spin(
         self,
@@ -229,7 +227,7 @@ class Effects(Machine):
         """A callback changes which executor serves ``node``."""
         if self.world.deeds is not None:
             act = Act(name=what, source=place, chain=self.world.chain[1:])
-            self.world.deeds.changes.append(act)
+            note_once(self.world.deeds.changes, act)
 
     def enter_context(self, value: Value, place: Place) -> Value:
         """What ``with value as x`` binds to ``x``; locks are held inside."""
@@ -242,6 +240,12 @@ class Effects(Machine):
                 return self.call(method, Call(place))
             return value
         return value
+
+
+def _is_same_wait(one: Blocking, other: Blocking) -> bool:
+    """References to two entities are equal as texts."""
+    numbers = [block.on.number for block in (one, other) if isinstance(block.on, EntityRef)]
+    return one == other and len(set(numbers)) < 2
 
 
 def _object_name(owner: Instance | Class, cls: Class) -> str:

@@ -28,6 +28,7 @@ BASE = 'rclpy.callback_groups.CallbackGroup'
 EXCLUSIVE = 'rclpy.callback_groups.MutuallyExclusiveCallbackGroup'
 REENTRANT = 'rclpy.callback_groups.ReentrantCallbackGroup'
 
+DEFAULT_GROUP = '_default_callback_group'
 _DECISIVE = frozenset({'can_execute', 'beginning_execution', 'ending_execution', '__new__'})
 
 
@@ -75,22 +76,29 @@ def new_group(machine: Machine, state: GroupState, place: Place, hint: str | Non
 
 def group_of(machine: Machine, node: Instance, value: Value | None, place: Place) -> Instance:
     """The group that ``callback_group=value`` means for an entity of ``node``."""
-    state = node.state
-    assert isinstance(state, NodeState)
-    options = options_of(value) if value is not None else ()
+    default = default_group_of(node)
     if value is None or value == NONE:
-        return state.default_group
+        value = default
+    options = options_of(value)
     if isinstance(value, Choice):
-        groups = {id(group): group for group in (_known_group(state, o) for o in options) if group}
-        if len(groups) == 1 and all(_known_group(state, option) for option in options):
+        groups = {id(g): g for g in (_known_group(default, o) for o in options) if g}
+        if len(groups) == 1 and all(_known_group(default, option) for option in options):
             return next(iter(groups.values()))
-    known = _known_group(state, value)
+    known = _known_group(default, value)
     return known or _unknown_group(machine, value, place)
 
 
-def _known_group(node: NodeState, value: Value) -> Instance | None:
+def default_group_of(node: Instance) -> Value:
+    """The default group of ``node``; a program may replace it (``node.py``, 7.1.6)."""
+    state = node.state
+    assert isinstance(state, NodeState)
+    held = node.slots.get(DEFAULT_GROUP)
+    return held if isinstance(held, Value) else state.default_group
+
+
+def _known_group(default: Value, value: Value) -> Instance | None:
     if value == NONE:
-        return node.default_group
+        value = default
     if isinstance(value, Instance) and isinstance(value.state, GroupState):
         return value
     return None

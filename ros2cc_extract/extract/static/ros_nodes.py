@@ -11,7 +11,12 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_groups import group_of, new_group
+from ros2cc_extract.extract.static.ros_groups import (
+    DEFAULT_GROUP,
+    default_group_of,
+    group_of,
+    new_group,
+)
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -27,6 +32,7 @@ from ros2cc_extract.extract.static.world import (
     GroupState,
     NodeState,
     PlainState,
+    note_once,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Act, EntityKind, GroupType, When
@@ -110,7 +116,7 @@ def add_entity(
     world.entities.append(entity)
     world.by_node.setdefault(id(node), []).append(entity)
     if world.deeds is not None:
-        world.deeds.changes.append(Act(name=kind.value, source=place, chain=world.chain[1:]))
+        note_once(world.deeds.changes, Act(name=kind.value, source=place, chain=world.chain[1:]))
     return entity
 
 
@@ -118,6 +124,7 @@ def _init(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if isinstance(receiver.state, NodeState):
         receiver.state.name = call.argument(0, 'node_name') or NONE
+        machine.store.remove(receiver, DEFAULT_GROUP)
     return NONE
 
 
@@ -159,7 +166,7 @@ def _made_before(
         return None
     if machine.world.deeds is not None:
         act = Act(name=kind.value, source=place, chain=machine.world.chain[1:])
-        machine.world.deeds.changes.append(act)
+        note_once(machine.world.deeds.changes, act)
     return known
 
 
@@ -253,8 +260,7 @@ def _get_parameter_value(machine: Machine, receiver: Value, call: Call) -> Value
 
 
 def _default_group(machine: Machine, receiver: Instance, place: Place) -> Value:
-    group: Instance = receiver.state.default_group
-    return group
+    return default_group_of(receiver)
 
 
 def _unfollowed(reason: str) -> Handler:
@@ -302,7 +308,7 @@ TABLE = Library(
             state=make_node,
             init=_init,
             methods=_NODE_METHODS,
-            properties={'default_callback_group': _default_group},
+            properties={'default_callback_group': _default_group, DEFAULT_GROUP: _default_group},
         ),
         LIFECYCLE_NODE: LibraryClass(init=_init, bases=(NODE,)),
         'rclpy.parameter.Parameter': LibraryClass(

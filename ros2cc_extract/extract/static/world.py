@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
@@ -177,6 +178,18 @@ class Deeds:
     locks: list[Act] = field(default_factory=list)
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
+
+
+# A loop that is unrolled meets the same deed again and again.
+RECENT = 40
+
+Deed = TypeVar('Deed', Access, Act)
+
+
+def note_once(noted: list[Deed], deed: Deed) -> None:
+    """Note ``deed`` unless it has just been noted."""
+    if deed not in noted[-RECENT:]:
+        noted.append(deed)
 
 
 @dataclass
