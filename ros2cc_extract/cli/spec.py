@@ -1,17 +1,30 @@
-"""``ros2cc-extract spec``: the YAML specification on stdout, one document per unit."""
+"""
+``ros2cc-extract spec``: the YAML specification on stdout, one document per unit.
+
+With ``--check`` nothing is written: the source must still say what the committed file says.
+"""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
-from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_UNDECIDED
+from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS, EXIT_UNDECIDED
+
+if TYPE_CHECKING:
+    from ros2cc_extract.extract.extraction import Extraction
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         'paths', nargs='*', type=Path, metavar='PATH', help='a Python file or a directory'
+    )
+    parser.add_argument(
+        '--check',
+        type=Path,
+        metavar='FILE',
+        help='exit 1 unless FILE says the same; tells how not',
     )
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
     parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
@@ -22,23 +35,52 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.schema:
         stdout.write(_schema())
         return EXIT_CLEAN
-    from ros2cc_extract.cli.output import write_text
     from ros2cc_extract.cli.sources import has_errors, print_diagnostics, scan_sources
     from ros2cc_extract.errors import InputError
-    from ros2cc_extract.spec.yaml_io import write_specs
 
     if not args.paths:
         raise InputError('no path given', None, 'name a Python file or a directory')
     extraction = scan_sources(args.paths, stderr)
     print_diagnostics(extraction.diagnostics, stderr)
+    has_drift = False
+    if args.check is not None:
+        has_drift = _has_drift(args, extraction, stdout, stderr)
+    else:
+        _write(args, extraction, stdout, stderr)
+    if has_errors(extraction.diagnostics):
+        return EXIT_ERROR
+    if has_drift:
+        return EXIT_FINDINGS
+    unresolved = any(unit.unresolved for unit in extraction.units)
+    return EXIT_UNDECIDED if args.strict and unresolved else EXIT_CLEAN
+
+
+def _write(
+    args: argparse.Namespace, extraction: Extraction, stdout: TextIO, stderr: TextIO
+) -> None:
+    from ros2cc_extract.cli.output import write_text
+    from ros2cc_extract.spec.yaml_io import write_specs
+
     if extraction.units:
         write_text(write_specs(extraction.units), args.output, stdout)
     else:
         print(f'no rclpy node found in {len(extraction.files_seen)} files', file=stderr)
-    if has_errors(extraction.diagnostics):
-        return EXIT_ERROR
-    unresolved = any(unit.unresolved for unit in extraction.units)
-    return EXIT_UNDECIDED if args.strict and unresolved else EXIT_CLEAN
+
+
+def _has_drift(
+    args: argparse.Namespace, extraction: Extraction, stdout: TextIO, stderr: TextIO
+) -> bool:
+    from ros2cc_extract.drift import drift
+    from ros2cc_extract.report.drift_text import print_drift
+    from ros2cc_extract.report.style import console_for
+    from ros2cc_extract.spec.yaml_io import load_specs
+
+    found = drift(load_specs(args.check), extraction.units)
+    print_drift(found, str(args.check), console_for(stdout))
+    if found:
+        sources = ' '.join(map(str, args.paths))
+        print(f'to accept: ros2cc-extract spec {sources} -o {args.check}', file=stderr)
+    return bool(found)
 
 
 def _schema() -> str:

@@ -24,7 +24,12 @@ ALLOWED = {
     'extract.live': {'spec', 'extract'},
     'live': {'extract.live'},
 }
-ROOM_OF_MODULE = {'evidence': 'verify', 'verifyta': 'verify', 'sweep': 'verify'}
+ROOM_OF_MODULE = {
+    'evidence': 'verify',
+    'verifyta': 'verify',
+    'sweep': 'verify',
+    'drift': 'merge',
+}
 LONGEST_MODULE = 800
 LONGEST_FUNCTION = 60
 
