@@ -24,6 +24,7 @@ from ros2cc_extract.places import Place, Unknown
 UNROLL_LIMIT = 64
 
 _NEXT, _RETURN, _BREAK, _CONTINUE = 1, 2, 4, 8
+_OUT = _RETURN | _BREAK
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
 
 
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
-    """Run the body of a ``for`` loop; returns how the loop may end."""
+    """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` told from ``NEXT``."""
     path, ends = machine.world.path, 0
     try:
         if len(items.known) > UNROLL_LIMIT:
@@ -79,21 +80,21 @@ def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place
             why = items.why_many(item)
             if why is not None:
                 with counted(machine, why):
-                    ends |= after_loop(_run_item(machine, item, once, place))
+                    ends |= _run_item(machine, item, once, place) & _OUT
                 continue
             flow = _run_item(machine, item, once, place)
-            ends |= flow & _RETURN
+            ends |= flow & _OUT
             if flow & _BREAK and not flow & (_NEXT | _CONTINUE):
-                return ends | _NEXT
+                return ends
             if flow and not flow & (_NEXT | _CONTINUE | _BREAK):
-                return ends | (flow & ~(_BREAK | _CONTINUE))
+                return ends | (flow & ~_CONTINUE)
             if flow & (_BREAK | _RETURN):
                 machine.world.path = (*machine.world.path, (place, -1))
         rest = items.others
         if rest is not None:
             with counted(machine, Unknown(f'made in a loop: {rest.reason}', rest.at or place)):
                 item = Mystery(Unknown(f'loop variable: {rest.reason}', place), 'item')
-                ends |= after_loop(once(item))
+                ends |= once(item) & _OUT
         return ends | _NEXT
     finally:
         machine.world.path = path
@@ -119,7 +120,8 @@ def _run_many(
 ) -> int:
     reason = f'one of {len(items)} items of a loop'
     with counted(machine, len(items)):
-        return after_loop(once(Mystery(Unknown(reason, place), 'item')))
+        flow = once(Mystery(Unknown(reason, place), 'item'))
+    return flow & _OUT | _NEXT if flow & (_NEXT | _BREAK | _CONTINUE) else flow
 
 
 def after_loop(flow: int) -> int:

@@ -39,14 +39,20 @@ class BudgetError(Exception):
 
 @dataclass
 class Frame:
-    """One running function, class body or module."""
+    """
+    One running function, class body or module.
+
+    :param breaks: what the branches that leave the running loop had written to own names.
+    :param continues: the same of the branches that go on with its next round.
+    """
 
     scope: Scope
     function: Function | None = None
     results: list[Value] = field(default_factory=list)
     yields: list[Value] = field(default_factory=list)
     qualname: str = ''
-    loop_exits: int = 0
+    breaks: list[Writes] = field(default_factory=list)
+    continues: list[Writes] = field(default_factory=list)
 
     @property
     def module(self) -> Module:

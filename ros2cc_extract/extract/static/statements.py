@@ -8,7 +8,8 @@ one bit is set where that depends on a branch nobody can decide.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import reduce
 from operator import or_
 from typing import Any
@@ -173,6 +174,7 @@ class Statements(Machine):
         if not live:
             self.store.join([writes for _, writes in ends])
             return DEAD
+        _keep_loop_exits(live, frame)
         going = [writes for flow, writes in live if flow & NEXT]
         leaving = [_without(writes, frame.scope) for flow, writes in live if not flow & NEXT]
         if going:
@@ -180,6 +182,36 @@ class Statements(Machine):
         else:
             self.store.join([writes for _, writes in live])
         return reduce(or_, (flow for flow, _ in live)) & ~DEAD
+
+
+def _keep_loop_exits(ends: Sequence[tuple[int, Writes]], frame: Frame) -> None:
+    """What a branch wrote to own names before ``break`` or ``continue`` holds later on."""
+    for flow, writes in ends:
+        own = {key: entry for key, entry in writes.items() if entry[0] is frame.scope}
+        if own and flow & BREAK:
+            frame.breaks.append(own)
+        if own and flow & CONTINUE:
+            frame.continues.append(own)
+
+
+@contextmanager
+def _loop(machine: Statements, frame: Frame) -> Iterator[None]:
+    """A loop runs inside; afterwards what held at any ``break`` may hold."""
+    outer = frame.breaks, frame.continues
+    frame.breaks, frame.continues = [], []
+    try:
+        yield
+        machine.store.join([{}], frame.breaks)
+    finally:
+        frame.breaks, frame.continues = outer
+
+
+def _round(machine: Statements, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Run the body of a loop once."""
+    flow = machine.execute_block(body, frame)
+    machine.store.join([{}], frame.continues)
+    frame.continues.clear()
+    return flow
 
 
 def _without(writes: Writes, scope: Scope) -> Writes:
@@ -377,12 +409,24 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
 
     def once(item: Value) -> int:
         machine.assign(node.target, item, frame)
-        return machine.execute_block(node.body, frame)
+        return _round(machine, node.body, frame)
 
-    flow = loops.run_loop(machine, items, once, place)
-    if node.orelse and flow & NEXT:
-        flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
-    return flow
+    with _loop(machine, frame):
+        flow = loops.run_loop(machine, items, once, place)
+        return _or_else(machine, node, flow, frame)
+
+
+def _or_else(machine: Statements, node: ast.For | ast.AsyncFor, flow: int, frame: Frame) -> int:
+    """Run what stands under ``else`` of a loop that ends by ``flow``, unless it is left."""
+    left, rest = flow & BREAK, flow & ~(NEXT | BREAK)
+    if not flow & NEXT or not node.orelse:
+        return rest | (NEXT if flow & (NEXT | BREAK) else 0)
+
+    def run() -> int:
+        return machine.execute_block(node.orelse, frame)
+
+    ends = machine.branches([run, lambda: NEXT], frame.place(node), frame) if left else run()
+    return rest | ends
 
 
 def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
@@ -391,8 +435,8 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
         return machine.execute_block(node.orelse, frame)
     machine.note_loop(node, frame)
     reason = Unknown('made in a while loop', frame.place(node))
-    with loops.counted(machine, reason):
-        flow = machine.execute_block(node.body, frame)
+    with loops.counted(machine, reason), _loop(machine, frame):
+        flow = _round(machine, node.body, frame)
     return loops.after_loop(flow)
 
 
