@@ -300,27 +300,32 @@ class _ProcessAnalysis:
     # -- liveness ------------------------------------------------------------------------
     def _live(self, steps: Mapping[Node, list[_Step]]) -> dict[Node, set[int]]:
         """Return what may be read from each node on, before it is written (a least fixpoint)."""
-        live = {node: self._asked_for(node) for node in steps}
-        before: dict[Node, set[Node]] = {node: set() for node in steps}
+        # Sets as bits of integers: models of twenty callbacks have thousands of nodes.
+        bit_of = {slot: 1 << i for i, slot in enumerate(sorted(self._candidates))}
+
+        def bits(slots: Iterable[int]) -> int:
+            return sum(bit_of[slot] for slot in slots if slot in bit_of)
+
+        live = {node: bits(self._asked_for(node)) for node in steps}
+        before: dict[Node, list[tuple[Node, int]]] = {node: [] for node in steps}
         for node, leaving in steps.items():
             for step in leaving:
-                live[node] |= step.reads
+                live[node] |= bits(step.reads)
+                kept = ~bits(step.writes)
                 for target in step.targets:
-                    before[target].add(node)
-            # A control that is forgotten must be forgettable where that leads to.
-            for target in self._reset_nodes(node):
-                before[target].add(node)
+                    before[target].append((node, kept))
         waiting = list(steps)
         while waiting:
-            node = waiting.pop()
-            grown = set(live[node])
-            for step in steps[node]:
-                for target in step.targets:
-                    grown |= live[target] - step.writes
-            if grown != live[node]:
-                live[node] = grown
-                waiting += before[node]
-        return live
+            target = waiting.pop()
+            for node, kept in before[target]:
+                grown = live[node] | live[target] & kept
+                if grown != live[node]:
+                    live[node] = grown
+                    waiting.append(node)
+        return {
+            node: {slot for slot, bit in bit_of.items() if found & bit}
+            for node, found in live.items()
+        }
 
     def _asked_for(self, node: Node) -> set[int]:
         """Return the candidates that a predicate may read at a node."""

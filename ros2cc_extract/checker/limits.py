@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+_MEMINFO = Path('/proc/meminfo')
 _STATM = Path('/proc/self/statm')
 _PAGE_BYTES = resource.getpagesize()
 _MB = 1024 * 1024
@@ -44,11 +45,27 @@ def peak_mb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
+def most_of_the_memory_mb() -> float | None:
+    """Return what this process may take if it leaves a tenth of the free memory to others."""
+    try:
+        lines = _MEMINFO.read_text().splitlines()
+    except OSError:
+        return None
+    free_kb = [int(line.split()[1]) for line in lines if line.startswith('MemAvailable:')]
+    return memory_mb() + 0.9 * free_kb[0] / 1024 if free_kb else None
+
+
 class Watch:
-    """Looks at the clock and the memory now and then."""
+    """
+    Looks at the clock and the memory now and then.
+
+    Without a limit on memory, most of what the machine has free is the limit: the system would
+    end the process otherwise, and with it what is known.
+    """
 
     def __init__(self, limits: Limits, progress: Callable[[Progress], None] | None) -> None:
         self._limits = limits
+        self._memory_mb = limits.memory_mb or most_of_the_memory_mb()
         self._progress = progress
         self._start = time.monotonic()
 
@@ -76,9 +93,9 @@ class Watch:
         late = self.out_of_time()
         if late:
             return late
-        limit = limits.memory_mb
+        limit = self._memory_mb
         if limit is not None and memory_mb() + more_bytes / _MB > limit:
-            return f'the limit of {limits.memory_mb:g} MB was reached'
+            return f'the limit of {limit:.0f} MB was reached'
         if limits.states is not None and states >= limits.states:
             return f'the limit of {limits.states} states was reached'
         return None

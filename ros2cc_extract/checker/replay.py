@@ -15,6 +15,7 @@ from ros2cc_extract.checker.run import EdgeRef, Naming, Run, Step
 from ros2cc_extract.checker.search import End, Fairness, Reduce, StatePath
 from ros2cc_extract.checker.semantics import Edges, Semantics, State, Transition
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration
+from ros2cc_extract.checker.walks import mentions_deadlock
 from ros2cc_extract.errors import CoreMismatchError
 
 _MEND = 'please report this model: it is a defect of the checker'
@@ -38,6 +39,7 @@ class Replayer:
         self._fairness = fairness
         self._semantics = Semantics(network)
         self._naming = Naming(elaboration, network)
+        self._known: dict[State, list[Transition]] = {}
 
     def run(self, prop: Property, path: StatePath, reduce: Reduce | None) -> Run:
         """
@@ -56,6 +58,12 @@ class Replayer:
         self._check_formulas(prop, real)
         return self._told(real)
 
+    def _successors(self, state: State) -> list[Transition]:
+        # The paths of one search share most of their beginnings.
+        if state not in self._known:
+            self._known[state] = list(self._semantics.successors(state))
+        return self._known[state]
+
     def _moves(
         self, states: Sequence[State], cycle_start: int | None, reduce: Reduce | None
     ) -> list[Edges]:
@@ -64,7 +72,7 @@ class Replayer:
         unserved = set(range(len(self._network.processes))) if is_fair else set()
         moves: list[Edges] = []
         for index, state in enumerate(states[:-1]):
-            leaving = list(self._semantics.successors(state))
+            leaving = self._successors(state)
             fitting = [
                 t.edges
                 for t in leaving
@@ -102,7 +110,7 @@ class Replayer:
 
     def _extend(self, real: _RealPath, moves: Sequence[Edges]) -> None:
         for edges in moves:
-            taken = [t for t in self._semantics.successors(real.states[-1]) if t.edges == edges]
+            taken = [t for t in self._successors(real.states[-1]) if t.edges == edges]
             if not taken:
                 raise _mismatch('one of its steps is not enabled')
             real.moves.append(taken[0])
@@ -110,7 +118,8 @@ class Replayer:
 
     # -- what the path should show -------------------------------------------------------
     def _holds(self, formula: Expr, state: State) -> bool:
-        return bool(self._semantics.evaluate(formula, state))
+        is_deadlock = mentions_deadlock(formula) and not self._successors(state)
+        return bool(self._semantics.evaluate(formula, state, is_deadlock))
 
     def _check_formulas(self, prop: Property, path: _RealPath) -> None:
         last = path.states[-1]
@@ -140,7 +149,7 @@ class Replayer:
         if path.cycle_start is not None:
             return
         last = path.states[-1]
-        is_stuck = next(self._semantics.successors(last), None) is None
+        is_stuck = not self._successors(last)
         if path.end is End.DEADLOCK and is_stuck:
             return
         may_stay = self._fairness is Fairness.NONE and self._semantics.may_idle(last)

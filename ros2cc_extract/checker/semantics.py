@@ -61,10 +61,10 @@ class Semantics:
             tuple(variable.initial for variable in variables),
         )
 
-    def evaluate(self, expr: Expr, state: State) -> int:
-        """Evaluate a state expression, working out ``deadlock`` only where it matters."""
+    def evaluate(self, expr: Expr, state: State, is_deadlock: bool) -> int:
+        """Evaluate a state expression; the caller knows what ``deadlock`` is here."""
         memory = self._memory(state)
-        memory.is_deadlock = next(self.successors(state), None) is None
+        memory.is_deadlock = is_deadlock
         return self._interpreter.value(expr, memory)
 
     def successors(self, state: State) -> Iterator[Transition]:
