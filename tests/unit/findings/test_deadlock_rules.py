@@ -97,6 +97,32 @@ def test_the_service_of_the_same_unit_may_be_what_is_shut_out() -> None:
     assert 'on_plan, which serves it, is in the default group' in only(spec, 'CC101').message
 
 
+def test_of_two_servers_of_one_name_none_is_taken_for_the_one() -> None:
+    spec = unit(
+        threads(2),
+        timer('drive', blocking=calls('plan_client')),
+        client('plan_client', 'other'),
+        service('on_plan', key='plan'),
+        service('on_plan_too', 'other', key='plan'),
+    )
+    assert found(spec) == []
+
+
+def test_a_callback_does_not_wait_for_itself() -> None:
+    spec = unit(ONE_THREAD, timer('drive', blocking=calls('drive', call='Event.wait')))
+    assert found(spec) == []
+
+
+def test_a_call_that_never_ends_by_itself_is_not_also_a_full_pool() -> None:
+    spec = unit(
+        threads(2),
+        timer('drive', blocking=calls('plan_client')),
+        client('plan_client'),
+        timer('turn', 'other', blocking=calls('plan_client', 45)),
+    )
+    assert found(spec) == ['CC101:40']
+
+
 @pytest.mark.parametrize('on', [None, Unknown('an argument'), 'client_of_another_unit'])
 def test_an_unknown_client_gives_nothing(on: str | Unknown | None) -> None:
     spec = unit(ONE_THREAD, timer('drive', blocking=calls(on)), client('plan_client'))

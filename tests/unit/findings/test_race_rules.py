@@ -9,6 +9,7 @@ from finding_units import (
     appends,
     at,
     calls,
+    default_threads,
     exclusive,
     found,
     only,
@@ -85,6 +86,8 @@ def races(spec: Spec, verification: Verification | None = None) -> list[str]:
         (counter(threads(2)), ['CC301:30 warning']),
         (counter(threads(2), 'arm_default'), []),
         (counter(threads(1)), []),
+        (counter(default_threads(1)), ['CC301:30 warning']),
+        (counter(threads(2), alternative='either'), ['CC301:30 warning']),
         (counter(ONE_THREAD), []),
         (counter(NOT_FOUND), []),
         (counter(threads(2), node='leg'), []),
@@ -105,6 +108,15 @@ def test_groups_and_threads_decide_where_no_verdict_is(spec: Spec, expected: lis
 )
 def test_the_verdict_of_the_model_goes_before(verdict: Verdict, expected: list[str]) -> None:
     assert races(counter(threads(2)), verified(verdict, 'on_reset', 'tick')) == expected
+
+
+def test_branches_of_which_only_one_is_taken_do_not_race() -> None:
+    spec = unit(
+        threads(2),
+        timer('tick', alternative='either', writes=updates('Arm.count', 30)),
+        subscription('on_reset', 'other', alternative='either', writes=writes('Arm.count', 35)),
+    )
+    assert races(spec) == []
 
 
 def test_the_run_of_the_model_is_the_evidence() -> None:

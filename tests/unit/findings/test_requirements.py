@@ -92,6 +92,10 @@ def test_a_name_that_is_no_callback_is_told() -> None:
     assert "there is no callback 'on_stopp'" in finding.message
 
 
+def test_one_callback_by_two_names_is_no_pair() -> None:
+    assert check({'never_together': [['stop', 'on_stop']]}, Verdict.NOT_SATISFIED) == ()
+
+
 def test_different_executors_keep_nothing_apart() -> None:
     leg = replace(unit(threads(2), timer('walk', 'g'), groups=(exclusive('g'),)), name='leg')
     required = read_requirements({'never_together': [['move', 'walk']]}, TABLE)

@@ -10,6 +10,7 @@ from typing import Any
 
 from report_samples import CALL, FINDINGS, RACE, RUN
 
+from ros2cc_extract.evidence import Sentence
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.html import html_report
 from ros2cc_extract.report.run_lanes import Lane, Stay, lanes_of
@@ -134,6 +135,15 @@ def test_a_run_is_data_for_the_script_and_text_without_it() -> None:
     }
     assert run['cycleFrom'] == 2
     assert '<li>from here for ever: tick starts on thread_0; executor polls</li>' in text
+
+
+def test_what_a_run_says_cannot_end_the_script() -> None:
+    evil = Sentence('executor', '</script><!--')
+    moment = replace(RUN.moments[0], sentences=(evil,))
+    text = page(replace(RACE, run=replace(RUN, moments=(moment,))))
+    assert text.count('</script>') == 2
+    assert '<!--' not in text
+    assert parsed(text).open == []
 
 
 def test_lanes_have_no_gap_and_name_the_callback() -> None:
