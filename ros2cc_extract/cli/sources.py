@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
 
@@ -18,11 +19,24 @@ RECORDING_SUFFIX = '.json'
 
 
 def scan_sources(paths: Sequence[Path], stderr: TextIO) -> Extraction:
-    """Scan Python files and directories, with progress."""
+    """
+    Scan Python files and directories, with progress.
+
+    Nodes without any callback, such as those that only publish, are told and left out: neither
+    the published format nor a model has a place for them.
+    """
     from ros2cc_extract.extract.static.api import scan
 
     with scan_progress(stderr) as progress:
-        return scan(paths, progress=progress)
+        extraction = scan(paths, progress=progress)
+    for unit in extraction.units:
+        if not unit.callbacks:
+            print(f'{_where(unit)}: unit {unit.name} has no callback, left out', file=stderr)
+    return replace(extraction, units=tuple(unit for unit in extraction.units if unit.callbacks))
+
+
+def _where(unit: Spec) -> str:
+    return str(unit.executor.source or (unit.sources[0] if unit.sources else unit.entry or '?'))
 
 
 def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:

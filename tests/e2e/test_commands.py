@@ -120,3 +120,17 @@ def test_json_of_check_holds_everything(run: Run) -> None:
 def test_the_same_input_gives_the_same_output(run: Run) -> None:
     first, second = (run('spec', EXAMPLES).out for _ in range(2))
     assert first == second != ''
+
+
+def test_a_node_that_only_publishes_is_told_and_left_out(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'talker.py').write_text(
+        'import rclpy\n'
+        'from std_msgs.msg import String\n'
+        "rclpy.init()\nnode = rclpy.create_node('talker')\n"
+        "out = node.create_publisher(String, 'chatter', 10)\n"
+        'rclpy.spin(node)\n'
+    )
+    outcome = run('talker.py')
+    assert outcome.status == 0
+    assert 'unit talker has no callback, left out' in outcome.err
+    assert outcome.out.startswith('1 file, 0 units')
