@@ -96,6 +96,19 @@ def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: R
     assert [c.display_name for c in written(recorded.units['stuck'])] == ['tick']
 
 
+@pytest.mark.parametrize('asked', [signal.SIGINT, signal.SIGTERM])
+def test_signal_that_nobody_handles_ends_the_program_as_before(
+    asked: signal.Signals, start: Start, tmp_path: Path
+) -> None:
+    ends = []
+    for folder in (None, tmp_path):
+        child = start(PROGRAMS / 'waiting.py', '1', '1', recorded_into=folder)
+        child.read_until(lambda lines: 'tick\n' in lines)
+        ends.append((child.end(asked), child.lines[-1].partition(':')[0]))
+    assert ends[0] == ends[1]
+    assert ends[0][0] != 0
+
+
 def test_nodes_are_told_by_the_executor_they_stayed_in(run: RunProgram) -> None:
     units = run('moving_nodes.py').units
     assert {name: (unit.executor.kind, unit.nodes) for name, unit in units.items()} == {

@@ -16,7 +16,7 @@ from conftest import EXAMPLES, ROOT
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment, shell_commands
-from ros2cc_extract.extract.live.run import run_command
+from ros2cc_extract.extract.live.run import collect_directory, run_command
 from ros2cc_extract.spec.yaml_io import load_specs
 
 OURSELVES = (
@@ -117,7 +117,24 @@ def test_command_without_a_node_is_told(ros_env: dict[str, str], tmp_path: Path)
     output = tmp_path / 'live.yaml'
     status, told = run_here(['true'], output, ros_env)
     assert (status, output.exists()) == (0, False)
-    assert told.startswith('ros2cc-extract: no process of this command has put a node into')
+    assert told.startswith('ros2cc-extract: no recorded process has put a node into')
+
+
+def test_running_process_is_collected_from_its_directory(
+    start: Callable[..., Child], tmp_path: Path
+) -> None:
+    folder = tmp_path / 'recordings'
+    folder.mkdir()
+    child = start(EXAMPLES / 'two_groups' / 'node.py', recorded_into=folder)
+    output = tmp_path / 'live.yaml'
+    child.wait_for(lambda: collect_directory(folder, output, io.StringIO()) == 0)
+    assert [unit.name for unit in load_specs(output)] == ['obstacle_stop']
+
+
+def test_directory_without_recordings_is_told(tmp_path: Path) -> None:
+    stderr = io.StringIO()
+    assert collect_directory(tmp_path, tmp_path / 'live.yaml', stderr) == 2
+    assert 'no recorded process' in stderr.getvalue()
 
 
 def test_variables_for_a_shell_are_those_of_a_run(tmp_path: Path) -> None:

@@ -76,6 +76,25 @@ def run_command(
     return end_alike(recorded.status) or finished
 
 
+def collect_directory(directory: Path, output: Path, stderr: TextIO) -> int:
+    """
+    Write the specification of all processes that recorded themselves into ``directory``.
+
+    For processes that were hooked by environment variables alone; they may still run.
+
+    :return: 0; 2 when there is nothing in it.
+    :raises InputError: when the directory does not exist or ``output`` cannot be written.
+    """
+    if not directory.is_dir():
+        raise InputError('is no directory', Place(str(directory)), 'name the one given to env -o')
+    check_output(output)
+    recordings = tuple(read_directory(directory, stderr))
+    report_losses(recordings, stderr)
+    recorded = Recorded(0, recordings)
+    write_output(recorded, output, stderr)
+    return 0 if recorded.specs else EXIT_ERROR
+
+
 def record(
     command: Sequence[str],
     environment: Mapping[str, str],
@@ -126,7 +145,7 @@ def write_output(recorded: Recorded, output: Path, stderr: TextIO) -> None:
     """
     if not recorded.specs:
         print(
-            'ros2cc-extract: no process of this command has put a node into an rclpy executor; '
+            'ros2cc-extract: no recorded process has put a node into an rclpy executor; '
             f'{output} is not written',
             file=stderr,
         )
