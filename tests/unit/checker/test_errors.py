@@ -293,9 +293,7 @@ COUNTER = 'a\n' + '\n'.join(f'a -> a; do: b[{i}] = !b[{i}]' for i in range(40))
         (Limits(memory_mb=1), 'the limit of 1 MB was reached'),
     ],
 )
-def test_limit_leaves_queries_undecided(
-    limits: Limits, reason: str, engine: EngineKind
-) -> None:
+def test_limit_leaves_queries_undecided(limits: Limits, reason: str, engine: EngineKind) -> None:
     model = single(COUNTER, 'bool b[40];')
     result = ask(
         model, 'A[] not deadlock', 'b[0] --> b[1]', engine=engine, limits=limits, reduction=False

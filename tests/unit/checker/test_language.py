@@ -128,9 +128,7 @@ def test_updates_run_in_order_and_know_steps_and_arrays(engine: EngineKind) -> N
 def test_sender_updates_before_receiver(engine: EngineKind) -> None:
     sender = automaton('S', 'a b\na -> b; sync: c!; do: x = 1')
     receiver = automaton('R', 'a b\na -> b; sync: c?; do: y = x + 1')
-    model = network(
-        receiver, sender, declaration='chan c; int[0, 5] x, y;', system='system R, S;'
-    )
+    model = network(receiver, sender, declaration='chan c; int[0, 5] x, y;', system='system R, S;')
     assert holds(model, 'E<> y == 2', 'E<> y == 1', engine=engine) == [True, False]
 
 
