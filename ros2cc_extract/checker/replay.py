@@ -40,6 +40,7 @@ class Replayer:
         self._semantics = Semantics(network)
         self._naming = Naming(elaboration, network)
         self._known: dict[State, list[Transition]] = {}
+        self._steps: dict[tuple[State, State], list[Edges]] = {}
 
     def run(self, prop: Property, path: StatePath, reduce: Reduce | None) -> Run:
         """
@@ -64,6 +65,19 @@ class Replayer:
             self._known[state] = list(self._semantics.successors(state))
         return self._known[state]
 
+    def _fitting(self, state: State, target: State, reduce: Reduce | None) -> list[Edges]:
+        """Return the edges that lead from one state of the search to the next."""
+        key = state, target
+        if key not in self._steps:
+            self._steps[key] = [
+                t.edges
+                for t in self._successors(state)
+                if (reduce(t.target, t.edges) if reduce else t.target) == target
+            ]
+        if not self._steps[key]:
+            raise _mismatch('one of its steps is no transition of the model')
+        return self._steps[key]
+
     def _moves(
         self, states: Sequence[State], cycle_start: int | None, reduce: Reduce | None
     ) -> list[Edges]:
@@ -72,15 +86,9 @@ class Replayer:
         unserved = set(range(len(self._network.processes))) if is_fair else set()
         moves: list[Edges] = []
         for index, state in enumerate(states[:-1]):
-            leaving = self._successors(state)
-            fitting = [
-                t.edges
-                for t in leaving
-                if (reduce(t.target, t.edges) if reduce else t.target) == states[index + 1]
-            ]
-            if not fitting:
-                raise _mismatch('one of its steps is no transition of the model')
+            fitting = self._fitting(state, states[index + 1], reduce)
             if cycle_start is not None and index >= cycle_start:
+                leaving = self._successors(state)
                 unserved &= {process for t in leaving for process, _ in t.edges}
             moves.append(max(fitting, key=lambda edges: len({p for p, _ in edges} & unserved)))
             if cycle_start is not None and index >= cycle_start:

@@ -77,6 +77,7 @@ class FunctionCompiler:
         self._expressions = expressions
         self._tables = expressions.tables
         self._known: dict[tuple[object, ...], tuple[int, IntType | None]] = {}
+        self._constant_calls: dict[tuple[object, ...], Expr] = {}
         self._open: list[FunctionSymbol] = []
 
     def call(self, node: syntax.Call, scope: Scope) -> Expr:
@@ -97,8 +98,15 @@ class FunctionCompiler:
         references, values = self._arguments(node, symbol, scope)
         self._open.append(symbol)
         try:
-            inlined = self._inlined(symbol, references, values)
-            return inlined or self._real_call(symbol, references, values)
+            if references or not all(isinstance(value, Const) for _, value in values.values()):
+                inlined = self._inlined(symbol, references, values)
+                return inlined or self._real_call(symbol, references, values)
+            # Queries call the same functions with the same constants by the hundred.
+            key = (symbol, *(value.low for _, value in values.values()))
+            if key not in self._constant_calls:
+                inlined = self._inlined(symbol, references, values)
+                self._constant_calls[key] = inlined or self._real_call(symbol, references, values)
+            return self._constant_calls[key]
         finally:
             self._open.pop()
 
