@@ -1,4 +1,5 @@
 """P6: rclpy.init as a context manager."""
+# live: no, rclpy.init is no context manager before Kilted
 
 import rclpy
 from rclpy.node import Node

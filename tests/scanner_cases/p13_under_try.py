@@ -1,4 +1,5 @@
 """P13: in the body of a try, as if nothing went wrong; in its handler, conditional."""
+# live: no, nothing goes wrong
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,5 @@
 """P26: a known but long loop is counted."""
+# live: no, counted, not listed
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,5 @@
 """P41: a rate is a timer in a private reentrant group, one group for each node."""
+# live: no, rates are of the library
 
 import rclpy
 from rclpy.node import Node
@@ -30,4 +31,4 @@ if __name__ == '__main__':
 #   timer rate_timer in rate_group every 0.1 library=rclpy.create_rate
 #   timer rate_timer_2 in rate_group every 1 library=rclpy.create_rate
 #   timer tick in a_default every 1
-#     blocks Rate.sleep on rate_timer @15
+#     blocks Rate.sleep on rate_timer @16

@@ -1,4 +1,5 @@
 """P47: two nodes spun in turn share the global executor."""
+# live: no, the nodes are in the executor in turn
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,5 @@
 """P51: the events executor."""
+# live: no, its spin cannot be stopped from Python
 
 import rclpy
 from rclpy.experimental import EventsExecutor

@@ -1,4 +1,5 @@
 """P62, point 8: a custom group class is unresolved, also when its name resembles a known one."""
+# live: no, unresolved
 
 import rclpy
 from rclpy.callback_groups import CallbackGroup

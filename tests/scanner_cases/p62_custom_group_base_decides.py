@@ -1,4 +1,5 @@
 """P62: a subclass that overrides nothing is what its base is."""
+# live: no, another class name
 
 import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup

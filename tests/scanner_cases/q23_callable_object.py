@@ -1,4 +1,5 @@
 """Point 23: an object with __call__."""
+# live: no, an object without a qualified name
 
 import time
 
@@ -33,4 +34,4 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   subscription Handler in a_default (Handler.__call__) key=in
-#     blocks time.sleep 0.1 s @15
+#     blocks time.sleep 0.1 s @16

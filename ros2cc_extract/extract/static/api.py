@@ -35,27 +35,28 @@ def scan(
     :param cache: folder of earlier results, see ``cache.default_cache_folder``.
     :raises InputError: for a missing path, or a directory without any Python file.
     """
-    project = Project.of_paths(paths, root)
-    if cache is None:
-        return _scan(project, progress)
-    entry = ScanCache(cache, project)
-    known = entry.load()
-    if known is None:
-        known = _scan(project, progress)
-        entry.store(project, known)
-    return known
+    with scanning_limits():
+        project = Project.of_paths(paths, root)
+        if cache is None:
+            return _scan(project, progress)
+        entry = ScanCache(cache, project)
+        known = entry.load()
+        if known is None:
+            known = _scan(project, progress)
+            entry.store(project, known)
+        return known
 
 
 def scan_text(text: str, name: str = 'node.py') -> Extraction:
     """Scan a program of one file given as text."""
-    return _scan(Project.of_text(text, name), None)
+    with scanning_limits():
+        return _scan(Project.of_text(text, name), None)
 
 
 def _scan(project: Project, progress: Progress | None) -> Extraction:
     scanned = _Scan(project, progress)
-    with scanning_limits():
-        scanned.follow_entries()
-        scanned.follow_the_rest()
+    scanned.follow_entries()
+    scanned.follow_the_rest()
     return scanned.result()
 
 

@@ -1,0 +1,32 @@
+"""P18: one attribute holds the node, given at once or later; it is one unknown node."""
+# live: no, there is no program
+
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Tab:
+    def __init__(self, node=None):
+        self._node = node
+
+    def before(self):
+        self._node.create_subscription(String, 'y', self.on_y, 10)
+
+    def set_node(self, node: Node):
+        self._node = node
+        node.create_timer(1.0, self.tick)
+
+    def tick(self):
+        pass
+
+    def listen(self):
+        self._node.create_subscription(String, 'x', self.on_x, 10)
+
+    def on_x(self, msg):
+        pass
+
+    def on_y(self, msg):
+        pass
+
+# expect:
+# ?

@@ -1,0 +1,32 @@
+"""P30: the thread spins the executor before its nodes are there."""
+
+import threading
+
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        pass
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=4)
+    thread = threading.Thread(target=executor.spin, daemon=True)
+    thread.start()
+    executor.add_node(A())
+    thread.join()
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# ?
