@@ -44,7 +44,7 @@ class RenderedModel:
     :param xml: the complete model, as UPPAAL opens it, queries included.
     :param queries: in the order of ``q`` and of the queries of ``xml``.
     :param published: the files of the published tool by file name, to be pasted into the
-        published template.
+        published template, which has a bound on arrivals: none of them where there is no bound.
     """
 
     name: str
@@ -64,14 +64,10 @@ def render(
     """
     Write the model of ``closed``.
 
-    :param max_cycle: how often each callback may become ready, at least 1; ``None`` for no
-        bound, in profile rclpy.
-    :raises ValueError: when ``max_cycle`` is none of these.
+    :param max_cycle: how often each callback may become ready, at least 1; ``None`` for no bound.
+    :raises ValueError: when ``max_cycle`` is below 1.
     """
-    if max_cycle is None:
-        if profile is Profile.PAPER:
-            raise ValueError('profile paper needs a bound on arrivals')
-    elif max_cycle < 1:
+    if max_cycle is not None and max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
     unit = number_unit(closed, max_cycle)
     published = paper_queries(unit)
@@ -86,7 +82,7 @@ def render(
 
 
 def _write_xml(unit: Unit, queries: tuple[Query, ...], profile: Profile, text: Text) -> str:
-    sources = choose_sources(profile, text, unit.kind)
+    sources = choose_sources(profile, text, unit)
     in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
     values = {
         'unit': unit,
@@ -104,6 +100,8 @@ def _write_xml(unit: Unit, queries: tuple[Query, ...], profile: Profile, text: T
 
 
 def _write_published_files(unit: Unit, queries: tuple[Query, ...]) -> Mapping[str, str]:
+    if unit.max_cycle is None:
+        return MappingProxyType({})
     return MappingProxyType(
         {
             f'{unit.name}_declarations.c': _fill(PUBLISHED.declarations, unit=unit),

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.generator.serving import ExecutorKind
+from ros2cc_extract.generator.unit import Unit
 
 
 class Profile(Enum):
@@ -55,6 +56,11 @@ _COMPACT = Sources(
     automata=(_GROUP, 'paper/compact/thread.xml.j2', 'paper/compact/executor.xml.j2'),
 )
 
+# Without a bound a callback may change its readiness for ever while nothing else moves.
+_COMPACT_FOR_EVER = replace(
+    _COMPACT, automata=('paper/compact/callback.xml.j2', *_COMPACT.automata)
+)
+
 _EXECUTOR_FILE = {
     ExecutorKind.SINGLE_THREADED: 'single_threaded',
     ExecutorKind.MULTI_THREADED: 'multi_threaded',
@@ -62,11 +68,13 @@ _EXECUTOR_FILE = {
 }
 
 
-def choose_sources(profile: Profile, text: Text, kind: ExecutorKind) -> Sources:
+def choose_sources(profile: Profile, text: Text, unit: Unit) -> Sources:
     """The files for one text; those of profile rclpy depend on the executor."""
     if profile is Profile.PAPER:
-        return _COMPACT if text is Text.COMPACT else PUBLISHED
-    executor = _EXECUTOR_FILE[kind]
+        if text is Text.PLAIN:
+            return PUBLISHED
+        return _COMPACT_FOR_EVER if unit.max_cycle is None else _COMPACT
+    executor = _EXECUTOR_FILE[unit.kind]
     return Sources(
         declarations=f'rclpy/{executor}_declarations.c.j2',
         system='shared/system.c.j2',

@@ -28,7 +28,7 @@ class Case:
 
 def paper_case(number: int) -> Case:
     random = Random(number)
-    max_cycle = random.randint(1, 3)
+    max_cycle = random.choice((1, 2, 3, None))
     unit = random_unit(random, callbacks=4, groups=3, threads=3)
     return Case(unit, Profile.PAPER, max_cycle)
 

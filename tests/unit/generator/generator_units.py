@@ -23,8 +23,11 @@ def every_text(callbacks: str, groups: str) -> dict[str, str]:
     """Render a unit in all ways there are: XML by profile, text, executor and waits."""
     wait = f'{callbacks.partition(":")[0]}:{callbacks.rpartition(" ")[2].partition(":")[0]}'
     paper = {
-        f'paper-{text.value}': render(closed_unit(callbacks, groups, 2), text=text).xml
+        f'paper-{text.value}-{max_cycle}': render(
+            closed_unit(callbacks, groups, 2), text=text, max_cycle=max_cycle
+        ).xml
         for text in Text
+        for max_cycle in (1, None)
     }
     rclpy = {
         f'rclpy-{kind.value}-{name}': render(

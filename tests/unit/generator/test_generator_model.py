@@ -94,6 +94,7 @@ def test_a_bound_on_arrivals_below_one_is_refused():
         render(ALONE, max_cycle=0)
 
 
-def test_profile_paper_needs_a_bound_on_arrivals():
-    with pytest.raises(ValueError, match='profile paper needs a bound on arrivals'):
-        render(ALONE, max_cycle=None)
+def test_without_a_bound_there_is_nothing_to_paste_into_the_published_template():
+    model = render(ALONE, max_cycle=None)
+    assert model.published == {}
+    assert 'MAX_CYCLE' not in model.xml
