@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.generator.build import Text, render
+from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.yaml_io import load_specs
 
@@ -20,7 +20,8 @@ def render_files(folder: Path) -> dict[str, str]:
     for text in Text:
         model = render(close(spec), text=text)
         files |= {f'{text.value}.xml': model.xml, f'{text.value}.q': model.q, **model.published}
-    return files
+    rclpy = render(close(spec), profile=Profile.RCLPY)
+    return files | {'rclpy.xml': rclpy.xml, 'rclpy.q': rclpy.q}
 
 
 @pytest.mark.parametrize('case', CASES)
