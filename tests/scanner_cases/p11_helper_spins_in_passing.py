@@ -38,4 +38,16 @@ class Holder:
         pass
 
 # expect:
-# ?
+# unit node: unknown executor
+#   group node_default EXCLUSIVE default
+#   subscription on_x in node_default key=x node=?
+#   ? on_x node
+#   ? executor executor
+# unit asker: unknown executor
+#   group asker_default EXCLUSIVE default
+#   client other_client in asker_default key=other
+#   ? executor executor
+# unit holder: unknown executor
+#   group holder_default EXCLUSIVE default
+#   timer tick in holder_default every 1
+#   ? executor executor

@@ -29,4 +29,12 @@ class Tab:
         pass
 
 # expect:
-# ?
+# unit node: no executor
+#   group node_default EXCLUSIVE default
+#   timer tick in node_default every 1 node=? conditional when=later
+#   subscription on_y in node_default key=y node=? conditional when=later
+#   subscription on_x in node_default key=x node=? conditional when=later
+#   ? tick node
+#   ? on_y node
+#   ? on_x node
+#   ? executor executor

@@ -29,4 +29,6 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# ?
+# unit a: MultiThreadedExecutor x4 spin in thread, main
+#   group a_default EXCLUSIVE default
+#   timer tick in a_default every 0.5

@@ -36,4 +36,18 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# ?
+# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+#   group a_default EXCLUSIVE default
+#   timer tick in a_default every 1
+#     blocks rclpy.spin_until_future_complete on ? @26
+#     blocks spin for future on ? @26
+#     blocks executor.spin_once on ? @27
+#     changes rclpy.spin_until_future_complete @26
+# unit second: inner=SingleThreadedExecutor x1 not spun UNRESOLVED, main
+#   group second_default EXCLUSIVE default
+#   client other_client in second_default key=other
+#   ? inner executor
+# unit asker: no executor, main
+#   group asker_default EXCLUSIVE default
+#   client other_client in asker_default key=other
+#   ? executor executor

@@ -8,6 +8,8 @@ number of threads is the number of CPUs the process may use).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -234,12 +236,18 @@ def _spin_node(
     if node is None:
         return
     if machine.note_nested_spin(f'rclpy.{how}', node, given, future, place):
+        _note_served_inside((node,), f'rclpy.{how}', place)
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
     _warn_of_theft(machine, node, executor, how, place)
     add_node(machine, executor, node)
     record_spin(machine, executor, f'rclpy.{how}', place, ever)
     remove_node(machine, executor, node)
+
+
+def _note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> None:
+    for node in nodes:
+        node.state.nested = node.state.nested or (how, place)
 
 
 def _warn_of_theft(
@@ -271,7 +279,9 @@ def _method_spin(how: str, ever: bool) -> Handler:
     def spin(machine: Machine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         future = _future_of(call, 0, how)
-        if not machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
+        if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
+            _note_served_inside(nodes_of(receiver), how, call.place)
+        else:
             record_spin(machine, receiver, how, call.place, ever)
         return machine.mystery(f'result of {how}', call.place)
 

@@ -91,11 +91,11 @@ def make_node(machine: Machine, instance: Instance) -> NodeState:
 
 def ghost_node(machine: Machine, value: Mystery) -> Instance:
     """The node that a value which cannot be followed must be; one for each such value."""
+    value = machine.world.same_unknowns.get(value.unknown, value)
     key = f'{value.text}|{value.unknown.at}|{value.unknown.reason}'
     known = machine.world.ghosts.get(key)
     if known is None:
         known = Instance(Name(NODE), value.unknown.at or Place(''))
-        known.path = machine.world.path
         state = make_node(machine, known)
         label = f'{value.text}: ' if value.text else ''
         state.ghost = Unknown(f'{label}{value.unknown.reason}', value.unknown.at)
@@ -282,7 +282,7 @@ _VALUE_FIELDS = [
     'string_array_value',
 ]
 
-_NODE_METHODS: dict[str, Handler] = {
+NODE_METHODS: dict[str, Handler] = {
     **{name: _creator(row) for name, row in CREATE_CALLS.items()},
     'create_rate': _create_rate,
     'create_publisher': _create_publisher,
@@ -307,7 +307,7 @@ TABLE = Library(
         NODE: LibraryClass(
             state=make_node,
             init=_init,
-            methods=_NODE_METHODS,
+            methods=NODE_METHODS,
             properties={'default_callback_group': _default_group, DEFAULT_GROUP: _default_group},
         ),
         LIFECYCLE_NODE: LibraryClass(init=_init, bases=(NODE,)),

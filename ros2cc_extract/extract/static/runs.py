@@ -13,6 +13,7 @@ from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import creates_entities
 from ros2cc_extract.extract.static.source import SourceFile
 from ros2cc_extract.extract.static.values import (
+    NO_CALLER,
     Bound,
     Call,
     Class,
@@ -192,13 +193,13 @@ def unknown_arguments(function: Function, place: Place, skip: int) -> Call:
         name = parameter.arg
         call.keywords[name] = _unknown_argument(function, name, defaults.get(name))
     if arguments.vararg or arguments.kwarg:
-        reason = f'further arguments of {function.qualname}; no caller is in sight'
+        reason = f'further arguments of {function.qualname}; {NO_CALLER}'
         call.more = Unknown(reason, function.place)
     return call
 
 
 def _unknown_argument(function: Function, name: str, default: Value | None) -> Mystery:
-    reason = f'parameter {name!r} of {function.qualname}; no caller is in sight'
+    reason = f'parameter {name!r} of {function.qualname}; {NO_CALLER}'
     return Mystery(Unknown(reason, function.place), name, default)
 
 

@@ -110,8 +110,21 @@ class Statements(Machine):
             self.note_attribute(option, target.attr, AccessKind.WRITE, place)
             if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
                 old = option.slots.get(target.attr)  # type: ignore[attr-defined]
+                self._note_same_unknown(old, value)
                 new = value if len(options) == 1 or old is None else choice([old, value])
                 self.store.write(option, target.attr, new)  # type: ignore[arg-type]
+
+    def _note_same_unknown(self, old: Any, new: Value) -> None:
+        """One attribute holds one thing: callers not in sight pass the same to all methods."""
+        if (
+            isinstance(old, Mystery)
+            and isinstance(new, Mystery)
+            and old.lacks_caller
+            and new.lacks_caller
+            and old.unknown != new.unknown
+        ):
+            first = self.world.same_unknowns.get(old.unknown, old)
+            self.world.same_unknowns.setdefault(new.unknown, first)
 
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)

@@ -93,7 +93,7 @@ class UnitBuilder:
             for entity, fact, label in zip(entities, facts, labels, strict=True)
         ]
         self._note_open_ends()
-        executor = self._executor_value(threads)
+        executor = self._executor_value(threads, entry)
         return Spec(
             name=name,
             callbacks=tuple(self._with_waits(callbacks, entities, executor)),
@@ -253,6 +253,7 @@ class UnitBuilder:
             destroyed=entity.destroyed,
             groupless=entity.kind in _GROUPLESS,
             library=entity.library,
+            builtin=entity.builtin,
             unresolved=facts.unresolved if entity.library is None else None,
             assumed=assumed or period_assumed,
             source=entity.place,
@@ -287,21 +288,23 @@ class UnitBuilder:
             self._branches_of[id(node)] = known
         return known
 
-    def _executor_value(self, threads: tuple[str, ...]) -> Executor:
+    def _executor_value(self, threads: tuple[str, ...], entry: str | None) -> Executor:
         state = self._state()
         if state is None or self._executor is None:
             name = self._taken.take('executor')
             at = self._nodes[0].place
-            return Executor(name=name, threads=threads, kind=Unknown(NO_EXECUTOR, at))
+            nested = self._nested_spin()
+            return Executor(name=name, threads=threads, kind=nested or Unknown(NO_EXECUTOR, at))
         name = self._taken.take(self._executor.hint or 'executor')
         unresolved = state.unknown or state.unresolved or state.threads_unresolved
+        elsewhere = self._spun_elsewhere() if entry is None else None
         if self._spin is None and unresolved is None:
             reason = 'no call that spins this executor is in sight'
-            unresolved = Unknown(reason, self._executor.place)
+            unresolved = self._nested_spin() or Unknown(reason, self._executor.place)
         return Executor(
             name=name,
             threads=threads,
-            kind=state.unknown or state.kind,
+            kind=state.unknown or elsewhere or state.kind,
             threads_source=_threads_source(state),
             in_thread=self._spin.in_thread if self._spin else False,
             spun=self._spin.how if self._spin else None,
@@ -309,6 +312,27 @@ class UnitBuilder:
             assumed=_assumed_threads(state),
             source=self._spin.place if state.is_global and self._spin else self._executor.place,
         )
+
+    def _nested_spin(self) -> Unknown | None:
+        """Why the executor is not followed where only callbacks spin the nodes."""
+        for node in self._nodes:
+            if node.state.nested is not None:
+                how, place = node.state.nested
+                return Unknown(f'only {how} inside a callback serves this node', place)
+        return None
+
+    def _spun_elsewhere(self) -> Unknown | None:
+        """Why somebody who is not in sight may serve the nodes by another executor."""
+        spin = self._spin
+        if spin is None:
+            return None
+        if not spin.for_ever and any(is_handed_over(node) for node in self._nodes):
+            reason = f'{spin.how} serves this node in passing; who else does is not in sight'
+            return Unknown(reason, spin.place)
+        if spin.for_ever and any(i >= 0 for _, i in _beyond(spin.path, self._nodes[0].path)):
+            reason = f'{spin.how} stands under a condition; who else serves it is not in sight'
+            return Unknown(reason, spin.place)
+        return None
 
     def _note_open_ends(self) -> None:
         for node in self._nodes:
@@ -355,6 +379,12 @@ class UnitBuilder:
         if self._spin is not None:
             places.append(self._spin.place.file)
         return tuple(dict.fromkeys(file for file in places if file))
+
+
+def is_handed_over(node: Instance) -> bool:
+    """Whether the node comes from, or goes to, somebody who is not in sight."""
+    made_for_nobody = isinstance(node.cls, Class) and node.place == node.cls.place
+    return node.state.ghost is not None or made_for_nobody
 
 
 def _plain_label(node: Instance) -> str:

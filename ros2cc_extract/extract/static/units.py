@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.ros_executors import nodes_of
-from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
+from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder, is_handed_over
 from ros2cc_extract.extract.static.values import Class, Instance, Path, options_of
 from ros2cc_extract.extract.static.values import Value as AnyValue
 from ros2cc_extract.extract.static.world import Spin, World
@@ -32,7 +32,8 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
     """The specifications of one run."""
     found = []
     for unit in units_of(world):
-        if entry is not None and unit.executor is not None and unit.spin is None:
+        is_lost = unit.spin is None and not any(node.state.nested for node in unit.nodes)
+        if entry is not None and unit.executor is not None and is_lost:
             world.diagnostics.append(_not_spun(unit.executor))
         spec = UnitBuilder(world, unit.executor, unit.nodes, unit.spin).build(entry)
         found.append(_with_unresolved(spec))
@@ -69,7 +70,7 @@ def units_of(world: World) -> list[Unit]:
         if spun is not None:
             spun.nodes.extend(nodes)
         else:
-            units.append(Unit(executor, nodes, None))
+            units.append(Unit(executor, nodes, _spin_in_thread(executor, world)))
     seen: set[object] = set()
     for node in world.nodes:
         if id(node) in served:
@@ -80,6 +81,12 @@ def units_of(world: World) -> list[Unit]:
         seen.add(key)
         units.append(Unit(None, [node], None))
     return units
+
+
+def _spin_in_thread(executor: Instance, world: World) -> Spin | None:
+    """A thread that spins on also serves the nodes that are added after its start."""
+    spins = (s for s in world.spins.values() if s.executor is executor and s.in_thread)
+    return next((spin for spin in spins if spin.for_ever), None)
 
 
 def _class_key(node: Instance) -> object:
@@ -121,6 +128,8 @@ def _same_unit(unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
         return True
     if any(node in unit.nodes for node in nodes):
         return not exclusive(unit.spin.path, spin.path)
+    if any(is_handed_over(node) for node in (*unit.nodes, *nodes)):
+        return False
     return not unit.spin.for_ever and not spin.for_ever
 
 

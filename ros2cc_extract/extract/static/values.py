@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _TEXT_LIMIT = 60
 
+NO_CALLER = 'no caller is in sight'
+
 
 class Value:
     """Anything an expression may stand for; compared by identity unless said otherwise."""
@@ -84,6 +86,11 @@ class Mystery(Value):
         if not isinstance(self._text, str):
             self._text = source_text(self._text)
         return self._text
+
+    @property
+    def lacks_caller(self) -> bool:
+        """Whether it is what somebody who is not in sight passes."""
+        return self.unknown.reason.endswith(NO_CALLER)
 
     def __repr__(self) -> str:
         return f'Mystery({self.unknown})'

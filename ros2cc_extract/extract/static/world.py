@@ -12,7 +12,7 @@ from enum import Enum
 from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.extract.static.values import Call, Function, Instance, Path, Value
+from ros2cc_extract.extract.static.values import Call, Function, Instance, Mystery, Path, Value
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
 
@@ -44,6 +44,7 @@ class NodeState:
     :param name: value of the name argument; ``None`` when none was seen.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
     :param more: why it may have entities that we do not see.
+    :param nested: a spin inside a callback that serves it, and where.
     """
 
     default_group: Instance
@@ -53,6 +54,7 @@ class NodeState:
     rate_group: Instance | None = None
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False
+    nested: tuple[str, Place] | None = None
     count: int | Unknown = 1
 
 
@@ -91,6 +93,7 @@ class EntityState:
     count: int | Unknown = 1
     when: When = When.START
     library: str | None = None
+    builtin: bool = False
     destroyed: bool = False
     one_shot: bool = False
     label: str | None = None
@@ -200,6 +203,7 @@ class World:
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param called: every function that was followed, to find those that were not.
+    :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param stopped: this branch of the program has ended.
     """
 
@@ -224,6 +228,7 @@ class World:
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
     ghosts: dict[str, Instance] = field(default_factory=dict)
+    same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
     callback_path: Path = ()
