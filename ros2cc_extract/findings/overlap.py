@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.capacity import can_overlap_itself
 from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.workers import runs_in_parallel
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.verify import QueryResult, Verdict
-
-CAN_OVERLAP = 'can_overlap'
+from ros2cc_extract.verify import Verdict
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ def overlap(one: Callback, other: Callback, context: Context) -> Overlap | None:
     """Say how ``one`` and ``other`` may overlap; ``None`` when they may not, or it is open."""
     if not _is_settled(one, other, context):
         return None
-    result = verdict_on(CAN_OVERLAP, one, other, context)
+    result = verdict_on(CAN_OVERLAP, context, one, other)
     if result is not None and result.verdict is Verdict.SATISFIED:
         return Overlap(result.evidence)
     if result is not None and result.verdict is Verdict.NOT_SATISFIED:
@@ -45,17 +44,6 @@ def overlaps_itself(callback: Callback, context: Context) -> bool:
     """True when two runs of one entity may coincide on this executor."""
     parallel = runs_in_parallel(context.unit.executor)
     return parallel and can_overlap_itself(callback, context)
-
-
-def verdict_on(
-    family: str, one: Callback, other: Callback, context: Context
-) -> QueryResult | None:
-    """The verdict of a query family on a pair, in either order; ``None`` if it was not asked."""
-    if context.verification is None:
-        return None
-    pair = {one.name, other.name}
-    found = (r for r in context.verification.results if r.family == family)
-    return next((result for result in found if set(result.callbacks) == pair), None)
 
 
 def _is_settled(one: Callback, other: Callback, context: Context) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by
+from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
 from ros2cc_extract.findings.waits import Wait, waits_for, waits_in, waits_of
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import is_one_thread
@@ -16,7 +17,7 @@ def find(context: Context) -> Iterator[Hit]:
     if not is_one_thread(context.unit.executor):
         return
     for wait in waits_of(context):
-        if wait.kind in BLOCKING and wait.needs:
+        if wait.kind in BLOCKING and wait.needs and not surely_ends(wait, context):
             yield _hit(wait, context)
 
 
@@ -34,6 +35,7 @@ def _hit(wait: Wait, context: Context) -> Hit:
         subjects=(wait.caller.name, *(needed.name for needed in wait.needs)),
         chain=wait.chain,
         related=tuple(made_at(wait.caller, *wait.needs)),
+        run=refuting_run(PROGRESS, context, wait.caller),
     )
 
 

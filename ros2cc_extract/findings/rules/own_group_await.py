@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
+from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_for, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import honours_groups
@@ -19,7 +20,9 @@ def find(context: Context) -> Iterator[Hit]:
         return
     for wait in waits_of(context):
         shut_out = shut_out_by(wait, context)
-        if wait.kind is WaitKind.AWAIT and shut_out is not None:
+        if wait.kind is not WaitKind.AWAIT or shut_out is None:
+            continue
+        if not surely_ends(wait, context):
             yield _hit(wait, shut_out, context)
 
 
@@ -38,6 +41,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
         related=tuple(made_at(wait.caller, shut_out, group)),
+        run=refuting_run(PROGRESS, context, wait.caller),
     )
 
 

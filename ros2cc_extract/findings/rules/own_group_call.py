@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
 from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_in, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
@@ -22,7 +23,7 @@ def find(context: Context) -> Iterator[Hit]:
         counts = wait.kind is WaitKind.SPUN_FUTURE and honours_groups(executor)
         if counts or (wait.kind in BLOCKING and not one_thread):
             shut_out = shut_out_by(wait, context)
-            if shut_out is not None:
+            if shut_out is not None and not surely_ends(wait, context):
                 yield _hit(wait, shut_out, context)
 
 
@@ -49,6 +50,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
         related=tuple(made_at(wait.caller, shut_out, group)),
+        run=refuting_run(PROGRESS, context, wait.caller),
     )
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.capacity import Capacity, capacity_of
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
+from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
@@ -19,16 +21,22 @@ USUAL_CPUS = 4
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """One thread is CC102's case, and a wait that never ends by itself is CC101's."""
+    """
+    One thread is CC102's case, and a wait that never ends by itself is CC101's.
+
+    Where no executor is in sight there is no number to compare with.
+    """
     executor = context.unit.executor
-    if is_one_thread(executor):
+    if is_one_thread(executor) or isinstance(executor.kind, Unknown):
         return
     waits = [wait for wait in waits_of(context) if _holds_a_worker(wait, context)]
     if not waits:
         return
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)
-    yield from _judge(waits, capacity, workers_of(executor), context)
+    for hit in _judge(waits, capacity, workers_of(executor)):
+        caller = context.by_name[hit.subjects[0]]
+        yield replace(hit, run=refuting_run(PROGRESS, context, caller))
 
 
 def _holds_a_worker(wait: Wait, context: Context) -> bool:
@@ -38,13 +46,11 @@ def _holds_a_worker(wait: Wait, context: Context) -> bool:
     return needed and shut_out_by(wait, context) is None
 
 
-def _judge(
-    waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown, context: Context
-) -> Iterator[Hit]:
+def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown) -> Iterator[Hit]:
     needed = capacity.at_least + 1
     if isinstance(workers, Unknown):
         if capacity.at_least > 1:
-            rest = f'on how many threads is not known ({workers})'
+            rest = f'on a number of threads that is not known ({workers})'
             yield _hit(waits, capacity, rest, Severity.NOTE)
     elif workers.is_default:
         if capacity.at_least > 1:

@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.overlap import overlaps_itself
 from ros2cc_extract.findings.races import Use
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.spec.model import Access, Callback, EntityKind
 
@@ -42,6 +43,7 @@ def _hit(use: Use, context: Context) -> Hit:
         severity=Severity.NOTE if _is_quick_timer(callback) else None,
         subjects=(callback.name, name),
         related=tuple(made_at(callback, context.group_of(callback))),
+        run=refuting_run(SELF_OVERLAP, context, callback),
     )
 
 

@@ -1,0 +1,120 @@
+"""Findings about waits where the model of the unit has its say."""
+
+from __future__ import annotations
+
+from finding_units import (
+    at,
+    calls,
+    client,
+    exclusive,
+    found,
+    only,
+    service,
+    subscription,
+    threads,
+    timer,
+    unit,
+)
+
+from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import Spec, Unresolved
+from ros2cc_extract.verify import QueryResult, Verdict, Verification
+
+RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')
+
+
+def progress(verdict: Verdict, *names: str) -> Verification:
+    return Verification(
+        model='arm',
+        profile='rclpy',
+        text='compact',
+        engine='reference',
+        states=1,
+        transitions=1,
+        seconds=0.0,
+        peak_mb=1.0,
+        complete=True,
+        results=tuple(
+            QueryResult(
+                family='progress',
+                formula='',
+                words='',
+                callbacks=(name,),
+                verdict=verdict,
+                reason=None,
+                seconds=0.0,
+                evidence=RUN if verdict is Verdict.NOT_SATISFIED else None,
+            )
+            for name in names
+        ),
+    )
+
+
+def own_group(**facts: object) -> Spec:
+    return unit(
+        threads(2),
+        timer('drive', blocking=calls('plan_client', **facts)),
+        client('plan_client'),
+        subscription('on_stop', 'other'),
+    )
+
+
+def circle(**facts: object) -> Spec:
+    names = ('left', 'right', 'left_client', 'right_client')
+    return unit(
+        threads(4),
+        service('on_left', 'left', key='left', blocking=calls('to_right', 40, **facts)),
+        service('on_right', 'right', key='right', blocking=calls('to_left', 45)),
+        client('to_left', 'left_client', key='left'),
+        client('to_right', 'right_client', key='right'),
+        groups=tuple(exclusive(name) for name in names),
+    )
+
+
+def test_a_wait_that_the_model_proves_to_end_is_no_finding() -> None:
+    assert found(own_group(), progress(Verdict.SATISFIED, 'drive')) == []
+    assert found(own_group(), progress(Verdict.UNDECIDED, 'drive')) == ['CC101:40']
+
+
+def test_what_is_not_in_the_model_is_not_refuted_by_it() -> None:
+    proven = progress(Verdict.SATISFIED, 'drive')
+    assert found(own_group(seconds=1.0), proven) == ['CC101:40 warning']
+    assert found(own_group(call='spin for future'), proven) == ['CC101:40']
+
+
+def test_the_run_of_the_model_is_the_evidence() -> None:
+    assert only(own_group(), 'CC101', progress(Verdict.NOT_SATISFIED, 'drive')).run is RUN
+    assert only(own_group(), 'CC101').run is None
+
+
+def test_callbacks_that_wait_for_each_other_are_found_by_the_model() -> None:
+    stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
+    assert found(circle()) == []
+    finding = only(circle(), 'CC109', stuck)
+    assert finding.subjects == ('on_left', 'on_right')
+    assert finding.run is RUN
+    assert [(remark.place, remark.text) for remark in finding.related] == [
+        (at(45), 'on_right waits here in client.call')
+    ]
+
+
+def test_a_hang_that_another_rule_explains_is_told_once() -> None:
+    stuck = progress(Verdict.NOT_SATISFIED, 'drive', 'turn')
+    spec = unit(
+        threads(2),
+        timer('drive', blocking=calls('plan_client')),
+        client('plan_client'),
+        timer('turn', 'other', blocking=calls('plan_client', 45)),
+    )
+    assert found(spec, stuck) == ['CC101:40']
+
+
+def test_a_unit_with_a_hole_is_not_judged_by_its_model() -> None:
+    hole = Unresolved(subject='x', fact='group', reason='an argument', source=at(3))
+    stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
+    spec = circle()
+    with_hole = type(spec)(**{**vars(spec), 'unresolved': (hole,)})
+    assert found(with_hole, stuck) == ['CC501:3 note']
+    no_executor = type(spec.executor)(name='e', kind=Unknown('none'), threads=('t',))
+    assert found(type(spec)(**{**vars(spec), 'executor': no_executor}), stuck) == []
