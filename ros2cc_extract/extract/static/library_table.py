@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ros2cc_extract.extract.static.machine import Machine
@@ -38,6 +38,12 @@ class Library:
     functions: dict[str, Handler] = field(default_factory=dict)
     aliases: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Value] = field(default_factory=dict)
+    added_methods: dict[str, dict[str, Handler]] = field(default_factory=dict)
+
+
+def with_methods(row: LibraryClass, methods: dict[str, Handler]) -> LibraryClass:
+    """The same class with some methods more, or other ones."""
+    return replace(row, methods={**row.methods, **methods})
 
 
 def merged(tables: list[Library]) -> Library:
@@ -48,4 +54,7 @@ def merged(tables: list[Library]) -> Library:
         whole.functions.update(table.functions)
         whole.aliases.update(table.aliases)
         whole.constants.update(table.constants)
+    for table in tables:
+        for name, methods in table.added_methods.items():
+            whole.classes[name] = with_methods(whole.classes[name], methods)
     return whole

@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static import (
     python_library,
     ros_actions,
     ros_clients,
+    ros_events,
     ros_executors,
     ros_groups,
     ros_libraries,
@@ -50,6 +51,7 @@ def table() -> Library:
             ros_clients.TABLE,
             ros_actions.TABLE,
             ros_libraries.TABLE,
+            ros_events.TABLE,
         ]
     )
 

@@ -94,7 +94,7 @@ def _key(callback: Callback) -> list[str]:
 def _flags(callback: Callback) -> list[str]:
     words = [
         name
-        for name in ('conditional', 'coroutine', 'one_shot', 'destroyed')
+        for name in ('builtin', 'conditional', 'coroutine', 'one_shot', 'destroyed')
         if getattr(callback, name)
     ]
     if callback.alternative:
