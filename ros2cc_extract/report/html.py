@@ -26,6 +26,8 @@ from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify import QueryResult, Verdict, Verification
 from ros2cc_extract.version import __version__
 
+BLOCKED = 'blocked'
+"""Location of a thread whose callback waits, in the models of profile ``rclpy``."""
 _VERDICT_CLASSES = {
     Verdict.SATISFIED: 'satisfied',
     Verdict.NOT_SATISFIED: 'not-satisfied',
@@ -195,6 +197,7 @@ def _lane_data(lane: Lane, numbers: Mapping[str, int]) -> dict[str, Any]:
                 'since': stay.since,
                 'until': stay.until,
                 'rest': stay.is_rest,
+                'blocked': stay.location == BLOCKED,
                 'colour': numbers.get(stay.callback or lane.process),
             }
             for stay in lane.stays

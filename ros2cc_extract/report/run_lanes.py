@@ -55,7 +55,7 @@ def _stays(run: Evidence, process: str, callbacks: set[str]) -> Iterator[Stay]:
         if isinstance(changed, str) and changed != location:
             yield Stay(location, since, moment.number, callback, location == rest)
             location, since = changed, moment.number
-            callback = _callback_of(moment, process, callbacks)
+            callback = None if location == rest else _callback_of(moment, process, callbacks)
     yield Stay(location, since, len(run.moments) + 1, callback, location == rest)
 
 

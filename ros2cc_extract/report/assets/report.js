@@ -151,9 +151,24 @@
         bar.title = stay.text;
         bar.style.gridArea = `${row} / ${stay.since + 2} / auto / ${stay.until + 2}`;
         if (stay.colour !== null) bar.dataset.colour = stay.colour;
+        if (stay.blocked) bar.classList.add('blocked');
         grid.append(bar);
         this.stays.push([stay, bar]);
       }
+      if (lane.stays.length === 1) this.addDots(grid, lane.name, row);
+    }
+
+    /** A process that never moves still speaks: a dot at each step at which it does. */
+    addDots(grid, name, row) {
+      this.run.steps.forEach((step, index) => {
+        const said = step.says.filter(([lane]) => lane === name).map(([, text]) => text);
+        if (!said.length) return;
+        const dot = make('div', 'dot');
+        dot.title = said.join('; ');
+        dot.style.gridArea = `${row} / ${index + 3}`;
+        grid.append(dot);
+        this.stays.push([{ since: index + 1 }, dot]);
+      });
     }
 
     player() {
