@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
-from ros2cc_extract.checker import native, reference
 from ros2cc_extract.checker.limits import Limits, Progress
 from ros2cc_extract.checker.network import Network, Property
 from ros2cc_extract.checker.search import Fairness, SearchResult
 from ros2cc_extract.errors import ToolNotFoundError
 
+REFERENCE, NATIVE = 'reference', 'native'
 _MEND = 'install a C++ compiler and Python.h, then install this package again'
 
 
@@ -46,14 +46,22 @@ def choose(wanted: str) -> Engine:
 
     :raises ToolNotFoundError: the native core was asked for by name and is not built.
     """
-    slow = Engine(reference.NAME, reference.search)
-    if wanted == reference.NAME:
-        return slow
+    if wanted == REFERENCE:
+        return _reference('')
     try:
         importlib.import_module('ros2cc_extract.checker._core')
     except ImportError as error:
-        if wanted == native.NAME:
+        if wanted == NATIVE:
             what = f'the native core of the checker is not built ({error})'
             raise ToolNotFoundError(what, None, _MEND) from None
-        return replace(slow, note=f'the native core is not built, so this is slow; {_MEND}')
-    return Engine(native.NAME, native.search)
+        return _reference(f'the native core is not built, so this is slow; {_MEND}')
+    from ros2cc_extract.checker import native
+
+    return Engine(NATIVE, native.search)
+
+
+def _reference(note: str) -> Engine:
+    # Imported late, as the native engine is: each start needs one of the two.
+    from ros2cc_extract.checker import reference
+
+    return Engine(REFERENCE, reference.search, note)

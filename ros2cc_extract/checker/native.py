@@ -30,7 +30,6 @@ from ros2cc_extract.checker.semantics import State
 if TYPE_CHECKING:
     from ros2cc_extract.checker import _core
 
-NAME = 'native'
 _ENDS = {1: End.DEADLOCK, 2: End.IDLE}
 
 

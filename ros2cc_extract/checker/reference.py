@@ -31,7 +31,6 @@ from ros2cc_extract.checker.search import (
 from ros2cc_extract.checker.semantics import Semantics
 from ros2cc_extract.checker.walks import mentions_deadlock
 
-NAME = 'reference'
 _LOOK_EVERY = 1024
 _MAX_CACHED_PREDICATES = 200_000
 

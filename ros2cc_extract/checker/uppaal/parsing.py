@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import functools
 import importlib.resources
+import os
 import re
 from enum import Enum
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.uppaal import syntax
@@ -77,7 +79,24 @@ def _parser() -> Lark:
         start=[start.value for start in Start],
         transformer=TreeBuilder(),
         maybe_placeholders=False,
+        cache=_cache_file(),
     )
+
+
+def _cache_file() -> str | bool:
+    """
+    Return where lark may keep the tables it makes from the grammar; False where it may not.
+
+    Making them takes half of the time that a small model needs. Lark itself tells by a hash
+    whether the file fits the grammar and its own version.
+    """
+    root = Path(os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache')
+    folder = root / 'ros2cc-extract'
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return str(folder / 'uppaal-grammar.cache') if os.access(folder, os.W_OK) else False
 
 
 def parse(text: str, start: Start, place: Place) -> Any:
