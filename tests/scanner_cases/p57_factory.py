@@ -29,5 +29,6 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer on_timer in a_default every 1
+#     writes A.last @15
 #   timer on_timer_2 in a_default (A.make_cb.<locals>.on_timer) every 2
 #     writes A.last @15

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.relevance import reassigned_attributes
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -14,6 +15,7 @@ from ros2cc_extract.extract.static.values import (
     Coroutine,
     Function,
     Instance,
+    Library,
     Module,
     Mystery,
     Native,
@@ -34,6 +36,7 @@ from ros2cc_extract.extract.static.world import (
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking
 
+_CODE = (Module, Library, Class, Function)
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
@@ -102,7 +105,9 @@ class Effects(Machine):
                 for c in getattr(cls, 'mro', ())
                 if isinstance(c, Class) and name in c.slots
             ]
-            return not held or isinstance(held[0], (Function, Native, Class))
+            if not held:
+                return not _is_assigned(cls, name)
+            return isinstance(held[0], (Function, Native, Class))
         return any(
             isinstance(option, (Bound, Function, Native, Class))
             or (isinstance(option, Instance) and option.state is not None)
@@ -115,6 +120,9 @@ class Effects(Machine):
             return
         value = module.slots.get(name)
         if isinstance(value, Instance) and value.state is not None:
+            return
+        options = [o for o in options_of(value) if o != NONE] if isinstance(value, Value) else []
+        if options and all(isinstance(option, _CODE) for option in options):
             return
         self._note_access(f'{module.name}.{name}', kind, place)
 
@@ -240,6 +248,15 @@ class Effects(Machine):
                 return self.call(method, Call(place))
             return value
         return value
+
+
+def _is_assigned(cls: Value, name: str) -> bool:
+    """Whether a method assigns the attribute that nobody has made yet."""
+    return any(
+        name in reassigned_attributes(base.node)
+        for base in getattr(cls, 'mro', ())
+        if isinstance(base, Class)
+    )
 
 
 def _is_same_wait(one: Blocking, other: Blocking) -> bool:

@@ -107,12 +107,15 @@ class Statements(Machine):
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
-            self.note_attribute(option, target.attr, AccessKind.WRITE, place)
+            old = getattr(option, 'slots', {}).get(target.attr)
+            if old is not None:
+                self.note_attribute(option, target.attr, AccessKind.WRITE, place)
             if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
-                old = option.slots.get(target.attr)  # type: ignore[attr-defined]
                 self._note_same_unknown(old, value)
                 new = value if len(options) == 1 or old is None else choice([old, value])
                 self.store.write(option, target.attr, new)  # type: ignore[arg-type]
+            if old is None:
+                self.note_attribute(option, target.attr, AccessKind.WRITE, place)
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: callers not in sight pass the same to all methods."""
