@@ -129,6 +129,9 @@ def verify_unit(
             note = f'{error}; the embedded checker was used'
             found = verify_unit(closed, embedded, progress)
             return replace(found, notes=(note, *found.notes))
+    if options.text is build.Text.COMPACT:
+        # It resets its variables itself: looking for dead ones costs time and finds no state less.
+        options = replace(options, reduction=False)
     model = read_model(rendered.xml, f'{rendered.name}.xml')
     queries = [Query(q.formula, q.words, None) for q in rendered.queries]
     result = _check(model, queries, options, progress)
