@@ -201,8 +201,9 @@ def _stretches(trace: Trace) -> Iterator[tuple[Event, Event]]:
             # A coroutine may end in another thread than it began in.
             own = [each for each in begun if each.thread == event.thread] or begun
             if own:
-                begun.remove(own[-1])
-                yield own[-1], event
+                begin = own[-1]
+                begun.remove(begin)
+                yield begin, event
 
 
 def _group_name(recording: Recording, number: int) -> str:
