@@ -24,6 +24,8 @@ def fingerprints_at(revision: str, job: Job, stderr: TextIO) -> frozenset[str]:
 
     :raises InputError: when this is no git repository, or there is no such revision.
     """
+    if revision.startswith('-'):
+        raise InputError(f'{revision!r} is no revision', None, 'name a revision git knows')
     top = Path(_git(Path.cwd(), 'rev-parse', '--show-toplevel').decode().strip())
     here = Path.cwd().resolve().relative_to(top)
     with tempfile.TemporaryDirectory(prefix='ros2cc-base-') as name:

@@ -85,7 +85,11 @@ def _with_kind(executor: Executor, assumptions: Assumptions) -> Executor:
 
 def _with_threads(executor: Executor, spec: Spec, assumptions: Assumptions) -> Executor:
     number = assumptions.threads
-    is_open = executor.unresolved is not None or executor.threads_source == DEFAULT_COUNT
+    is_open = (
+        executor.unresolved is not None
+        or executor.threads_source == DEFAULT_COUNT
+        or isinstance(spec.executor.kind, Unknown)
+    )
     if number is None or not is_open:
         return executor
     return replace(

@@ -1,0 +1,283 @@
+"""What a project accepts, demands and assumes: settings, comments, baselines, revisions."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.e2e.conftest import Outcome, Run
+from tests.support.packages import DEADLOCK, MENDED
+from tests.support.repositories import commit, make_repository
+
+LINE = '        self.client.call(Trigger.Request())\n'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Holds one node that dead-locks."""
+    (tmp_path / 'node.py').write_text(DEADLOCK)
+    return tmp_path
+
+
+def findings(outcome: Outcome) -> list[tuple[str, int]]:
+    """Code and line of everything that weighs more than a note."""
+    return [
+        (each['code'], each['line'])
+        for each in json.loads(outcome.out)['findings']
+        if each['severity'] != 'note'
+    ]
+
+
+def check(run: Run, *arguments: object) -> Outcome:
+    return run('check', 'node.py', '--output-format', 'json', *arguments)
+
+
+def settings(folder: Path, *lines: str) -> None:
+    (folder / 'pyproject.toml').write_text('\n'.join(['[tool.ros2cc]', *lines, '']))
+
+
+def test_without_settings_everything_counts(run: Run, folder: Path) -> None:
+    outcome = check(run)
+    assert (outcome.status, findings(outcome)) == (1, [('CC101', 44)])
+
+
+@pytest.mark.parametrize(
+    ('line', 'status'),
+    [
+        ('ignore = ["CC101"]', 0),
+        ('ignore = ["CC1"]', 0),
+        ('ignore = ["CC2"]', 1),
+        ('per_path = {"*.py" = ["CC101"]}', 0),
+        ('per_path = {"tests/*" = ["CC101"]}', 1),
+    ],
+)
+def test_settings_switch_rules_off(run: Run, folder: Path, line: str, status: int) -> None:
+    settings(folder, line)
+    assert check(run).status == status
+
+
+def test_settings_of_a_folder_above_count(run: Run, folder: Path) -> None:
+    settings(folder, 'ignore = ["CC101"]')
+    (folder / 'deep').mkdir()
+    (folder / 'node.py').rename(folder / 'deep' / 'node.py')
+    assert run('check', 'deep/node.py').status == 0
+
+
+@pytest.mark.parametrize(
+    ('demand', 'violated'),
+    [
+        ('never_together = [["drive", "on_map_ready"]]', True),
+        ('never_together = [["drive", "map_ready_client"]]', False),
+        ('can_overlap = [["drive", "on_map_ready"]]', False),
+        ('can_overlap = [["drive", "map_ready_client"]]', True),
+        ('never_starves = ["on_map_ready"]', False),
+        ('never_starves = ["drive"]', True),
+    ],
+)
+def test_demands_are_decided_by_the_model(
+    run: Run, folder: Path, demand: str, violated: bool
+) -> None:
+    (folder / 'node.py').write_text(MENDED)
+    settings(folder, demand)
+    outcome = check(run)
+    codes = {code for code, _ in findings(outcome)}
+    assert (outcome.status, codes) == ((1, {'CC601'}) if violated else (0, set()))
+
+
+def test_a_demand_about_nobody_is_a_finding(run: Run, folder: Path) -> None:
+    (folder / 'node.py').write_text(MENDED)
+    settings(folder, 'never_starves = ["on_stop"]')
+    outcome = check(run)
+    assert outcome.status == 1
+    assert [code for code, _ in findings(outcome)] == ['CC602']
+
+
+@pytest.mark.parametrize(
+    ('line', 'told'),
+    [
+        ('never_togehter = []', "unknown key 'never_togehter' in [tool.ros2cc]; known keys: "),
+        ('ignore = "CC101"', 'ignore of [tool.ros2cc] must be a list of texts'),
+        ('timeout = -1', 'timeout of [tool.ros2cc] must be a number of seconds'),
+        ('baseline = 3', 'baseline of [tool.ros2cc] must be a path'),
+        ('never_together = [["drive"]]', 'never_together'),
+        ('ignore = [', 'no TOML'),
+    ],
+)
+def test_wrong_settings_are_refused(run: Run, folder: Path, line: str, told: str) -> None:
+    settings(folder, line)
+    outcome = check(run)
+    assert (outcome.status, outcome.out) == (2, '')
+    assert 'pyproject.toml' in outcome.err
+    assert told in outcome.err
+    assert len(outcome.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ('comment', 'above'),
+    [
+        ('# ros2cc: ignore[CC101] the map server answers from another process', False),
+        ('# ros2cc: ignore[CC101]', True),
+        ('# ros2cc: ignore[own-group-call]', False),
+        ('# ros2cc: ignore[CC301, CC101]', False),
+    ],
+)
+def test_a_comment_accepts_a_finding(run: Run, folder: Path, comment: str, above: bool) -> None:
+    line = f'        {comment}\n{LINE}' if above else f'{LINE[:-1]}  {comment}\n'
+    (folder / 'node.py').write_text(DEADLOCK.replace(LINE, line))
+    outcome = check(run)
+    assert ('CC101', 44) not in findings(outcome)
+    assert ('CC101', 45) not in findings(outcome)
+    assert json.loads(outcome.out)['summary']['accepted'] == 1
+
+
+def test_a_comment_that_accepts_nothing_is_told(run: Run, folder: Path) -> None:
+    mended = MENDED.replace(
+        'call_async(Trigger.Request())', 'call_async(Trigger.Request())  # ros2cc: ignore[CC101]'
+    )
+    (folder / 'node.py').write_text(mended)
+    outcome = check(run)
+    assert outcome.status == 1
+    assert 'CC101 is not found here any more' in outcome.out
+
+
+def test_a_baseline_accepts_what_it_lists(run: Run, folder: Path) -> None:
+    written = run('check', 'node.py', '--write-baseline', 'known.json')
+    assert (written.status, written.out) == (0, '')
+    (entry,) = json.loads((folder / 'known.json').read_text())['findings']
+    assert (entry['code'], entry['path']) == ('CC101', 'node.py')
+    (folder / 'node.py').write_text('# moved\n\n' + DEADLOCK)
+    outcome = check(run, '--baseline', 'known.json')
+    assert (outcome.status, findings(outcome)) == (0, [])
+    assert json.loads(outcome.out)['summary']['accepted'] == 1
+
+
+def test_a_baseline_hides_nothing_new(run: Run, folder: Path) -> None:
+    (folder / 'node.py').write_text(MENDED)
+    run('check', 'node.py', '--write-baseline', 'known.json')
+    (folder / 'node.py').write_text(DEADLOCK)
+    outcome = check(run, '--baseline', 'known.json')
+    assert (outcome.status, findings(outcome)) == (1, [('CC101', 44)])
+
+
+def test_settings_name_the_baseline_relative_to_their_file(run: Run, folder: Path) -> None:
+    settings(folder, 'baseline = "ci/known.json"')
+    assert run('check', 'node.py', '--write-baseline', 'ci/known.json').status == 0
+    assert check(run).status == 0
+
+
+@pytest.mark.parametrize(
+    ('text', 'told'),
+    [
+        ('[', 'no JSON'),
+        ('{"ros2cc_baseline": 99}', 'no baseline of version 1'),
+        (None, 'known.json'),
+    ],
+)
+def test_a_baseline_that_cannot_be_used(
+    run: Run, folder: Path, text: str | None, told: str
+) -> None:
+    if text is not None:
+        (folder / 'known.json').write_text(text)
+    outcome = check(run, '--baseline', 'known.json')
+    assert (outcome.status, outcome.out) == (2, '')
+    assert told in outcome.err
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    """Committed: a node that dead-locks."""
+    make_repository(tmp_path)
+    (tmp_path / 'node.py').write_text(DEADLOCK)
+    assert commit(tmp_path, 'start').returncode == 0
+    return tmp_path
+
+
+def test_a_change_answers_only_for_what_it_adds(run: Run, repository: Path) -> None:
+    (repository / 'node.py').write_text('# moved\n\n' + DEADLOCK)
+    assert findings(check(run, '--diff-base', 'HEAD')) == []
+    other = repository / 'other.py'
+    other.write_text(DEADLOCK)
+    outcome = run('check', '.', '--output-format', 'json', '--diff-base', 'HEAD')
+    assert outcome.status == 1
+    (path,) = {
+        each['path'] for each in json.loads(outcome.out)['findings'] if each['severity'] != 'note'
+    }
+    assert path == 'other.py'
+
+
+def test_a_file_that_the_base_has_not_is_all_new(run: Run, repository: Path) -> None:
+    (repository / 'new.py').write_text(DEADLOCK)
+    assert run('check', 'new.py', '--diff-base', 'HEAD').status == 1
+
+
+def test_the_work_tree_is_left_alone(run: Run, repository: Path) -> None:
+    (repository / 'node.py').write_text(MENDED)
+    run('check', '.', '--diff-base', 'HEAD')
+    assert (repository / 'node.py').read_text() == MENDED
+    assert sorted(path.name for path in repository.iterdir()) == ['.git', 'node.py']
+
+
+@pytest.mark.parametrize('revision', ['no-such-branch', '--output=stolen'])
+def test_a_revision_that_is_none_is_an_error(run: Run, repository: Path, revision: str) -> None:
+    outcome = check(run, f'--diff-base={revision}')
+    assert outcome.status == 2
+    assert not (repository / 'stolen').exists()
+    assert len(outcome.err.splitlines()) == 1
+
+
+def test_outside_git_there_is_no_base(run: Run, folder: Path) -> None:
+    outcome = check(run, '--diff-base', 'HEAD')
+    assert outcome.status == 2
+    assert 'git' in outcome.err
+
+
+OPEN = """import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_subscription(String, 'a', self.on_a, 10)
+        self.create_subscription(String, 'b', self.on_b, 10)
+
+    def on_a(self, message):
+        pass
+
+    def on_b(self, message):
+        pass
+"""
+
+
+def executor_of(outcome: Outcome) -> tuple[str, int]:
+    executor = json.loads(outcome.out)['units'][0]['node']['executor']
+    return executor['kind'], len(executor['threads'])
+
+
+def test_assumptions_fill_holes(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'node.py').write_text(OPEN)
+    outcome = check(run, '--assume', 'executor=MultiThreadedExecutor', '--assume', 'threads=4')
+    assert executor_of(outcome) == ('MultiThreadedExecutor', 4)
+
+
+def test_assumptions_of_the_command_line_go_before_those_of_the_settings(
+    run: Run, tmp_path: Path
+) -> None:
+    (tmp_path / 'node.py').write_text(OPEN)
+    settings(tmp_path, 'assume = ["executor=MultiThreadedExecutor", "threads=2"]')
+    assert executor_of(check(run)) == ('MultiThreadedExecutor', 2)
+    assert executor_of(check(run, '--assume', 'threads=3')) == ('MultiThreadedExecutor', 3)
+
+
+def test_assumptions_do_not_overrule_what_the_source_says(run: Run, folder: Path) -> None:
+    assert executor_of(check(run, '--assume', 'threads=7')) == ('MultiThreadedExecutor', 4)
+
+
+@pytest.mark.parametrize('fact', ['threads=none', 'speed=4', 'threads'])
+def test_an_assumption_that_is_none_is_refused(run: Run, folder: Path, fact: str) -> None:
+    outcome = check(run, '--assume', fact)
+    assert (outcome.status, outcome.out) == (2, '')
+    assert len(outcome.err.splitlines()) == 1
