@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TypeVar
 
 from ros2cc_extract.extract.static.relevance import creates_entities, walk
@@ -37,22 +37,23 @@ def _wanted(
 
 
 def leading_to_entities(
-    methods: Mapping[str, ast.AST], makers: frozenset[str]
+    names: Sequence[str], nodes: Sequence[ast.AST], makers: frozenset[str]
 ) -> frozenset[str]:
     """
     Names of the methods that make or serve entities, themselves or through each other.
 
     :param makers: names of classes and functions that do so.
     """
+    methods = list(zip(names, nodes, strict=True))
     found = {
         name
-        for name, node in methods.items()
+        for name, node in methods
         if creates_entities(node) or not makers.isdisjoint(mentions(node))
     }
     while True:
         more = {
             name
-            for name, node in methods.items()
+            for name, node in methods
             if name not in found and not found.isdisjoint(mentions(node))
         }
         if not more:

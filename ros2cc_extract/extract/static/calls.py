@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.relevance import mangled
 from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -257,7 +258,7 @@ class Calls(Machine):
         self.execute_block(node.body, body)
         for name, value in scope.slots.items():
             if name != '__class_body__':
-                self.store.write(cls, name, value)
+                self.store.write(cls, mangled(name, cls.name), value)
         return cls
 
     def await_value(self, value: Value, place: Place) -> Value:

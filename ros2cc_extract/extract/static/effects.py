@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.relevance import reassigned_attributes
+from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -57,7 +57,8 @@ class Effects(Machine):
             return
         if isinstance(owner, Instance) and owner.born is self.world.deeds:
             return
-        self._note_access(f'{_object_name(owner, cls)}.{name}', kind, place)
+        shown = unmangled(name, cls.name)
+        self._note_access(f'{_object_name(owner, cls)}.{shown}', kind, place)
 
     def _note_access(self, name: str, kind: AccessKind, place: Place) -> None:
         deeds = self.world.deeds
@@ -83,7 +84,7 @@ class Effects(Machine):
             self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
             for owner in options_of(self.evaluate(target.value, frame)):
-                self.note_attribute(owner, target.attr, kind, place)
+                self.note_attribute(owner, frame.attribute_name(target.attr), kind, place)
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
             self.note_global(frame.module, target.id, kind, place)
 

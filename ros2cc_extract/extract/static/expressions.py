@@ -177,17 +177,17 @@ def _constant(machine: Expressions, node: ast.Constant, frame: Frame) -> Value:
 
 def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
-    place = frame.place(node)
+    place, name = frame.place(node), frame.attribute_name(node.attr)
     if machine.world.deeds is not None:
         for option in options_of(owner):
-            machine.note_attribute(option, node.attr, AccessKind.READ, place)
+            machine.note_attribute(option, name, AccessKind.READ, place)
     text: str | ast.expr = node if isinstance(owner, (Mystery, Const)) else ''
     if isinstance(owner, Choice):
         options = options_of(owner)
         set_ones = [o for o in options if o != NONE] or options
-        able = [o for o in set_ones if machine.has_attribute(o, node.attr) is not False]
-        return choice([machine.attribute(o, node.attr, place) for o in able or options])
-    return machine.attribute(owner, node.attr, place, text)
+        able = [o for o in set_ones if machine.has_attribute(o, name) is not False]
+        return choice([machine.attribute(o, name, place) for o in able or options])
+    return machine.attribute(owner, name, place, text)
 
 
 def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:

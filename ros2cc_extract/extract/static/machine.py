@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 
+from ros2cc_extract.extract.static.relevance import mangled
 from ros2cc_extract.extract.static.store import Store, Writes
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -64,6 +65,20 @@ class Frame:
         return Place(
             self.scope.module.file, getattr(node, 'lineno', 0), getattr(node, 'col_offset', -1) + 1
         )
+
+    def attribute_name(self, name: str) -> str:
+        """The attribute that ``name`` means in the text that is running."""
+        return mangled(name, self._class_name()) if name.startswith('__') else name
+
+    def _class_name(self) -> str | None:
+        """Name of the innermost class around the running text."""
+        for piece in reversed(self.qualname.removesuffix('.<locals>').split('.<locals>.')):
+            names = piece.split('.')
+            if self.function is None and names[-1]:
+                return names[-1]
+            if len(names) > 1:
+                return names[-2]
+        return None
 
 
 class Machine(ABC):

@@ -98,16 +98,29 @@ def _changed_names(part: ast.AST) -> list[str]:
     return []
 
 
+def mangled(name: str, cls: str | None) -> str:
+    """The attribute that ``name`` means in the text of class ``cls``: private ones are its own."""
+    if cls is None or not name.startswith('__') or name.endswith('__'):
+        return name
+    return f'_{cls.lstrip("_")}{name}'
+
+
+def unmangled(name: str, cls: str) -> str:
+    """How the text of class ``cls`` calls its attribute ``name``."""
+    prefix = f'_{cls.lstrip("_")}'
+    return name.removeprefix(prefix) if name.startswith(f'{prefix}__') else name
+
+
 _REASSIGNED: dict[int, tuple[ast.AST, frozenset[str]]] = {}
 
 
 def reassigned_attributes(cls: ast.ClassDef) -> frozenset[str]:
-    """Attributes of ``self`` that a method other than ``__init__`` assigns."""
+    """Attributes of ``self`` that a method other than ``__init__`` assigns; see ``mangled``."""
     known = _REASSIGNED.get(id(cls))
     if known is not None and known[0] is cls:
         return known[1]
     names = frozenset(
-        part.attr
+        mangled(part.attr, cls.name)
         for method in cls.body
         if isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
         and method.name != '__init__'

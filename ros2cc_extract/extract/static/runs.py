@@ -312,10 +312,10 @@ def _methods_without_caller(
         and value not in instance.mro
         and creates_entities(value.node)
     )
-    wanted = leading_to_entities({name: method.node for name, method in left}, makers)
-    left = [(name, method) for name, method in left if name in wanted]
-    names, nodes = [name for name, _ in left], [method.node for _, method in left]
-    return callers_first(left, names, nodes)
+    names, nodes = [method.name for _, method in left], [method.node for _, method in left]
+    wanted = leading_to_entities(names, nodes, makers)
+    ordered = callers_first(left, names, nodes)
+    return [(name, method) for name, method in ordered if method.name in wanted]
 
 
 def _methods_of(machine: Interpreter, instance: Instance) -> list[tuple[str, Function]]:

@@ -104,18 +104,19 @@ class Statements(Machine):
     def _assign_attribute(self, target: ast.Attribute, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)
         _hint(value, target.attr)
+        name = frame.attribute_name(target.attr)
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
-            old = getattr(option, 'slots', {}).get(target.attr)
+            old = getattr(option, 'slots', {}).get(name)
             if old is not None:
-                self.note_attribute(option, target.attr, AccessKind.WRITE, place)
+                self.note_attribute(option, name, AccessKind.WRITE, place)
             if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
                 self._note_same_unknown(old, value)
                 new = value if len(options) == 1 or old is None else choice([old, value])
-                self.store.write(option, target.attr, new)  # type: ignore[arg-type]
+                self.store.write(option, name, new)  # type: ignore[arg-type]
             if old is None:
-                self.note_attribute(option, target.attr, AccessKind.WRITE, place)
+                self.note_attribute(option, name, AccessKind.WRITE, place)
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: callers not in sight pass the same to all methods."""
