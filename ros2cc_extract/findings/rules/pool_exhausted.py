@@ -15,7 +15,9 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import EntityKind, When
 
+_MADE_BY_CALLBACKS = (EntityKind.DONE_CALLBACK, EntityKind.TASK)
 USUAL_CPUS = 4
 """CPUs of a usual robot computer: with fewer waiters a default pool gets only a note."""
 
@@ -40,6 +42,9 @@ def find(context: Context) -> Iterator[Hit]:
 
 
 def _holds_a_worker(wait: Wait, context: Context) -> bool:
+    """Entities that a callback makes are left out: they may replace others."""
+    if wait.caller.when is When.CALLBACK and wait.caller.entity not in _MADE_BY_CALLBACKS:
+        return False
     if wait.kind is WaitKind.RATE:
         return True
     needed = wait.kind in (WaitKind.ANSWER, WaitKind.SIGNAL) and bool(wait.needs)

@@ -29,7 +29,7 @@ from finding_units import (
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import EntityKind, Executor, Spec
+from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
 
 
 def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:
@@ -200,6 +200,10 @@ def test_an_exclusive_group_counts_once() -> None:
 
 def test_exclusive_branches_count_once() -> None:
     assert 'CC103:40' not in found(blockers(4, threads(2), alternative='either'))
+
+
+def test_entities_that_a_callback_makes_do_not_count() -> None:
+    assert found(blockers(2, threads(2), when=When.CALLBACK)) == []
 
 
 def test_reentrant_waiters_overlap_themselves_so_no_number_is_enough() -> None:
