@@ -11,7 +11,16 @@ setup(
             depends=[
                 f'ros2cc_extract/checker/native/{name}.hpp'
                 for name in (
-                    'core', 'memory', 'model', 'layout', 'machine', 'moves', 'store', 'predicates', 'explore', 'lasso'
+                    'core',
+                    'memory',
+                    'model',
+                    'layout',
+                    'machine',
+                    'moves',
+                    'store',
+                    'predicates',
+                    'explore',
+                    'lasso',
                 )
             ],
             include_dirs=[pybind11.get_include()],

@@ -105,9 +105,7 @@ def measure(row: Row) -> Measure:
     if not row.all_families:
         queries = queries[:1]
     wall, cpu = time.perf_counter(), time.process_time()
-    result = check(
-        model, queries, engine=EngineKind(row.engine), reduction=row.reduction
-    )
+    result = check(model, queries, engine=EngineKind(row.engine), reduction=row.reduction)
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     return Measure(
         result.states,

@@ -170,9 +170,7 @@ class _ProcessAnalysis:
         steps = self._unfold()
         live = self._live(steps)
         resets = {node: self._resets(node, live) for node in steps}
-        return Forgetting(
-            self._controls, {node: found for node, found in resets.items() if found}
-        )
+        return Forgetting(self._controls, {node: found for node, found in resets.items() if found})
 
     # -- controls ------------------------------------------------------------------------
     def _choose_controls(self) -> tuple[int, ...]:
@@ -203,8 +201,7 @@ class _ProcessAnalysis:
             for expr in (edge.guard, *edge.updates):
                 for node in walk(expr) if expr else ():
                     if isinstance(node, Table) or (
-                        isinstance(node, Element)
-                        and self._candidates.intersection(slots_of(node))
+                        isinstance(node, Element) and self._candidates.intersection(slots_of(node))
                     ):
                         found |= variables_of(node.index)
         return found

@@ -154,4 +154,3 @@ def _is_comparison(expr: Expr) -> bool:
 def variables_of(expr: Expr) -> set[int]:
     """Return the plain variables in an expression."""
     return {node.slot for node in walk(expr) if isinstance(node, Var)}
-

@@ -75,9 +75,7 @@ class Moving:
             ]
             for process in network.processes
         ]
-        lines = [
-            line for i in range(len(network.functions)) for line in self._writer.function(i)
-        ]
+        lines = [line for i in range(len(network.functions)) for line in self._writer.function(i)]
         self._run('\n'.join(lines))
 
     # -- plans ---------------------------------------------------------------------------
@@ -190,9 +188,7 @@ class Moving:
 
     def predicate(self, exprs: Sequence[Expr]) -> Callable[[int, bool], int]:
         """Return a function from state and deadlock to a bit for each expression."""
-        bits = [
-            f'({1 << i} if {self._writer.value(expr)} else 0)' for i, expr in enumerate(exprs)
-        ]
+        bits = [f'({1 << i} if {self._writer.value(expr)} else 0)' for i, expr in enumerate(exprs)]
         lines = ['def predicate(s, dead):', f'{INDENT}return {" | ".join(bits) or 0}']
         return self._define('predicate', lines)  # type: ignore[no-any-return]
 
@@ -225,9 +221,7 @@ class Moving:
         def moves(packed: int) -> list[tuple[int, int]]:
             if not sender(packed):
                 return []
-            ready = [
-                [receiver for receiver, test in tests if test(packed)] for _, tests in guards
-            ]
+            ready = [[receiver for receiver, test in tests if test(packed)] for _, tests in guards]
             found = []
             for chosen in itertools.product(*(edges for edges in ready if edges)):
                 if own_committed or any(edge[0] in committed for edge in chosen):

@@ -99,9 +99,7 @@ class _Watching:
         self.watch = watch
         self.reason: str | None = None
 
-    def __call__(
-        self, states: int, transitions: int, more_bytes: int, is_exploring: bool
-    ) -> bool:
+    def __call__(self, states: int, transitions: int, more_bytes: int, is_exploring: bool) -> bool:
         try:
             if is_exploring:
                 self.reason = self.watch.broken(states, transitions, more_bytes)

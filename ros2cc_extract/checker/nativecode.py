@@ -192,11 +192,7 @@ class Lowering:
         return len(self.tables.ranges) // 2 - 1
 
     def _binary(self, node: Binary) -> int:
-        if (
-            node.op is Op.EQ
-            and isinstance(node.left, Var)
-            and isinstance(node.right, Const)
-        ):
+        if node.op is Op.EQ and isinstance(node.left, Var) and isinstance(node.right, Const):
             return self._node('VAR_IS', node.left.slot, node.right.low)
         return self._node(node.op.name, self.expr(node.left), self.expr(node.right))
 

@@ -178,9 +178,7 @@ class _Exploration:
             if keeps_edges:
                 graph.masks.append(bits)
                 graph.offsets.append(len(graph.targets))
-                graph.ends.append(
-                    DEADLOCK if is_deadlock else IDLE if plan.is_idle(packed) else 0
-                )
+                graph.ends.append(DEADLOCK if is_deadlock else IDLE if plan.is_idle(packed) else 0)
         self._transitions = transitions
 
     def _note_hits(self, hit: int, number: int) -> None:
@@ -255,9 +253,7 @@ class _Exploration:
         return (i for i in range(min(1, len(masks))) if masks[i] & wanted == wanted)
 
     def _movers(self) -> Movers:
-        of_label = [
-            sum(1 << process for process, _ in edges) for edges in self._moving.labels
-        ]
+        of_label = [sum(1 << process for process, _ in edges) for edges in self._moving.labels]
         return Movers(of_label, (1 << len(self._network.processes)) - 1)
 
     def _state_path(

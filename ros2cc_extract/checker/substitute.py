@@ -90,8 +90,8 @@ class Substitution:
     def _check(self, node: Check) -> Expr:
         operand = self.apply(node.operand)
         if isinstance(operand, Const):
-            is_good = operand.low != 0 if node.is_zero_bad else (
-                node.low <= operand.low <= node.high
+            is_good = (
+                operand.low != 0 if node.is_zero_bad else (node.low <= operand.low <= node.high)
             )
             if is_good:
                 return operand

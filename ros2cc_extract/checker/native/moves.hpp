@@ -14,22 +14,29 @@ using Edges = std::vector<int32_t>;
 class Moves {
  public:
   Moves(const Model& model, Machine& machine) : model_(model), machine_(machine) {
-    leaving_.resize(model.locations.size());
-    for (size_t p = 0; p < model.locations.size(); ++p) {
-      leaving_[p].resize(model.locations[p].size());
+    std::vector<std::vector<int32_t>> leaving;
+    for (const auto& flags : model.locations) {
+      base_.push_back(static_cast<int32_t>(flags_.size()));
+      flags_.insert(flags_.end(), flags.begin(), flags.end());
     }
+    leaving.resize(flags_.size());
     receivers_.resize(model.channels.size());
     for (size_t e = 0; e < model.edges.size(); ++e) {
       const Edge& edge = model.edges[e];
       const int32_t number = static_cast<int32_t>(e);
       if (edge.sync != RECEIVE) {
-        leaving_[edge.process][edge.source].push_back(number);
+        leaving[base_[edge.process] + edge.source].push_back(number);
       } else {
         for (int32_t c = 0; c < edge.length; ++c) {
           receivers_[edge.channel + c].push_back(number);
         }
       }
     }
+    for (const auto& edges : leaving) {
+      first_.push_back(static_cast<int32_t>(leaving_.size()));
+      leaving_.insert(leaving_.end(), edges.begin(), edges.end());
+    }
+    first_.push_back(static_cast<int32_t>(leaving_.size()));
   }
 
   // Calls visit(edges) for each transition while its target is in the machine; the machine is
@@ -42,8 +49,10 @@ class Moves {
     }
     for (size_t p = 0; p < machine_.at.size(); ++p) {
       // Moves change the location while they are visited, so it is read once.
-      const auto& edges = leaving_[p][machine_.at[p]];
-      for (const int32_t number : edges) from(number, words, visit);
+      const int32_t place = base_[p] + machine_.at[p];
+      for (int32_t i = first_[place]; i < first_[place + 1]; ++i) {
+        from(leaving_[i], words, visit);
+      }
     }
   }
 
@@ -61,7 +70,7 @@ class Moves {
 
  private:
   int32_t flags(size_t process) const {
-    return model_.locations[process][machine_.at[process]];
+    return flags_[base_[process] + machine_.at[process]];
   }
 
   bool leaves_committed(int32_t edge) const {
@@ -157,8 +166,10 @@ class Moves {
 
   const Model& model_;
   Machine& machine_;
-  std::vector<std::vector<std::vector<int32_t>>> leaving_;  // by process and location
-  std::vector<std::vector<int32_t>> receivers_;             // by channel
+  // Locations of all processes are numbered through: `base_` is the first of each process.
+  std::vector<int32_t> base_, flags_;
+  std::vector<int32_t> first_, leaving_;         // edges that do not wait for a sender
+  std::vector<std::vector<int32_t>> receivers_;  // by channel
   Edges moving_;
   bool any_committed_ = false;
 };

@@ -235,9 +235,7 @@ class FunctionCompiler:
                 return None
         return self._as_expression(body.statements, scope, returns, symbol.function.name)
 
-    def _bind_locals(
-        self, declaration: syntax.Variables | syntax.Typedef, scope: Scope
-    ) -> bool:
+    def _bind_locals(self, declaration: syntax.Variables | syntax.Typedef, scope: Scope) -> bool:
         """Let local names stand for their initial values; false where that would not do."""
         if isinstance(declaration, syntax.Typedef):
             return False
