@@ -32,6 +32,11 @@ from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import When
 
 
+def _owner_text(text: str | ast.expr) -> str | ast.expr:
+    """What stands before the dot."""
+    return text.value if isinstance(text, ast.Attribute) else text
+
+
 class Attributes(Machine):
     """What stands behind a dot."""
 
@@ -73,7 +78,7 @@ class Attributes(Machine):
         if isinstance(value, Super):
             return self._of_super(value, name, place)
         if value == NONE:
-            unset = Mystery(Unknown('it is None here and set elsewhere', place), text)
+            unset = Mystery(Unknown('it is None here and set elsewhere', place), _owner_text(text))
             return self.member_of_mystery(unset, name, place)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)

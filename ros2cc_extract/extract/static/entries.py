@@ -48,12 +48,18 @@ def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[
         found.extend(
             Entry(source, name, f'{source.shown}:{name}')
             for name, node in functions.items()
-            if _spins(node)
+            if _spins(node) and not _wants_arguments(node)
         )
     return found
 
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+def _wants_arguments(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    arguments = node.args
+    given = len(arguments.posonlyargs) + len(arguments.args) - len(arguments.defaults)
+    return given > 0 or None in arguments.kw_defaults
 
 
 def _is_script(tree: ast.Module) -> bool:

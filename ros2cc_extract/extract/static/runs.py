@@ -106,12 +106,13 @@ def run_library(
     module = machine.modules[source.shown]
     values = _definitions(machine, module)
     bases = _bases_in_use(values)
-    in_text = sorted(values, key=lambda v: (isinstance(v, Function), v.node.lineno))
+    in_text = sorted(values, key=_classes_and_setters_first)
     names, nodes = [v.name for v in in_text], [v.node for v in in_text]
+    wanted = leading_to_entities(names, nodes, frozenset())
     for value in callers_first(in_text, names, nodes):
         if id(value.node) in covered or value.module is not module:
             continue
-        if _is_followed(machine, value) or not creates_entities(value.node):
+        if _is_followed(machine, value) or value.name not in wanted:
             continue
         if id(value) in bases:
             continue
@@ -119,6 +120,12 @@ def run_library(
         run_callbacks(machine)
         run_rest_of_instances(machine)
     return machine
+
+
+def _classes_and_setters_first(value: Class | Function) -> tuple[bool, bool, int]:
+    """Functions that set globals come before others, which may need them."""
+    sets = any(isinstance(part, ast.Global) for part in ast.walk(value.node))
+    return isinstance(value, Function), not sets, value.node.lineno
 
 
 def _is_followed(machine: Interpreter, value: Class | Function) -> bool:

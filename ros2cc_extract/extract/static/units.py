@@ -127,7 +127,7 @@ def _same_unit(unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
     if not spin.executor.state.is_global:
         return True
     if any(node in unit.nodes for node in nodes):
-        return not exclusive(unit.spin.path, spin.path)
+        return True
     if any(is_handed_over(node) for node in (*unit.nodes, *nodes)):
         return False
     return not unit.spin.for_ever and not spin.for_ever
