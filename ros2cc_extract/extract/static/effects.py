@@ -31,12 +31,14 @@ from ros2cc_extract.extract.static.world import (
     ExecutorState,
     NodeState,
     PlainState,
+    SettableRef,
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking
 
 _CODE = (Module, Library, Class, Function)
+_SETTABLE = frozenset({'event', 'future'})
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
@@ -169,6 +171,8 @@ class Effects(Machine):
             source = state.of if isinstance(state, PlainState) and state.of else value
             if isinstance(source, Instance) and isinstance(source.state, EntityState):
                 return EntityRef.to(source.state)
+            if isinstance(state, PlainState) and state.kind in _SETTABLE:
+                return SettableRef.to_object(value, value.hint or value.class_name)
             if isinstance(value.state, (NodeState, ExecutorState)):
                 return EntityRef.to_object(value, value.hint or value.class_name)
             return value.hint or value.class_name
@@ -199,6 +203,12 @@ class Effects(Machine):
             if isinstance(option, Instance):
                 held = [name for name in self.world.held if name != option.hint]
                 self.world.held = tuple(held)
+
+    def note_set(self, thing: Value) -> None:
+        """An event or future is set, by the callback that is followed or by something else."""
+        setter = self.world.current if self.world.deeds is not None else None
+        for option in options_of(thing):
+            self.world.setters.setdefault(id(option), []).append(setter)
 
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""

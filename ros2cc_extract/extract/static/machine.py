@@ -280,6 +280,10 @@ class Machine(ABC):
         """A lock is given back."""
 
     @abstractmethod
+    def note_set(self, thing: Value) -> None:
+        """An event or future is set."""
+
+    @abstractmethod
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""
 

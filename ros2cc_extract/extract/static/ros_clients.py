@@ -80,6 +80,11 @@ def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
     return result_of(machine, receiver, call.place)
 
 
+def _set_result(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_set(receiver)
+    return NONE
+
+
 def result_of(machine: Machine, future: Instance, place: Place) -> Value:
     """What a future gives: a goal handle for a goal that was sent, else a mystery."""
     if future.state.kind != 'goal':
@@ -107,7 +112,12 @@ def future_class(kind: str) -> LibraryClass:
     """rclpy's futures."""
     return LibraryClass(
         state=lambda machine, instance: PlainState(kind, place=instance.place),
-        methods={'add_done_callback': _add_done_callback, 'result': _future_result},
+        methods={
+            'add_done_callback': _add_done_callback,
+            'result': _future_result,
+            'set_result': _set_result,
+            'set_exception': _set_result,
+        },
     )
 
 

@@ -186,6 +186,7 @@ def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ev
     nodes = nodes_of(executor)
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
+    spin.repeated = isinstance(world.count, Unknown)
     world.spins.setdefault(spin.key, spin)
     for node in nodes:
         node.state.spun = True

@@ -130,6 +130,11 @@ def _release(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _set(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_set(receiver)
+    return NONE
+
+
 def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_blocking('time.sleep', None, call.argument(0, 'secs'), call.place)
     return NONE
@@ -146,7 +151,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         'wait_for': _blocking('Condition.wait_for', 1, 'timeout'),
     },
     'semaphore': _LOCK_METHODS,
-    'event': {'wait': _blocking('Event.wait', 0, 'timeout')},
+    'event': {'wait': _blocking('Event.wait', 0, 'timeout'), 'set': _set},
     'barrier': {'wait': _blocking('Barrier.wait', 0, 'timeout')},
     'pool': {
         'submit': _submit,

@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.world import (
     EntityRef,
     EntityState,
     ExecutorState,
+    SettableRef,
     Spin,
     World,
 )
@@ -361,6 +362,9 @@ class UnitBuilder:
         """What is waited for, by the name it has in this unit."""
         names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
         names |= self._node_names
+        for number, setters in self._world.setters.items():
+            if len({id(setter) for setter in setters}) == 1 and id(setters[0]) in names:
+                names[number] = names[id(setters[0])]
         if self._executor is not None:
             names[id(self._executor)] = executor.name
         return [
@@ -451,6 +455,8 @@ def _number(value: Value | None) -> float | None:
 
 
 def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
+    if isinstance(on, SettableRef):
+        return names.get(on.number) or str(on)
     if isinstance(on, EntityRef):
         return names.get(on.number) or Unknown('an entity of another executor')
     return on if isinstance(on, (str, Unknown)) else None

@@ -108,7 +108,7 @@ def _spun_units(world: World) -> list[Unit]:
     """Spins of one executor become one unit; of the global one, those that share nodes."""
     units: list[Unit] = []
     spins = list(world.spins.values())
-    for spin in sorted(spins, key=lambda spin: not spin.for_ever):
+    for spin in sorted(spins, key=lambda spin: (not spin.for_ever, not spin.repeated)):
         nodes = [node for node in spin.nodes if _is_final(spin, node, spins)]
         if not nodes:
             continue

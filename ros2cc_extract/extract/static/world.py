@@ -133,6 +133,17 @@ class EntityRef(str):
         return reference
 
 
+class SettableRef(EntityRef):
+    """Stands for an event or future until it is known which one callback sets it."""
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> SettableRef:
+        """A reference to ``thing``; ``text`` stays where no one callback alone sets it."""
+        reference = SettableRef(text)
+        reference.number = id(thing)
+        return reference
+
+
 @dataclass(eq=False)
 class Spin:
     """One spin call: the executor, the nodes it has then, and how it is called."""
@@ -144,6 +155,7 @@ class Spin:
     path: Path
     for_ever: bool
     in_thread: bool
+    repeated: bool = False
 
     @property
     def key(self) -> object:
@@ -202,6 +214,7 @@ class World:
 
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
+    :param setters: what sets an event or future; ``None`` for what is no callback.
     :param called: every function that was followed, to find those that were not.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param stopped: this branch of the program has ended.
@@ -214,6 +227,7 @@ class World:
     stopped: bool = False
     deeds: Deeds | None = None
     current: EntityState | None = None
+    setters: dict[int, list[EntityState | None]] = field(default_factory=dict)
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
     after_spin: bool = False
