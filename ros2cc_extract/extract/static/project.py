@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,6 +14,10 @@ from ros2cc_extract.places import Place
 _SKIPPED = frozenset(
     {'__pycache__', 'build', 'install', 'log', 'node_modules', 'venv', '.venv', 'site-packages'}
 )
+_MANIFESTS = ('package.xml', 'setup.py', 'pyproject.toml')
+_LEVELS = 5
+_NOT_OF_WORKSPACES = sys.stdlib_module_names | {'diagnostic_updater', 'message_filters', 'tf2_ros'}
+"""Names never looked for: what the library tables describe is not followed into its sources."""
 
 
 class Project:
@@ -27,6 +32,7 @@ class Project:
         self._files: dict[Path, SourceFile] = {}
         self._by_name: dict[str, list[SourceFile]] = {}
         self._by_shown: dict[str, SourceFile] = {}
+        self._roots: dict[tuple[Path, str], Path | None] = {}
         self.given: list[SourceFile] = []
 
     @staticmethod
@@ -79,7 +85,20 @@ class Project:
             if found is not None:
                 return found
         candidates = self._by_name.get(name, [])
-        return candidates[0] if candidates else None
+        if candidates:
+            return candidates[0]
+        return self._in_workspace(parts, importer)
+
+    def _in_workspace(self, parts: list[str], importer: str) -> SourceFile | None:
+        """A module of another package that stands beside the importing file or above it."""
+        source = self._by_shown.get(importer)
+        if parts[0] in _NOT_OF_WORKSPACES or source is None or source.given_text is not None:
+            return None
+        key = (source.path.parent, parts[0])
+        if key not in self._roots:
+            self._roots[key] = _package_root(*key)
+        root = self._roots[key]
+        return self._in_folder(root, parts) if root is not None else None
 
     def _search_folders(self, importer: str) -> Iterator[Path]:
         source = self._by_shown.get(importer)
@@ -135,6 +154,21 @@ class Project:
             return full.relative_to(self._root).as_posix()
         except ValueError:
             return path.as_posix()
+
+
+def _package_root(folder: Path, package: str) -> Path | None:
+    """
+    The folder that holds ``package``, in one of the layouts of ROS packages.
+
+    Only what a manifest stands beside counts, so that no stranger of that name is taken.
+    """
+    for above in (folder, *list(folder.parents)[:_LEVELS]):
+        for home in (above, above / package):
+            for root in (home, home / 'src'):
+                is_package = (root / package / '__init__.py').is_file()
+                if is_package and any((home / name).is_file() for name in _MANIFESTS):
+                    return root
+    return None
 
 
 def _package_of(path: Path) -> str:

@@ -1,0 +1,53 @@
+"""One file is given; what it imports stands in packages of the same workspace."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan
+
+NODE = (
+    'from rclpy.node import Node\n\n\nclass A(Node):\n    def __init__(self):\n'
+    "        super().__init__('a')\n        self.create_timer(1.0, self.tick)\n\n"
+    '    def tick(self):\n        pass\n'
+)
+SCRIPT = 'import rclpy\nfrom {} import A\n\nrclpy.init()\nrclpy.spin(A())\n'
+
+
+def write(path: Path, text: str = '') -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding='utf-8')
+
+
+def names_of(folder: Path, script: str) -> list[str]:
+    units = scan([folder / script], root=folder).units
+    return [callback.name for unit in units for callback in unit.callbacks]
+
+
+@pytest.mark.parametrize(
+    'package', ['arm/arm', 'arm/src/arm', 'ws/arm/arm'], ids=['beside', 'src', 'deeper']
+)
+@pytest.mark.parametrize('script', ['arm/scripts/run.py', 'app/app/run.py', 'app/run.py'])
+def test_package_of_the_workspace_is_found(tmp_path: Path, package: str, script: str) -> None:
+    deeper = 'ws/' if package.startswith('ws/') else ''
+    write(tmp_path / package / '__init__.py')
+    write(tmp_path / package / 'nodes.py', NODE)
+    write(tmp_path / deeper / 'arm' / 'package.xml', '<package/>')
+    write(tmp_path / deeper / script, SCRIPT.format('arm.nodes'))
+    assert names_of(tmp_path, f'{deeper}{script}') == ['tick']
+
+
+def test_folder_without_a_manifest_is_no_package(tmp_path: Path) -> None:
+    write(tmp_path / 'arm' / 'arm' / '__init__.py')
+    write(tmp_path / 'arm' / 'arm' / 'nodes.py', NODE)
+    write(tmp_path / 'app' / 'run.py', SCRIPT.format('arm.nodes'))
+    assert names_of(tmp_path, 'app/run.py') == []
+
+
+def test_known_library_is_not_followed_into_its_sources(tmp_path: Path) -> None:
+    write(tmp_path / 'tf2_ros' / 'package.xml', '<package/>')
+    write(tmp_path / 'tf2_ros' / 'tf2_ros' / '__init__.py', NODE)
+    write(tmp_path / 'app' / 'run.py', SCRIPT.format('tf2_ros'))
+    assert names_of(tmp_path, 'app/run.py') == []
