@@ -97,7 +97,10 @@ def _at(options: Options, point: Point) -> Options:
 
 def _verify(task: tuple[Spec, Policy, Options]) -> Verification:
     unit, policy, options = task
-    return verify_unit(close(unit, policy), options)
+    verification = verify_unit(close(unit, policy), options)
+    # Runs are found out in this process, for the sake of those that another one waits for.
+    told = tuple(replace(result, run=result.evidence) for result in verification.results)
+    return replace(verification, results=told)
 
 
 def _turns(point: Point, before: Verification, after: Verification) -> Iterable[Turn]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cached_property, partial
 from pathlib import Path
 
 from ros2cc_extract.checker.api import (
@@ -72,6 +73,7 @@ class QueryResult:
     :param family: value of ``generator.build.Family``; ``None`` for a query we did not write.
     :param callbacks: names of the callbacks the query is about.
     :param seconds: when it was decided, counted from the start of the exploration.
+    :param run: the run behind the verdict, or what gives it; use ``evidence``.
     """
 
     family: str | None
@@ -81,7 +83,12 @@ class QueryResult:
     verdict: Verdict
     reason: str | None
     seconds: float
-    evidence: Evidence | None
+    run: Evidence | Callable[[], Evidence] | None
+
+    @cached_property
+    def evidence(self) -> Evidence | None:
+        """The run behind the verdict, replayed and told when it is first asked for."""
+        return self.run() if callable(self.run) else self.run
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,7 +184,7 @@ def _ask_verifyta(
             verdict=answer.verdict,
             reason=answer.reason,
             seconds=answer.seconds,
-            evidence=None,
+            run=None,
         )
         for query, answer in zip(rendered.queries, answers, strict=True)
     )
@@ -257,8 +264,14 @@ def _result(
         verdict=answer.verdict,
         reason=answer.reason,
         seconds=answer.seconds,
-        evidence=tell(answer.path, names) if answer.path else None,
+        run=partial(_tell, answer, names) if answer.replay else None,
     )
+
+
+def _tell(answer: Answer, names: Names) -> Evidence:
+    run = answer.path
+    assert run is not None, 'only asked of answers that have a run'
+    return tell(run, names)
 
 
 def _verification(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property, partial
 from pathlib import Path
 
 from ros2cc_extract.checker import engines
@@ -94,14 +95,23 @@ class Answer:
 
     :param reason: why the verdict is undecided.
     :param seconds: when it was known, from the start of the search.
-    :param path: witness or counterexample, replayed; None where none exists or was found.
+    :param replay: gives the witness or counterexample; None where none exists or was found.
     """
 
     query: Query
     verdict: Verdict
     reason: str | None
     seconds: float
-    path: Run | None
+    replay: Callable[[], Run] | None = field(repr=False, compare=False)
+
+    @cached_property
+    def path(self) -> Run | None:
+        """
+        The witness or counterexample, replayed step by step when it is first asked for.
+
+        :raises CoreMismatchError: when it could not be replayed (a defect).
+        """
+        return self.replay() if self.replay else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,7 +198,6 @@ def check(
     :param reduction: explore fewer states where that keeps all verdicts; the reference does not.
     :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
     :raises ToolNotFoundError: the native core was asked for and is not built.
-    :raises CoreMismatchError: a path could not be replayed (a defect).
     """
     unnamed = Place('query', 1)
     properties = [model.elaboration.query(q.formula, q.place or unnamed) for q in queries]
@@ -209,7 +218,9 @@ def check(
             verdict=outcome.verdict,
             reason=outcome.reason,
             seconds=outcome.seconds,
-            path=replayer.run(prop, outcome.path, result.reduce) if outcome.path else None,
+            replay=partial(replayer.run, prop, outcome.path, result.reduce)
+            if outcome.path
+            else None,
         )
         for query, prop, outcome in zip(queries, properties, result.outcomes, strict=True)
     )

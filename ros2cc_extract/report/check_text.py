@@ -53,7 +53,7 @@ def _first_of_each_family(
     shown: dict[str | None, tuple[int, QueryResult]] = {}
     runs = 0
     for number, result in enumerate(verification.results, start=1):
-        told = result.evidence is not None and result.family not in OF_NO_INTEREST
+        told = result.run is not None and result.family not in OF_NO_INTEREST
         if result.verdict is Verdict.NOT_SATISFIED and told:
             runs += 1
             shown.setdefault(result.family, (number, result))

@@ -168,6 +168,24 @@ def test_an_event_that_a_member_of_the_group_sets() -> None:
     assert found(spec) == ['CC101:40', 'CC403:90 note']
 
 
+def test_a_done_callback_needs_the_client_of_its_answer() -> None:
+    def spec(executor: Executor, group: str) -> Spec:
+        return unit(
+            executor,
+            timer('drive', blocking=calls('on_answer', call='Event.wait')),
+            client('plan_client', group),
+            outside('on_answer', EntityKind.DONE_CALLBACK, key='plan'),
+        )
+
+    assert found(spec(ONE_THREAD, 'other'))[-1] == 'CC102:40'
+    assert found(spec(threads(2), 'other')) == []
+    finding = only(spec(threads(2), 'arm_default'), 'CC101')
+    assert finding.message == (
+        "drive waits in Event.wait for the answer of service 'plan', but the client is in the "
+        "default group of 'arm', which is closed while drive runs: it waits for ever"
+    )
+
+
 def blockers(number: int, executor: Executor, group: str = '', **facts: object) -> Spec:
     """``number`` timers that wait for a client, each in a group of its own or all in one."""
     names = [f'g{index}' for index in range(number)]

@@ -52,7 +52,7 @@ def verified(verdict: Verdict, *pair: str) -> Verification:
         verdict=verdict,
         reason=None,
         seconds=0.0,
-        evidence=RUN if verdict is Verdict.SATISFIED else None,
+        run=RUN if verdict is Verdict.SATISFIED else None,
     )
     return Verification(
         model='arm',

@@ -44,7 +44,7 @@ def verdicts(*results: tuple[str, tuple[str, ...], Verdict]) -> Verification:
                 verdict=verdict,
                 reason='20 s' if verdict is Verdict.UNDECIDED else None,
                 seconds=0.0,
-                evidence=RUN if verdict is Verdict.NOT_SATISFIED else None,
+                run=RUN if verdict is Verdict.NOT_SATISFIED else None,
             )
             for family, callbacks, verdict in results
         ),

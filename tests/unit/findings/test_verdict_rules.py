@@ -44,7 +44,7 @@ def progress(verdict: Verdict, *names: str) -> Verification:
                 verdict=verdict,
                 reason=None,
                 seconds=0.0,
-                evidence=RUN if verdict is Verdict.NOT_SATISFIED else None,
+                run=RUN if verdict is Verdict.NOT_SATISFIED else None,
             )
             for name in names
         ),
