@@ -113,7 +113,20 @@ def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Call
     if needed is None or needed == caller or _exclude_each_other(needed, caller):
         return
     yield needed
-    yield from _server(needed, context)
+    client = _client_before(needed, context)
+    if client is not None and client != caller:
+        yield client
+    yield from _server(client or needed, context)
+
+
+def _client_before(done: Callback, context: Context) -> Callback | None:
+    """The client whose answer a done-callback is for, where its node has one of that name."""
+    if done.entity is not EntityKind.DONE_CALLBACK or not isinstance(done.key, str):
+        return None
+    found = [
+        c for c in context.written if is_client(c) and c.key == done.key and c.node == done.node
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 def _server(client: Callback, context: Context) -> Iterator[Callback]:
@@ -139,7 +152,7 @@ def waits_for(wait: Wait) -> str:
     needed = wait.needs[0] if wait.needs else None
     if needed is None:
         return 'something else'
-    if is_client(needed):
+    if is_client(needed) or needed.entity is EntityKind.DONE_CALLBACK:
         name = f' {needed.key!r}' if isinstance(needed.key, str) else ''
         what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
         return f'the answer of {what}{name}'

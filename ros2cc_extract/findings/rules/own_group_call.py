@@ -59,9 +59,11 @@ def _what(callback: Callback) -> str:
 
 
 def _blocked(shut_out: Callback, wait: Wait) -> str:
-    if shut_out is not wait.needs[0]:
-        return f'{shut_out.display_name}, which serves it, is'
-    return 'the client is' if is_client(shut_out) else 'that is'
+    if is_client(shut_out):
+        return 'the client is'
+    if shut_out is wait.needs[0]:
+        return f'{shut_out.display_name} is'
+    return f'{shut_out.display_name}, which serves it, is'
 
 
 RULE = Rule(

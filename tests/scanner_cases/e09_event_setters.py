@@ -1,0 +1,58 @@
+"""Deeds: an event that two callbacks set, one that other code sets, a future, a done-callback."""
+
+import threading
+
+import rclpy
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.two, self.other = threading.Event(), threading.Event()
+        self.answer = threading.Event()
+        self.result = Future()
+        self.client = self.create_client(Trigger, 'go')
+        self.create_timer(1.0, self.wait)
+        self.create_subscription(String, 'in', self.on_in, 10)
+        self.other.set()
+
+    async def wait(self):
+        self.two.wait()
+        self.other.wait()
+        future = self.client.call_async(Trigger.Request())
+        future.add_done_callback(lambda done: self.answer.set())
+        self.answer.wait()
+        await self.result
+        self.two.set()
+
+    def on_in(self, msg):
+        self.two.set()
+        self.other.set()
+        self.result.set_result(msg)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(A())
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+#   group a_default EXCLUSIVE default
+#   group no_group REENTRANT groupless
+#   timer wait in a_default every 1 coroutine
+#     blocks Event.wait on two @24
+#     blocks Event.wait on other @25
+#     blocks Event.wait on lambda_set @28
+#     blocks await on on_in @29
+#     changes done_callback @27
+#   subscription on_in in a_default key=in
+#   client go_client in a_default key=go
+#   done_callback lambda_set in no_group (A.wait.<locals>.<lambda>) conditional when=callback
