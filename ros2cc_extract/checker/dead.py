@@ -17,9 +17,8 @@ from dataclasses import dataclass, field
 from ros2cc_extract.checker.effects import (
     ConditionalRead,
     Effect,
+    Effects,
     conditional_reads,
-    edge_effect,
-    effect_of,
     slots_of,
     variables_of,
 )
@@ -64,7 +63,7 @@ def forgettings(network: Network, predicates: Sequence[Expr]) -> tuple[Forgettin
 
     :param predicates: all formulae whose values must be kept.
     """
-    usage = _Usage(network, conditional_reads(predicates, network))
+    usage = _Usage(network, predicates)
     return tuple(
         _ProcessAnalysis(number, usage).forgetting() for number in range(len(network.processes))
     )
@@ -84,10 +83,11 @@ def forget(forgotten: Sequence[Forgetting], state: State, edges: Edges) -> State
 class _Usage:
     """Who reads and writes which variable."""
 
-    def __init__(self, network: Network, reads: set[ConditionalRead]) -> None:
+    def __init__(self, network: Network, predicates: Sequence[Expr]) -> None:
         self.network = network
+        self.effects = Effects(network)
         self.predicate_reads: dict[int, list[ConditionalRead]] = {}
-        for read in reads:
+        for read in conditional_reads(predicates, self.effects):
             self.predicate_reads.setdefault(read.slot, []).append(read)
         count = len(network.variables)
         self.readers: list[set[int]] = [set() for _ in range(count)]
@@ -95,7 +95,7 @@ class _Usage:
         self.senders: list[list[tuple[int, Edge]]] = [[] for _ in network.channels]
         for number, process in enumerate(network.processes):
             for edge in process.edges:
-                effect = edge_effect(edge, network)
+                effect = self.effects.of_edge(edge)
                 for slot in effect.reads:
                     self.readers[slot].add(number)
                 for slot in effect.may_write:
@@ -137,7 +137,7 @@ class _Usage:
         written: set[int] = set()
         for update in sender.updates:
             known = Substitution(values).apply(update)
-            effect = effect_of(known, self.network)
+            effect = self.effects.of(known)
             written |= effect.writes
             for slot in effect.may_write:
                 values.pop(slot, None)
@@ -161,7 +161,8 @@ class _ProcessAnalysis:
         self._process = usage.network.processes[number]
         self._candidates = usage.candidates(number)
         self._controls = self._choose_controls()
-        self._effects: dict[Expr, Effect] = {}
+        # By identity, with the expression, so that no other one can take its place.
+        self._effects: dict[int, tuple[Expr, Effect]] = {}
 
     def forgetting(self) -> Forgetting:
         """Return the variables to reset at each node that has some."""
@@ -260,9 +261,9 @@ class _ProcessAnalysis:
         return step
 
     def _effect(self, expr: Expr) -> Effect:
-        if expr not in self._effects:
-            self._effects[expr] = effect_of(expr, self._network)
-        return self._effects[expr]
+        if id(expr) not in self._effects:
+            self._effects[id(expr)] = expr, self._usage.effects.of(expr)
+        return self._effects[id(expr)][1]
 
     def _reads(self, original: Expr, simple: Expr) -> set[int]:
         """Return the candidates read: controls count as read wherever they are mentioned."""

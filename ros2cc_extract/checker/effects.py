@@ -45,44 +45,55 @@ class Effect:
     writes: set[int] = field(default_factory=set)
 
 
-def effect_of(expr: Expr, network: Network) -> Effect:
-    """Return what an expression reads and writes."""
-    effect = Effect()
-    _collect(expr, network, effect, set())
-    if isinstance(expr, Assign) and isinstance(expr.target, Var):
-        effect.writes.add(expr.target.slot)
-    return effect
+class Effects:
+    """Effects of the expressions of one network; those of its functions are kept."""
 
+    def __init__(self, network: Network) -> None:
+        self._network = network
+        self._of_function: dict[int, Effect] = {}
 
-def _collect(expr: Expr, network: Network, effect: Effect, entered: set[int]) -> None:
-    if isinstance(expr, Assign):
-        target = expr.target
-        _collect(expr.value, network, effect, entered)
-        if isinstance(target, (Var, Element)):
-            effect.may_write.update(slots_of(target))
-        for inner in children(target):
-            _collect(inner, network, effect, entered)
-        return
-    if isinstance(expr, (Var, Element)):
-        effect.reads.update(slots_of(expr))
-    elif isinstance(expr, Call) and expr.function not in entered:
-        entered.add(expr.function)
-        for inner in function_expressions(network.functions[expr.function].body):
-            _collect(inner, network, effect, entered)
-    for inner in children(expr):
-        _collect(inner, network, effect, entered)
+    def of(self, expr: Expr) -> Effect:
+        """Return what an expression reads and writes."""
+        effect = Effect()
+        self._collect(expr, effect)
+        if isinstance(expr, Assign) and isinstance(expr.target, Var):
+            effect.writes.add(expr.target.slot)
+        return effect
 
+    def of_edge(self, edge: Edge) -> Effect:
+        """Return what an edge as a whole may read and write."""
+        total = Effect()
+        for expr in (edge.guard, edge.sync.index if edge.sync else None, *edge.updates):
+            if expr is not None:
+                self._collect(expr, total)
+        return total
 
-def edge_effect(edge: Edge, network: Network) -> Effect:
-    """Return what an edge as a whole may read and write."""
-    total = Effect()
-    exprs = [edge.guard, edge.sync.index if edge.sync else None, *edge.updates]
-    for expr in exprs:
-        if expr is not None:
-            part = effect_of(expr, network)
-            total.reads |= part.reads
-            total.may_write |= part.may_write
-    return total
+    def _collect(self, expr: Expr, effect: Effect) -> None:
+        if isinstance(expr, Assign):
+            target = expr.target
+            self._collect(expr.value, effect)
+            if isinstance(target, (Var, Element)):
+                effect.may_write.update(slots_of(target))
+            for inner in children(target):
+                self._collect(inner, effect)
+            return
+        if isinstance(expr, (Var, Element)):
+            effect.reads.update(slots_of(expr))
+        elif isinstance(expr, Call):
+            called = self._function(expr.function)
+            effect.reads |= called.reads
+            effect.may_write |= called.may_write
+        for inner in children(expr):
+            self._collect(inner, effect)
+
+    def _function(self, number: int) -> Effect:
+        # Functions do not call themselves, so this ends.
+        if number not in self._of_function:
+            effect = Effect()
+            for inner in function_expressions(self._network.functions[number].body):
+                self._collect(inner, effect)
+            self._of_function[number] = effect
+        return self._of_function[number]
 
 
 #: An expression and whether it must be true or false.
@@ -97,38 +108,38 @@ class ConditionalRead:
     literals: frozenset[Literal]
 
 
-def conditional_reads(predicates: Iterable[Expr], network: Network) -> set[ConditionalRead]:
+def conditional_reads(predicates: Iterable[Expr], effects: Effects) -> set[ConditionalRead]:
     """Return the reads of all predicates, with the conditions under which they matter."""
     found: set[ConditionalRead] = set()
     for predicate in predicates:
-        found.update(_reads(predicate, frozenset(), network))
+        found.update(_reads(predicate, frozenset(), effects))
     return found
 
 
 def _reads(
-    expr: Expr, literals: frozenset[Literal], network: Network
+    expr: Expr, literals: frozenset[Literal], effects: Effects
 ) -> Iterator[ConditionalRead]:
     if isinstance(expr, Binary) and expr.op in (Op.AND, Op.OR):
         # Only the right side depends on the left one, as it is evaluated: if each were said to
         # matter only where the other holds, both could be forgotten at once.
         wanted = expr.op is Op.AND
-        yield from _reads(expr.left, literals, network)
-        yield from _reads(expr.right, literals | implied(expr.left, wanted), network)
+        yield from _reads(expr.left, literals, effects)
+        yield from _reads(expr.right, literals | implied(expr.left, wanted), effects)
         return
     if isinstance(expr, Choice):
-        yield from _reads(expr.condition, literals, network)
-        yield from _reads(expr.then, literals | implied(expr.condition, True), network)
-        yield from _reads(expr.otherwise, literals | implied(expr.condition, False), network)
+        yield from _reads(expr.condition, literals, effects)
+        yield from _reads(expr.then, literals | implied(expr.condition, True), effects)
+        yield from _reads(expr.otherwise, literals | implied(expr.condition, False), effects)
         return
     if isinstance(expr, Call):
-        for slot in effect_of(expr, network).reads:
+        for slot in effects.of(expr).reads:
             yield ConditionalRead(slot, literals)
         return
     if isinstance(expr, (Var, Element)):
         for slot in slots_of(expr):
             yield ConditionalRead(slot, literals)
     for inner in children(expr):
-        yield from _reads(inner, literals, network)
+        yield from _reads(inner, literals, effects)
 
 
 def implied(expr: Expr, value: bool) -> frozenset[Literal]:

@@ -74,7 +74,8 @@ class Lowering:
         self._network = network
         self._numbers = {name: number for number, name in enumerate(operations)}
         self.tables = Tables()
-        self._known: dict[Expr, int] = {}
+        # By identity: hashing would walk through each expression again at every level.
+        self._known: dict[int, tuple[Expr, int]] = {}
         self._handlers: dict[type, Callable[[Any], int]] = {
             Const: lambda node: self._node('CONST', node.low),
             Var: lambda node: self._node('VAR', node.slot),
@@ -172,11 +173,11 @@ class Lowering:
 
     # -- nodes ---------------------------------------------------------------------------
     def expr(self, expr: Expr) -> int:
-        """Return the node of an expression; equal expressions share one."""
-        known = self._known.get(expr)
+        """Return the node of an expression; the same object is lowered once."""
+        known = self._known.get(id(expr))
         if known is None:
-            known = self._known[expr] = self._handlers[type(expr)](expr)
-        return known
+            known = self._known[id(expr)] = expr, self._handlers[type(expr)](expr)
+        return known[1]
 
     def _node(self, operation: str, a: int = 0, b: int = 0, c: int = 0) -> int:
         nodes = self.tables.nodes

@@ -15,7 +15,8 @@ pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is n
 def test_wide_states_agree(cells: int, low: int) -> None:
     walker = automaton(
         'W',
-        'a U:b\na -> b; guard: at < N; do: cell[2 * at + start] = at * 7 + start, at++\nb -> a; do: flip()',
+        'a U:b\na -> b; guard: at < N; do: cell[2 * at + start] = at * 7 + start, at++\n'
+        'b -> a; do: flip()',
         parameters='const int[0, 1] start',
         local='int[0, N] at;',
     )

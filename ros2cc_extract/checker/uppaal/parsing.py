@@ -110,7 +110,7 @@ def parse(text: str, start: Start, place: Place) -> Any:
     from lark.exceptions import UnexpectedInput, VisitError
 
     try:
-        return _parser().parse('\n' * (place.line - 1) + text, start=start.value)
+        return _tree(text, start, place.line)
     except UnexpectedInput as error:
         raise _syntax_error(error, text, place) from None
     except NestingError as error:
@@ -119,6 +119,12 @@ def parse(text: str, start: Start, place: Place) -> Any:
         if isinstance(error.orig_exc, NestingError):
             raise _nesting_error(error.orig_exc, place) from None
         raise
+
+
+@functools.lru_cache(maxsize=4096)
+def _tree(text: str, start: Start, line: int) -> Any:
+    # Trees are values without the file's name; models of one sweep share most of their texts.
+    return _parser().parse('\n' * (line - 1) + text, start=start.value)
 
 
 def _nesting_error(error: NestingError, place: Place) -> ModelFormatError:
