@@ -7,7 +7,6 @@ from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.cache import ScanCache
 from ros2cc_extract.extract.static.entries import console_scripts, entries_of
 from ros2cc_extract.extract.static.limits import scanning_limits
 from ros2cc_extract.extract.static.project import Project
@@ -39,18 +38,25 @@ def scan(
         project = Project.of_paths(paths, root)
         if cache is None:
             return _scan(project, progress)
-        entry = ScanCache(cache, project)
-        known = entry.load()
-        if known is None:
-            known = _scan(project, progress)
-            entry.store(project, known)
-        return known
+        return _scan_cached(project, progress, cache)
 
 
 def scan_text(text: str, name: str = 'node.py') -> Extraction:
     """Scan a program of one file given as text."""
     with scanning_limits():
         return _scan(Project.of_text(text, name), None)
+
+
+def _scan_cached(project: Project, progress: Progress | None, folder: Path) -> Extraction:
+    # Imported here: most scans go without, and its libraries take longer than a small scan.
+    from ros2cc_extract.extract.static.cache import ScanCache
+
+    entry = ScanCache(folder, project)
+    known = entry.load()
+    if known is None:
+        known = _scan(project, progress)
+        entry.store(project, known)
+    return known
 
 
 def _scan(project: Project, progress: Progress | None) -> Extraction:
