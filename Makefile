@@ -19,8 +19,8 @@ test: $(VENV)/developed $(JAZZY)/installed
 	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -n auto $(PYTEST_FLAGS)
 
 # Random comparisons in the numbers of record; hours on the pure Python checker.
-test-long: $(VENV)/developed
-	$(BIN)/python -m pytest -m slow $(PYTEST_FLAGS)
+test-long: $(VENV)/developed $(JAZZY)/installed
+	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -m slow $(PYTEST_FLAGS)
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .

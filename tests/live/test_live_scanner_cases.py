@@ -26,6 +26,13 @@ from ros2cc_extract.merge import diff
 CASES = ROOT / 'tests' / 'scanner_cases'
 RUN_ENTRY = Path(__file__).with_name('programs') / 'run_entry.py'
 ENTRY = re.compile(r'^# unit [^:]+: .*, (\w+)$', re.MULTILINE)
+# What a run that is ended after its set-up cannot show, or shows otherwise.
+LEFT_OUT = {
+    'p15_asks_first_then_spins.py': 'it waits for an answer that nobody gives',
+    'p47_nodes_in_sequence.py': 'the second node is spun when the first has ended',
+    'p52_nested_spin_of_another_node.py': 'the global executor serves the inner node as well',
+    'q17_no_executor.py': 'there is no executor',
+}
 # A case is set up when it has not changed for as many looks as this.
 QUIET_LOOKS = 15
 END_WITHIN_S = 5.0
@@ -37,7 +44,7 @@ def runnable_cases() -> list[tuple[str, str]]:
     for path in sorted(CASES.glob('*.py')):
         text = path.read_text(encoding='utf-8')
         entries = set(ENTRY.findall(text)) - {'__main__'}
-        if '# live: no' not in text:
+        if '# live: no' not in text and path.name not in LEFT_OUT:
             found += [(path.name, entry) for entry in sorted(entries)]
     return found
 

@@ -63,6 +63,7 @@ class NodeRecord:
         self.cls = class_name(node)
         self.name: str | None = None
         self.namespace: str | None = None
+        self.default_group: int | None = None
         self.stays: list[dict[str, Any]] = []
 
 

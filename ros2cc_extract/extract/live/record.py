@@ -246,7 +246,9 @@ class Recorder:
         """Mark a group that belongs to a node: its default group, the private one of rates."""
         record = self.note_group(group)
         if getattr(node, 'default_callback_group', None) is group:
-            record.default, record.node = True, owner.number
+            # A program may put another group there; the one rclpy has made stays the default.
+            owner.default_group = owner.default_group or record.number
+            record.default, record.node = record.number == owner.default_group, owner.number
         elif getattr(node, '_rate_group', None) is group:
             record.rate, record.node = True, owner.number
 
