@@ -89,14 +89,20 @@ def _write(target: Target, stdout: TextIO, stderr: TextIO) -> None:
     from ros2cc_extract.cli.output import write_atomically
     from ros2cc_extract.cli.sources import read_input
 
+    shown = _shown(target.path)
     if not target.path.exists():
         write_atomically(target.path, target.text)
-        print(f'wrote {target.path}', file=stderr)
+        print(f'wrote {shown}', file=stderr)
     elif read_input(target.path) == target.text:
-        print(f'{target.path} is up to date', file=stderr)
+        print(f'{shown} is up to date', file=stderr)
     else:
-        print(f'kept {target.path}, which is there already; what it may hold:', file=stderr)
+        print(f'kept {shown}, which is there already; what it may hold:', file=stderr)
         stdout.write(target.text)
+
+
+def _shown(path: Path) -> Path:
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
 
 
 def _advice(package: Package) -> list[str]:
