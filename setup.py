@@ -1,7 +1,15 @@
 """Builds the native core of the checker; everything else stands in ``pyproject.toml``."""
 
-import pybind11
+import sys
+
 from setuptools import Extension, setup
+
+try:
+    import pybind11
+except ImportError:
+    # Built without isolation and without pybind11: the checker then is pure Python.
+    setup()
+    sys.exit()
 
 setup(
     ext_modules=[

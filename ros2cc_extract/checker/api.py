@@ -17,7 +17,7 @@ from ros2cc_extract.checker.search import Fairness, Verdict
 from ros2cc_extract.checker.uppaal.document import read_document
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration, elaborate
 from ros2cc_extract.checker.uppaal.queryfile import Query, clean, first_line, read_query_file
-from ros2cc_extract.errors import InputError
+from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.places import Place
 
 __all__ = [
@@ -39,6 +39,10 @@ __all__ = [
     'read_model',
     'read_queries',
 ]
+
+
+_TOO_DEEP = 'functions and expressions nest too deep'
+_MEND_DEEP = 'call fewer functions inside functions, or use variables for parts'
 
 
 class EngineKind(Enum):
@@ -162,6 +166,10 @@ def read_model(text: str, name: str) -> Model:
 
 def _model(data: bytes, name: str, encoding: str | None) -> Model:
     document = read_document(data, name, encoding)
+    try:
+        elaboration = elaborate(document)
+    except RecursionError:
+        raise ModelFormatError(_TOO_DEEP, Place(name), _MEND_DEEP) from None
     queries = tuple(
         Query(
             clean(node.formula.value),
@@ -170,7 +178,7 @@ def _model(data: bytes, name: str, encoding: str | None) -> Model:
         )
         for node in document.queries
     )
-    return Model(name, elaborate(document), queries)
+    return Model(name, elaboration, queries)
 
 
 def read_queries(text: str, name: str) -> tuple[Query, ...]:
@@ -199,6 +207,21 @@ def check(
     :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
     :raises ToolNotFoundError: the native core was asked for and is not built.
     """
+    try:
+        return _check(model, queries, limits, engine, fairness, reduction, progress)
+    except RecursionError:
+        raise ModelFormatError(_TOO_DEEP, Place(model.name), _MEND_DEEP) from None
+
+
+def _check(
+    model: Model,
+    queries: Sequence[Query],
+    limits: Limits,
+    engine: EngineKind,
+    fairness: Fairness,
+    reduction: bool,
+    progress: Callable[[Progress], None] | None,
+) -> CheckResult:
     unnamed = Place('query', 1)
     properties = [model.elaboration.query(q.formula, q.place or unnamed) for q in queries]
     network = model.network

@@ -20,8 +20,15 @@ from ros2cc_extract.checker.pysource import INDENT, SourceWriter
 from ros2cc_extract.checker.semantics import EdgeRef
 from ros2cc_extract.checker.uppaal.arithmetic import OPERATIONS
 from ros2cc_extract.checker.walks import walk
+from ros2cc_extract.errors import ModelFormatError
 
 Edges = tuple[EdgeRef, ...]
+_TOO_DEEP = ModelFormatError(
+    'an expression nests too deep for the pure Python checker',
+    None,
+    'use the native core, or split the expression',
+)
+
 #: From a packed state to the next one, or -1 when the move is not enabled.
 Move = Callable[[int], int]
 #: From a packed state to all next ones, with the label of each.
@@ -197,7 +204,11 @@ class Moving:
         return self._names[name]
 
     def _run(self, source: str) -> None:
-        exec(compile(source, '<network>', 'exec'), self._names)
+        try:
+            exec(compile(source, '<network>', 'exec'), self._names)
+        except (SyntaxError, RecursionError, MemoryError):
+            # Python's own parser has limits that nested functions can reach.
+            raise _TOO_DEEP from None
 
     def _fail(self, site: int, value: int) -> int:
         raise site_error(self._network.sites[site], value)

@@ -16,8 +16,9 @@ class PredicateGroup {
       : reads_deadlock_(first.reads_deadlock),
         mask_(layout.words(), 0),
         key_(layout.words()),
-        entries_((size_t{1} << kLog) * (layout.words() + 1)),
-        known_(size_t{1} << kLog, 0) {
+        log_(layout.words() <= 4 ? 13 : 9),
+        entries_((size_t{1} << log_) * (layout.words() + 1)),
+        known_(size_t{1} << log_, 0) {
     for (const int32_t slot : first.variables) cover(layout.variables()[slot]);
     for (const int32_t process : first.processes) cover(layout.locations()[process]);
     nodes_.push_back(first.node);
@@ -39,7 +40,7 @@ class PredicateGroup {
   uint64_t bits(const uint64_t* words, bool is_deadlock, Machine& machine, Load&& load) {
     const size_t width = mask_.size();
     for (size_t i = 0; i < width; ++i) key_[i] = words[i] & mask_[i];
-    const uint64_t at = hash_of(key_.data(), static_cast<int>(width)) & ((1u << kLog) - 1);
+    const uint64_t at = hash_of(key_.data(), static_cast<int>(width)) & ((uint64_t{1} << log_) - 1);
     uint64_t* entry = &entries_[at * (width + 1)];
     const uint8_t mark = 1 + is_deadlock;
     bool same = known_[at] == mark;
@@ -58,8 +59,6 @@ class PredicateGroup {
   }
 
  private:
-  static constexpr int kLog = 13;
-
   // Only to compare masks: no cache.
   PredicateGroup(const Layout& layout, const Predicate& first, int)
       : reads_deadlock_(first.reads_deadlock), mask_(layout.words(), 0) {
@@ -70,7 +69,9 @@ class PredicateGroup {
   void cover(const Field& field) { mask_[field.word] |= field.ones << field.shift; }
 
   bool reads_deadlock_;
-  std::vector<uint64_t> mask_, key_, entries_;
+  std::vector<uint64_t> mask_, key_;
+  int log_ = 0;  // of the number of states that are remembered
+  std::vector<uint64_t> entries_;
   std::vector<uint8_t> known_;
   std::vector<int32_t> nodes_;
 };

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.checker.uppaal import syntax
 
-MAX_DEPTH = 200
+MAX_DEPTH = 100
 
 
 @dataclass(frozen=True)

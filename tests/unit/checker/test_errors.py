@@ -106,7 +106,7 @@ TEMPLATE = automaton('P', 'a\na -> a')
         ('int a[2]; const int y = a;', 'm.xml:4: a is an array, not a value'),
         ('chan c; const int y = c;', 'm.xml:4: c is a channel, not a value'),
         ('int x; const int y = x[0];', 'm.xml:4: x is no array'),
-        ('const int y = ' + '-' * 1000 + '1;', 'm.xml:4: the text nests deeper than 200'),
+        ('const int y = ' + '-' * 1000 + '1;', 'm.xml:4: the text nests deeper than 100'),
     ],
 )  # fmt: skip
 def test_wrong_declaration(declaration: str, expected: str) -> None:
