@@ -18,6 +18,7 @@ from typing import Any
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.evidence import Evidence, Moment
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.html_findings import finding_card
 from ros2cc_extract.report.html_parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html_unit import Numbered, unit_picture
@@ -100,7 +101,7 @@ def _header(findings: Sequence[Finding], summary: Mapping[str, int]) -> str:
         for severity, word in SEVERITY_WORDS.items()
     )
     facts = ', '.join(
-        f'{number} {what.replace("_", " ")}'
+        counted(number, what)
         for what, number in summary.items()
         if number and what.rstrip('s') not in _TILES
     )
