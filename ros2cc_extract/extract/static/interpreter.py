@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.assignments import Assignments
 from ros2cc_extract.extract.static.attributes import Attributes
 from ros2cc_extract.extract.static.calls import Calls
 from ros2cc_extract.extract.static.comprehensions import Comprehensions
@@ -16,7 +17,15 @@ from ros2cc_extract.extract.static.world import World
 
 
 class Interpreter(
-    Statements, Expressions, Attributes, Calls, Comprehensions, Libraries, Imports, Effects
+    Statements,
+    Assignments,
+    Expressions,
+    Attributes,
+    Calls,
+    Comprehensions,
+    Libraries,
+    Imports,
+    Effects,
 ):
     """One run of one program."""
 

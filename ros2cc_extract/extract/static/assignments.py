@@ -1,0 +1,145 @@
+"""Storing values: names, attributes, items and patterns of them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from typing import Any
+
+from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Choice,
+    Function,
+    Instance,
+    Mapping,
+    Module,
+    Mystery,
+    Scope,
+    Value,
+    choice,
+)
+from ros2cc_extract.extract.static.values import Sequence as Items
+from ros2cc_extract.extract.static.world import (
+    AccessKind,
+    ExecutorState,
+    GroupState,
+    PlainState,
+)
+from ros2cc_extract.places import Place
+
+
+class Assignments(Machine):
+    """What stands left of an equals sign."""
+
+    def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
+        """Store ``value`` in a name, attribute, item or pattern of them."""
+        if isinstance(target, ast.Name):
+            self.assign_name(target, value, frame)
+        elif isinstance(target, ast.Attribute):
+            self._assign_attribute(target, value, frame)
+        elif isinstance(target, ast.Subscript):
+            self._assign_item(target, value, frame)
+        elif isinstance(target, (ast.Tuple, ast.List)):
+            self._unpack(target.elts, value, frame)
+        elif isinstance(target, ast.Starred):
+            self.assign(target.value, value, frame)
+
+    def assign_name(self, target: ast.Name, value: Value, frame: Frame) -> None:
+        """Store ``value`` under a name in the scope that owns it."""
+        name = target.id
+        _hint(value, name)
+        scope = frame.scope
+        if name in scope.global_names:
+            self.store.write(scope.module, name, value)
+            self.note_global(scope.module, name, AccessKind.WRITE, frame.place(target))
+        elif name in scope.nonlocal_names:
+            self.store.write(_owner_of(name, scope), name, value)
+        elif frame.function is None and not scope.parent and frame.qualname == '':
+            self.store.write(scope.module, name, value)
+        else:
+            self.store.write(scope, name, value)
+
+    def _assign_attribute(self, target: ast.Attribute, value: Value, frame: Frame) -> None:
+        owner = self.evaluate(target.value, frame)
+        _hint(value, target.attr)
+        name = frame.attribute_name(target.attr)
+        place = frame.place(target)
+        options = owner.options if isinstance(owner, Choice) else (owner,)
+        for option in options:
+            old = getattr(option, 'slots', {}).get(name)
+            if old is not None:
+                self.note_attribute(option, name, AccessKind.WRITE, place)
+            if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
+                self._note_same_unknown(old, value)
+                new = value if len(options) == 1 or old is None else choice([old, value])
+                self.store.write(option, name, new)  # type: ignore[arg-type]
+            if old is None:
+                self.note_attribute(option, name, AccessKind.WRITE, place)
+
+    def _note_same_unknown(self, old: Any, new: Value) -> None:
+        """One attribute holds one thing: callers not in sight pass the same to all methods."""
+        if (
+            isinstance(old, Mystery)
+            and isinstance(new, Mystery)
+            and old.lacks_caller
+            and new.lacks_caller
+            and old.unknown != new.unknown
+        ):
+            first = self.world.same_unknowns.get(old.unknown, old)
+            self.world.same_unknowns.setdefault(new.unknown, first)
+
+    def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
+        owner = self.evaluate(target.value, frame)
+        key = self.evaluate(target.slice, frame)
+        self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
+        if isinstance(owner, Mapping):
+            if loops.is_key(key):
+                _hint(value, loops.key_text(key))
+                self.store.write(owner, 'entries', {**owner.entries, key: value})
+            else:
+                self.store.write(owner, 'entries', {**owner.entries, key: value})
+                self.store.write(owner, 'many', {**owner.many, key: self.why_many()})
+        elif isinstance(owner, Items):
+            index = loops.index_of(key, len(owner.items))
+            if index is not None:
+                items = list(owner.items)
+                items[index] = value
+                self.store.write(owner, 'items', tuple(items))
+
+    def _unpack(self, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
+        place = frame.place(targets[0]) if targets else Place('')
+        items, rest = self.items_of(value, place)
+        for index, target in enumerate(targets):
+            if isinstance(target, ast.Starred):
+                behind = len(targets) - index - 1
+                middle = items[index : len(items) - behind]
+                self.assign(target.value, Items(middle, 'list', rest), frame)
+                items = (*items[:index], NONE, *items[len(items) - behind :])
+            elif index < len(items) and not (rest and isinstance(value, Mystery)):
+                self.assign(target, items[index], frame)
+            else:
+                reason = rest.reason if rest else 'too few values to unpack'
+                self.assign(target, self.mystery(reason, frame.place(target), target), frame)
+
+
+def _hint(value: Value, name: str) -> None:
+    if isinstance(value, Instance) and value.hint is None:
+        if isinstance(value.state, PlainState) or name not in ('_', 'self'):
+            value.hint = name
+    elif isinstance(value, Choice):
+        for option in value.options:
+            if isinstance(option, Instance) and isinstance(
+                option.state, (GroupState, ExecutorState)
+            ):
+                _hint(option, name)
+
+
+def _owner_of(name: str, scope: Scope) -> Scope | Module:
+    parent = scope.parent
+    while parent is not None:
+        if name in parent.slots:
+            return parent
+        parent = parent.parent
+    return scope.module
