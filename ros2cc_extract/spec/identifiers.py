@@ -31,8 +31,8 @@ ready_set cb_assign_signal thread_free thread_running thread_cb_assign_table cb_
 get_thread_running_cb get_thread_running_group NUM_NODE NUM_EVENT QUEUE_DEPTH NodeId cb_node_table
 cb_rank_table NUM_WAIT cb_wait_table cb_server_table cb_calls cb_asked cb_answers cb_ended
 cb_arrive cb_is_answered cb_take_answer cb_await_table cb_suspended cb_await_at cb_awaited_by
-cb_can_resume cb_unfinished CB_IN_PLAY num_cb_in_play related_in_play cb_waiting cb_queued
-cb_runs cb_all_served pool_queue pool_size event_queue event_count hurry
+cb_can_resume cb_resuming cb_unfinished CB_IN_PLAY num_cb_in_play related_in_play
+cb_waiting cb_queued cb_runs cb_all_served pool_queue pool_size event_queue event_count hurry
 Callback CallbackGroup Thread Executor
 """
 

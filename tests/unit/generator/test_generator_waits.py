@@ -148,3 +148,12 @@ def test_a_coroutine_may_go_on_on_another_thread():
     began_first = 'E<> (cb_suspended[0] and thread_0.running and !thread_running[1])'
     answers = check(read, [Query(f'E<> ({on_other})', '', None), Query(began_first, '', None)])
     assert [answer.verdict for answer in answers.answers] == [Verdict.SATISFIED] * 2
+
+
+def test_the_events_executor_starts_a_callback_again_while_it_is_suspended():
+    unit = closed_unit('ask:SUB:g reply:CLT:g', 'g:EXCLUSIVE', 1, EVENTS, 'ask:reply:await')
+    model = render(unit, profile=Profile.RCLPY, max_cycle=2)
+    read = read_model(model.xml, 'arm.xml')
+    again = Query('E<> (cb_suspended[0] and cb_running(0))', '', None)
+    (answer,) = check(read, [again]).answers
+    assert answer.verdict is Verdict.SATISFIED
