@@ -10,10 +10,10 @@ from typing import Any
 from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import CHANGING_METHODS
+from ros2cc_extract.extract.static.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
-    Bound,
     Call,
     Choice,
     Class,
@@ -290,62 +290,6 @@ def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
     return Mapping(entries, rest, many)
 
 
-def _subscript(machine: Expressions, node: ast.Subscript, frame: Frame) -> Value:
-    owner = machine.evaluate(node.value, frame)
-    key = machine.evaluate(node.slice, frame)
-    place = frame.place(node)
-    found = choice(
-        [_item(machine, option, key, node, frame) for option in options_of(owner)]
-        or [machine.mystery('item that could not be followed', place, node)]
-    )
-    return choice(list(options_of(found))) if isinstance(found, Choice) else found
-
-
-def _item(
-    machine: Expressions, owner: Value, key: Value, node: ast.Subscript, frame: Frame
-) -> Value:
-    place = frame.place(node)
-    if isinstance(owner, Mapping):
-        if key in owner.entries if loops.is_key(key) else False:
-            return owner.entries[key]
-        reason = owner.rest.reason if owner.rest else 'key that could not be followed'
-        return machine.mystery(reason, place, node)
-    if isinstance(owner, Sequence):
-        if isinstance(node.slice, ast.Slice):
-            return _slice(machine, owner, node.slice, frame)
-        index = loops.index_of(key, len(owner.items))
-        if index is not None and owner.rest is None:
-            return owner.items[index]
-        return machine.mystery('index that could not be followed', place, node)
-    if isinstance(owner, Const) and isinstance(key, Const):
-        return folding.subscript(owner, key) or machine.mystery('bad subscript', place)
-    if isinstance(owner, (Class, Library)):
-        return owner
-    if isinstance(owner, Instance) and isinstance(owner.cls, Class):
-        method = machine.attribute(owner, '__getitem__', place)
-        if isinstance(method, Bound):
-            return machine.call(method, Call(place, [key]))
-    reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
-    return machine.mystery(reason, place, node)
-
-
-def _slice(machine: Expressions, owner: Sequence, node: ast.Slice, frame: Frame) -> Value:
-    bounds: list[int | None] = []
-    for part in (node.lower, node.upper, node.step):
-        value = machine.evaluate(part, frame) if part is not None else NONE
-        if not isinstance(value, Const) or not isinstance(value.value, (int, type(None))):
-            rest = Unknown('slice that could not be followed', frame.place(node))
-            return Sequence((), owner.kind, rest)
-        bounds.append(value.value)
-    if bounds[2] == 0:
-        return machine.mystery('slice step zero', frame.place(node))
-    return Sequence(owner.items[slice(*bounds)], owner.kind, owner.others, owner.many)
-
-
-def _slice_alone(machine: Expressions, node: ast.Slice, frame: Frame) -> Value:
-    return machine.mystery('slice', frame.place(node))
-
-
 def _if_expression(machine: Expressions, node: ast.IfExp, frame: Frame) -> Value:
     holds = machine.truth(machine.evaluate(node.test, frame))
     if holds is not None:
@@ -483,8 +427,8 @@ _EXPRESSIONS: dict[type[ast.expr], Callable[..., Value]] = {
     ast.Tuple: _collection('tuple'),
     ast.Set: _collection('set'),
     ast.Dict: _dictionary,
-    ast.Subscript: _subscript,
-    ast.Slice: _slice_alone,
+    ast.Subscript: subscript,
+    ast.Slice: slice_alone,
     ast.IfExp: _if_expression,
     ast.BoolOp: _boolean,
     ast.UnaryOp: _unary,
