@@ -32,6 +32,7 @@ class WaitKind(Enum):
 
 
 BUSY_WAIT = 'busy wait'
+EVENT_WAIT = 'Event.wait'
 SPIN_FOR_FUTURE = 'spin for future'
 ASYNCIO_SLEEP = 'asyncio.sleep'
 _KINDS = {
@@ -39,7 +40,7 @@ _KINDS = {
     'send_goal': WaitKind.ANSWER,
     'get_result': WaitKind.ANSWER,
     'cancel_goal': WaitKind.ANSWER,
-    'Event.wait': WaitKind.SIGNAL,
+    EVENT_WAIT: WaitKind.SIGNAL,
     'Condition.wait': WaitKind.SIGNAL,
     'Condition.wait_for': WaitKind.SIGNAL,
     'Future.result': WaitKind.SIGNAL,
@@ -121,7 +122,7 @@ def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Call
 
 def _client_before(done: Callback, context: Context) -> Callback | None:
     """The client whose answer a done-callback is for, where its node has one of that name."""
-    if done.entity is not EntityKind.DONE_CALLBACK or not isinstance(done.key, str):
+    if not is_done_callback(done) or not isinstance(done.key, str):
         return None
     found = [
         c for c in context.written if is_client(c) and c.key == done.key and c.node == done.node
@@ -152,7 +153,7 @@ def waits_for(wait: Wait) -> str:
     needed = wait.needs[0] if wait.needs else None
     if needed is None:
         return 'something else'
-    if is_client(needed) or needed.entity is EntityKind.DONE_CALLBACK:
+    if is_client(needed) or is_done_callback(needed):
         name = f' {needed.key!r}' if isinstance(needed.key, str) else ''
         what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
         return f'the answer of {what}{name}'
@@ -163,3 +164,16 @@ def waits_in(wait: Wait) -> str:
     """Say where it waits: the call, the loop, the nested spin."""
     words = {BUSY_WAIT: 'a busy loop', SPIN_FOR_FUTURE: 'a nested spin'}
     return words.get(wait.block.call, wait.block.call)
+
+
+def how_it_ends(wait: Wait) -> str:
+    """Say what becomes of a wait that nobody can end."""
+    if wait.has_timeout:
+        return 'it always runs into its time-out'
+    is_event = wait.block.call == EVENT_WAIT and not is_done_callback(wait.needs[0])
+    return 'it waits for ever' + (', unless the event was set before' if is_event else '')
+
+
+def is_done_callback(callback: Callback) -> bool:
+    """True for what runs when an answer has come."""
+    return callback.entity is EntityKind.DONE_CALLBACK

@@ -6,9 +6,17 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by
+from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by, what
 from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
-from ros2cc_extract.findings.waits import Wait, waits_for, waits_in, waits_of
+from ros2cc_extract.findings.waits import (
+    Wait,
+    how_it_ends,
+    is_client,
+    is_done_callback,
+    waits_for,
+    waits_in,
+    waits_of,
+)
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import is_one_thread
 
@@ -23,19 +31,27 @@ def find(context: Context) -> Iterator[Hit]:
 
 def _hit(wait: Wait, context: Context) -> Hit:
     executor = context.unit.executor
-    end = 'it always runs into its time-out' if wait.has_timeout else 'it waits for ever'
-    group = ' and give the client a group of its own' if shut_out_by(wait, context) else ''
+    is_answer = is_client(wait.needs[0]) or is_done_callback(wait.needs[0])
+    nobody = 'nobody can take it' if is_answer else 'it cannot run'
     return Hit(
         place=wait.place,
         message=f'{wait.caller.display_name} waits in {waits_in(wait)} for {waits_for(wait)} on '
-        f'the only thread of the {executor.kind or "executor"}, so nobody can take it: {end}',
-        help=f'serve the node with MultiThreadedExecutor(num_threads=2) or more{group}, or use '
-        'call_async and continue in a done-callback',
+        f'the only thread of the {executor.kind or "executor"}, so {nobody}: {how_it_ends(wait)}',
+        help=_help(wait, is_answer, context),
         severity=Severity.WARNING if wait.has_timeout else None,
         subjects=(wait.caller.name, *(needed.name for needed in wait.needs)),
         chain=wait.chain,
         related=tuple(made_at(wait.caller, *wait.needs)),
         run=refuting_run(PROGRESS, context, wait.caller),
+    )
+
+
+def _help(wait: Wait, is_answer: bool, context: Context) -> str:
+    shut_out = shut_out_by(wait, context)
+    group = f' and give the {what(shut_out)} a group of its own' if shut_out else ''
+    other = 'call_async and continue in a done-callback' if is_answer else 'a timer that looks'
+    return (
+        f'use MultiThreadedExecutor(num_threads=2) or more{group}, or {other} instead of waiting'
     )
 
 

@@ -7,7 +7,15 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
-from ros2cc_extract.findings.waits import Wait, WaitKind, is_client, waits_for, waits_in, waits_of
+from ros2cc_extract.findings.waits import (
+    Wait,
+    WaitKind,
+    how_it_ends,
+    is_client,
+    waits_for,
+    waits_in,
+    waits_of,
+)
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import Callback
@@ -38,13 +46,12 @@ def shut_out_by(wait: Wait, context: Context) -> Callback | None:
 def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     group = context.group_of(shut_out)
     caller = wait.caller.display_name
-    end = 'it always runs into its time-out' if wait.has_timeout else 'it waits for ever'
     return Hit(
         place=wait.place,
         message=f'{caller} waits in {waits_in(wait)} for {waits_for(wait)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
-        f'runs: {end}',
-        help=f'give the {_what(shut_out)}'
+        f'runs: {how_it_ends(wait)}',
+        help=f'give the {what(shut_out)}'
         ' a callback group of its own, or use call_async and continue in a done-callback',
         severity=Severity.WARNING if wait.has_timeout else None,
         subjects=(wait.caller.name, shut_out.name),
@@ -54,7 +61,8 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     )
 
 
-def _what(callback: Callback) -> str:
+def what(callback: Callback) -> str:
+    """Name an entity by its kind."""
     return callback.entity.value.replace('_', ' ') if callback.entity else callback.display_name
 
 

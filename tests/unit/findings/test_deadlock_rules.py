@@ -166,6 +166,7 @@ def test_an_event_that_a_member_of_the_group_sets() -> None:
         subscription('on_stop', 'other'),
     )
     assert found(spec) == ['CC101:40', 'CC403:90 note']
+    assert only(spec, 'CC101').message.endswith('waits for ever, unless the event was set before')
 
 
 def test_a_done_callback_needs_the_client_of_its_answer() -> None:
