@@ -6,7 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static import builtin_methods
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.relevance import reassigned_attributes
+from ros2cc_extract.extract.static.relevance import MAKING, reassigned_attributes
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -50,7 +50,10 @@ class Attributes(Machine):
         if isinstance(value, Mystery):
             label = text or (f'{value.text}.{name}' if value.text else name)
             return Mystery(value.unknown, label)
-        return self.mystery(f'attribute {name!r} could not be followed', place, text or name)
+        reason = f'attribute {name!r} could not be followed'
+        if name.startswith(MAKING) and (reason, place) not in self.world.cut:
+            self.world.cut.append((reason, place))
+        return self.mystery(reason, place, text or name)
 
     def has_attribute(self, value: Value, name: str) -> bool | None:
         """Whether ``value.name`` exists; ``None`` when that depends."""
@@ -91,7 +94,15 @@ class Attributes(Machine):
             return self._as_of_now(value, name, value.slots[name], place)
         if name == '__class__':
             return value.cls
-        return self._in_order(value.mro, value, name, place)
+        found = self._in_order(value.mro, value, name, place)
+        return found or self._handed_on(value, name, place)
+
+    def _handed_on(self, owner: Instance, name: str, place: Place) -> Value | None:
+        """What ``__getattr__`` of a scanned class gives for an attribute it lacks."""
+        if name.startswith('__'):
+            return None
+        getter = self._in_order(owner.mro, owner, '__getattr__', place)
+        return self.call(getter, Call(place, [Const(name)])) if isinstance(getter, Bound) else None
 
     def _as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
         """

@@ -5,6 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+MAKING = tuple(
+    f'create_{kind}'
+    for kind in ('subscription', 'timer', 'service', 'client', 'guard_condition', 'rate')
+)
+"""Methods of a node that make entities."""
+
 _NAMES = frozenset(
     [
         'create_subscription',
@@ -27,6 +33,12 @@ _NAMES = frozenset(
         'create_task',
         'spin',
         'spin_once',
+        'spin_until_future_complete',
+        'add_node',
+        'send_goal',
+        'send_goal_async',
+        'registerCallback',
+        'create_publisher',
     ]
 )
 

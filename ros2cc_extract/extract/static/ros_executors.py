@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.values import (
     Handler,
     Instance,
     Mystery,
+    Native,
     Value,
     choice,
     options_of,
@@ -133,8 +134,17 @@ def as_node(machine: Machine, value: Value | None) -> Instance | None:
     if isinstance(value, Instance) and isinstance(value.state, NodeState):
         return value
     if isinstance(value, Instance):
-        return machine.become_node(value)
+        return machine.become_node(value) or _node_behind(machine, value)
     return ghost_node(machine, value) if isinstance(value, Mystery) else None
+
+
+def _node_behind(machine: Machine, value: Instance) -> Instance | None:
+    """The node to which an object of another class hands its attributes on."""
+    method = machine.attribute(value, 'create_publisher', value.place)
+    behind = method.receiver if isinstance(method, Native) else None
+    if isinstance(behind, Instance) and isinstance(behind.state, NodeState):
+        return behind
+    return None
 
 
 def nodes_of(executor: Instance) -> tuple[Instance, ...]:
