@@ -1,17 +1,19 @@
 """Builds the native core of the checker; everything else stands in ``pyproject.toml``."""
 
-import sys
-
 from setuptools import Extension, setup
 
 try:
-    import pybind11
+    from pybind11 import get_include
 except ImportError:
-    # Built without isolation and without pybind11: the checker then is pure Python.
-    setup()
-    sys.exit()
+    # Built without isolation, as colcon does: the headers of pybind11-dev stand where a compiler
+    # looks; without them the checker is pure Python.
+    INCLUDES = []
+else:
+    INCLUDES = [get_include()]
 
 setup(
+    # colcon evaluates what it reads here as literals; from pyproject.toml this comes as none.
+    python_requires='>=3.10',
     ext_modules=[
         Extension(
             'ros2cc_extract.checker._core',
@@ -31,11 +33,11 @@ setup(
                     'lasso',
                 )
             ],
-            include_dirs=[pybind11.get_include()],
+            include_dirs=INCLUDES,
             language='c++',
             extra_compile_args=['-std=c++17', '-O3', '-fvisibility=hidden', '-g0'],
             # Without a compiler the package still works: the checker then is pure Python.
             optional=True,
         )
-    ]
+    ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import ast
 import os
 import shutil
 import subprocess
@@ -321,6 +322,30 @@ def test_the_tool_is_a_ros_package_itself() -> None:
     assert (package.name, package.build_type) == ('ros2cc_extract', 'ament_python')
     assert (ROOT / 'resource' / package.name).is_file()
     assert {'python3-yaml', 'python3-jinja2', 'python3-rich'} <= package.dependencies
+
+
+def test_colcon_can_read_the_package() -> None:
+    """It evaluates the text of these values (colcon-python-setup-py, ``python_setup_py.py``)."""
+    done = subprocess.run(
+        [sys.executable, '-c', AS_COLCON_READS],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    read = ast.literal_eval(done.stdout.splitlines()[-1])
+    assert read['python_requires'] == '>=3.10'
+    assert (
+        'ament_ros2cc = ros2cc_extract.ros.ament:main' in read['entry_points']['console_scripts']
+    )
+
+
+AS_COLCON_READS = """
+import setuptools
+from distutils.core import run_setup
+found = run_setup('setup.py', script_args=('--quiet',), stop_after='config')
+print({name: getattr(found, name) for name in ('python_requires', 'entry_points', 'data_files')})
+"""
 
 
 def test_the_linter_is_installed_beside_the_tests() -> None:
