@@ -16,6 +16,14 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         'paths', nargs='+', type=Path, metavar='PATH', help='a Python file or a directory'
     )
+    add_cache_argument(parser)
+
+
+def add_cache_argument(parser: argparse.ArgumentParser) -> None:
+    """Add the choice to scan afresh."""
+    parser.add_argument(
+        '--no-cache', action='store_true', help='scan afresh, even if no file has changed'
+    )
 
 
 def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False) -> None:

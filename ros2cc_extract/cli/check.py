@@ -83,6 +83,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         options=options,
         assumptions=assumptions_of(config, args.assume),
         root=config.root.resolve(),
+        cached=not args.no_cache,
     )
 
 

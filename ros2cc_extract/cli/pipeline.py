@@ -41,6 +41,7 @@ class Job:
     assumptions: Assumptions
     root: Path
     known: frozenset[str] = frozenset()
+    cached: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +92,7 @@ class Outcome:
 
 def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
-    extraction = scan_sources(job.paths, stderr)
+    extraction = scan_sources(job.paths, stderr, cached=job.cached)
     units = tuple(assume(unit, job.assumptions) for unit in extraction.units)
     closed = tuple(close(unit, job.policy) for unit in units)
     verifications = tuple(_verify(each, job.options, stderr) for each in closed)

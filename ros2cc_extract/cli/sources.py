@@ -18,17 +18,21 @@ SPEC_SUFFIXES = ('.yaml', '.yml')
 RECORDING_SUFFIX = '.json'
 
 
-def scan_sources(paths: Sequence[Path], stderr: TextIO) -> Extraction:
+def scan_sources(paths: Sequence[Path], stderr: TextIO, *, cached: bool = True) -> Extraction:
     """
     Scan Python files and directories, with progress.
+
+    :param cached: take an earlier result when no file has changed since.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither
     the published format nor a model has a place for them.
     """
     from ros2cc_extract.extract.static.api import scan
+    from ros2cc_extract.extract.static.cache import default_cache_folder
 
     with scan_progress(stderr) as progress:
-        extraction = scan(paths, progress=progress)
+        folder = default_cache_folder() if cached else None
+        extraction = scan(paths, progress=progress, cache=folder)
     for unit in extraction.units:
         if not unit.callbacks:
             print(f'{_where(unit)}: unit {unit.name} has no callback, left out', file=stderr)

@@ -10,6 +10,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from ros2cc_extract.cli.arguments import add_cache_argument
 from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS, EXIT_UNDECIDED
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='exit 1 unless FILE says the same; tells how not',
     )
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
+    add_cache_argument(parser)
     parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
     parser.add_argument('--schema', action='store_true', help='print the JSON Schema')
 
@@ -40,7 +42,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     if not args.paths:
         raise InputError('no path given', None, 'name a Python file or a directory')
-    extraction = scan_sources(args.paths, stderr)
+    extraction = scan_sources(args.paths, stderr, cached=not args.no_cache)
     print_diagnostics(extraction.diagnostics, stderr)
     has_drift = False
     if args.check is not None:

@@ -24,6 +24,12 @@ class Outcome:
     err: str
 
 
+def environment(cache: Path) -> dict[str, str]:
+    """As the user's, but for a table width of its own and a cache that nobody shares."""
+    inherited = {name: value for name, value in os.environ.items() if name != 'COLUMNS'}
+    return {**inherited, 'XDG_CACHE_HOME': str(cache)}
+
+
 Run = Callable[..., Outcome]
 
 
@@ -33,7 +39,7 @@ def run(tmp_path: Path) -> Run:
         done = subprocess.run(
             [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
             cwd=cwd,
-            env={name: value for name, value in os.environ.items() if name != 'COLUMNS'},
+            env=environment(cache=tmp_path / 'cache'),
             capture_output=True,
             timeout=120,
             check=False,

@@ -74,10 +74,12 @@ def _key(project: Project) -> str:
 
 
 def _own_files() -> Iterable[str]:
-    """The scanner's own files: another version of it may say something else."""
-    for path in sorted(Path(__file__).parent.glob('*.py')):
-        status = path.stat()
-        yield f'{path.name} {status.st_size} {status.st_mtime_ns}'
+    """The scanner's own files and those of its values: another version may say something else."""
+    here = Path(__file__).resolve().parent
+    for folder in (here, here.parent, here.parents[1] / 'spec'):
+        for path in sorted(folder.glob('*.py')):
+            status = path.stat()
+            yield f'{folder.name}/{path.name} {status.st_size} {status.st_mtime_ns}'
 
 
 def _script_files(folders: Iterable[Path]) -> Iterable[Path]:
