@@ -96,7 +96,15 @@ def test_check_keeps_what_it_made(run: Run, tmp_path: Path) -> None:
 
 def test_a_limit_gives_undecided_and_status_3(run: Run) -> None:
     outcome = run(
-        'verify', CASE_1, '--text', 'plain', '--max-states', '50', '--output-format', 'json'
+        'verify',
+        CASE_1,
+        '--text',
+        'plain',
+        '--no-reduction',
+        '--max-states',
+        '1000',
+        '--output-format',
+        'json',
     )
     data = json.loads(outcome.out)
     assert outcome.status == 3
