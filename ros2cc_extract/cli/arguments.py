@@ -97,7 +97,7 @@ def add_search_arguments(
     group.add_argument(
         '--no-reduction', action='store_true', help='explore every state of the text'
     )
-    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after N states')
+    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after about N states')
     group.add_argument('--max-memory', type=_positive, metavar='MB', help='stop at this memory')
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
