@@ -100,11 +100,16 @@ class Unit:
 
     @property
     def queue_depth(self) -> int:
-        """How much can wait for one callback: what arrives by itself, and what others ask for."""
-        asked = sum(len(callback.needs) for callback in self.callbacks)
-        if self.max_cycle is None:
-            return 1 + asked * len(self.threads)
-        return self.max_cycle * (1 + asked)
+        """
+        How much can wait for one callback.
+
+        That is what arrives by itself, and one request or answer for each callback that can wait
+        at the same time: on a thread, or suspended.
+        """
+        by_itself = self.max_cycle or 1
+        if not self.num_waits:
+            return by_itself
+        return by_itself + len(self.threads) + len(self.callbacks)
 
     @property
     def servers(self) -> tuple[str, ...]:

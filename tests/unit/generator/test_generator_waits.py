@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from generator_units import closed_unit
 
-from ros2cc_extract.checker.api import Query, Verdict, check, read_model
+from ros2cc_extract.checker.api import Limits, Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Family, Profile, render
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Blocking
@@ -157,3 +157,10 @@ def test_the_events_executor_starts_a_callback_again_while_it_is_suspended():
     again = Query('E<> (cb_suspended[0] and cb_running(0))', '', None)
     (answer,) = check(read, [again]).answers
     assert answer.verdict is Verdict.SATISFIED
+
+
+@pytest.mark.parametrize('max_cycle', [3, None])
+def test_requests_of_callbacks_that_call_each_other_do_not_overflow(max_cycle: int | None):
+    unit = closed_unit('plan:SRV:g ask:TMR:g reply:CLT:g', 'g:REENTRANT', 2, MULTI, 'plan:reply')
+    read = read_model(render(unit, profile=Profile.RCLPY, max_cycle=max_cycle).xml, 'arm.xml')
+    assert check(read, read.queries, limits=Limits(states=100_000)).states > 1_000
