@@ -102,7 +102,18 @@ class Attributes(Machine):
         if name.startswith('__'):
             return None
         getter = self._in_order(owner.mro, owner, '__getattr__', place)
-        return self.call(getter, Call(place, [Const(name)])) if isinstance(getter, Bound) else None
+        if not isinstance(getter, Bound):
+            return None
+        return self._called_by_looking(owner, name, getter, Call(place, [Const(name)]))
+
+    def _called_by_looking(self, owner: Instance, name: str, getter: Bound, call: Call) -> Value:
+        """The result of code behind an attribute; what it makes, it makes once for ``owner``."""
+        before = self.world.looking
+        self.world.looking = (*before, (id(owner), name))
+        try:
+            return self.call(getter, call)
+        finally:
+            self.world.looking = before
 
     def _as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
         """
@@ -142,7 +153,8 @@ class Attributes(Machine):
         if not isinstance(receiver, Instance):
             return member
         if member.binding == 'property':
-            return self.call(Bound(receiver, member), Call(place))
+            getter = Bound(receiver, member)
+            return self._called_by_looking(receiver, member.name, getter, Call(place))
         return Bound(receiver, member)
 
     def _of_class(self, value: Class, name: str, place: Place) -> Value | None:

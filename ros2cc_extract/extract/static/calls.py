@@ -36,6 +36,7 @@ from ros2cc_extract.places import Place, Unknown
 
 _CALL_DEPTH = 40
 _SAME_FUNCTION = 2
+_MADE = '__made__'
 
 
 class Calls(Machine):
@@ -138,7 +139,13 @@ class Calls(Machine):
 
     def instantiate(self, cls: Class, call: Call) -> Value:
         """Make an instance of a scanned class and run its ``__init__``."""
+        made_before = self._made_by_looking(cls, call.place)
+        if made_before is not None:
+            return made_before
         instance = Instance(cls, call.place)
+        if self.world.looking:
+            self.world.made_by_looking[(self.world.looking[-1:], cls, call.place)] = instance
+            self.store.write(instance, _MADE, NONE)
         instance.path = self.world.path
         instance.born = self.world.deeds
         instance.number += sum(other.cls is cls for other in self.world.instances)
@@ -150,6 +157,13 @@ class Calls(Machine):
         elif self._is_dataclass(cls):
             self._fill_fields(cls, instance, call)
         return instance
+
+    def _made_by_looking(self, cls: Class, place: Place) -> Instance | None:
+        """What a property made when it was asked before, as far as this branch knows of it."""
+        if not self.world.looking:
+            return None
+        known = self.world.made_by_looking.get((self.world.looking[-1:], cls, place))
+        return known if known is not None and _MADE in known.slots else None
 
     def _is_dataclass(self, cls: Class) -> bool:
         return any(

@@ -224,7 +224,7 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
         machine.stack.clear()
         machine.depth = 0
         world.path, world.count, world.chain, world.held = (), 1, (), ()
-        world.stopped, world.deeds, world.current = False, None, None
+        world.stopped, world.deeds, world.current, world.looking = False, None, None, ()
         world.in_thread, world.when = False, When.START
         machine.store.reset()
 

@@ -216,6 +216,7 @@ class World:
     :param count: how often what is made now is made (loops).
     :param setters: what sets an event or future; ``None`` for what is no callback.
     :param called: every function that was followed, to find those that were not.
+    :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param stopped: this branch of the program has ended.
     """
@@ -242,6 +243,8 @@ class World:
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
     ghosts: dict[str, Instance] = field(default_factory=dict)
+    looking: tuple[tuple[int, str], ...] = ()
+    made_by_looking: dict[object, Instance] = field(default_factory=dict)
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
