@@ -12,6 +12,8 @@ _MEMINFO = Path('/proc/meminfo')
 _STATM = Path('/proc/self/statm')
 _PAGE_BYTES = resource.getpagesize()
 _MB = 1024 * 1024
+#: What a search may take between two looks.
+_STEP_MB = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +96,7 @@ class Watch:
         if late:
             return late
         limit = self._memory_mb
-        if limit is not None and memory_mb() + more_bytes / _MB > limit:
+        if limit is not None and memory_mb() + more_bytes / _MB + _STEP_MB > limit:
             return f'the limit of {limit:.0f} MB was reached'
         if limits.states is not None and states >= limits.states:
             return f'the limit of {limits.states} states was reached'
