@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TextIO
 
@@ -19,10 +19,13 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.selection import select
 from ros2cc_extract.findings.suppress import suppress
+from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify import Options, Verification, verify_unit
+from ros2cc_extract.verify import Checker, Options, Verification, verify_unit
+
+LONGEST_JUDGEMENT_S = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,10 +99,14 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     units = tuple(assume(unit, job.assumptions) for unit in extraction.units)
     closed = tuple(close(unit, job.policy) for unit in units)
     verifications = tuple(_verify(each, job.options, stderr) for each in closed)
+    judged = tuple(
+        _judge(each, verification, job.options)
+        for each, verification in zip(closed, verifications, strict=True)
+    )
     sources = _sources(extraction.files_seen)
     findings = (
-        *findings_of(units, extraction.diagnostics, verifications),
-        *check_requirements(job.config.requirements, units, verifications),
+        *findings_of(units, extraction.diagnostics, judged),
+        *check_requirements(job.config.requirements, units, judged),
     )
     root = job.root.as_posix()
     suppressed = suppress(select(findings, job.config.selection, root), sources)
@@ -118,6 +125,15 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
 def _verify(closed: ClosedSpec, options: Options, stderr: TextIO) -> Verification:
     with search_progress(stderr, closed.spec.name) as progress:
         return verify_unit(closed, options, progress)
+
+
+def _judge(closed: ClosedSpec, shown: Verification, options: Options) -> Verification:
+    """Findings rest on rclpy's own executors, whichever model the table shows."""
+    if options.profile is Profile.RCLPY or options.checker is not Checker.EMBEDDED:
+        return shown
+    seconds = min(options.limits.seconds or LONGEST_JUDGEMENT_S, LONGEST_JUDGEMENT_S)
+    limits = replace(options.limits, seconds=seconds)
+    return verify_unit(closed, replace(options, profile=Profile.RCLPY, limits=limits))
 
 
 def _sources(files: Sequence[str]) -> dict[str, str]:

@@ -11,6 +11,7 @@ from rich.text import Text
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.places import Place
+from ros2cc_extract.report.verdict_text import print_run
 
 _COLOURS = {Severity.ERROR: 'red', Severity.WARNING: 'magenta', Severity.NOTE: 'cyan'}
 
@@ -26,6 +27,9 @@ def print_findings(findings: Sequence[Finding], root: Path, console: Console) ->
             console.print(line, soft_wrap=True)
         for remark in (*finding.chain, *finding.related):
             console.print(f'  {remark.place}: {remark.text}', soft_wrap=True)
+        if finding.run is not None:
+            console.print('  it can happen like this:')
+            print_run(finding.run, console)
         if finding.help:
             console.print(f'  help: {finding.help}', soft_wrap=True)
 

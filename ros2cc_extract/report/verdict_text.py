@@ -83,7 +83,7 @@ def print_evidence(
         if result.evidence is not None:
             word = 'witness' if _is_witness(result) else 'counterexample'
             console.print(f'{word} for {number}: {result.words}: {result.verdict.value}')
-            _print_run(result.evidence, console, changes=changes)
+            print_run(result.evidence, console, changes=changes)
 
 
 def _caveats(verification: Verification) -> Iterator[str]:
@@ -111,7 +111,8 @@ def _cost(verification: Verification) -> str:
     )
 
 
-def _print_run(evidence: Evidence, console: Console, *, changes: bool) -> None:
+def print_run(evidence: Evidence, console: Console, *, changes: bool = False) -> None:
+    """Print the steps of a run, numbered, with the places of the callbacks they name."""
     rows = table('', '', '')
     rows.show_header = False
     for moment in evidence.moments:
