@@ -3,7 +3,8 @@ Libraries that make entities on a node's behalf.
 
 Sources (Jazzy): ``tf2_ros/transform_listener.py`` (two subscriptions in a reentrant group of
 its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__init__.py``
-(one subscription each), ``diagnostic_updater/_diagnostic_updater.py`` (one timer).
+(one subscription each), ``diagnostic_updater/_diagnostic_updater.py`` (one timer),
+``tf2_ros/buffer.py`` and ``buffer_interface.py`` (a look-up with a timeout polls and sleeps).
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
     Const,
+    Handler,
     Instance,
     Mystery,
     Sequence,
@@ -40,6 +42,8 @@ from ros2cc_extract.spec.model import EntityKind, GroupType
 _TF = 'tf2_ros.TransformListener'
 _FILTERS = 'message_filters'
 _UPDATER = 'diagnostic_updater.Updater'
+_LONGEST = 2**63
+"""rclpy counts a duration in signed 64 bit nanoseconds."""
 
 
 def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -127,6 +131,46 @@ def _update(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _duration(machine: Machine, instance: Instance) -> PlainState:
+    return PlainState('duration', Const(0.0), place=instance.place)
+
+
+def _set_duration(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    parts = [call.argument(None, 'seconds'), call.argument(None, 'nanoseconds')]
+    given = [part.value if isinstance(part, Const) else part for part in parts if part is not None]
+    if not all(isinstance(number, (int, float)) and abs(number) < _LONGEST for number in given):
+        mystery = next((part for part in parts if isinstance(part, Mystery)), None)
+        receiver.state.key = mystery or machine.mystery('an odd duration', call.place)
+        return NONE
+    seconds, nanoseconds = (part.value if isinstance(part, Const) else 0 for part in parts)
+    receiver.state.key = Const(float(seconds + nanoseconds / 1e9))
+    return NONE
+
+
+def _look_up(name: str, position: int) -> Handler:
+    """A method of the transform buffer; ``position`` is that of its timeout."""
+
+    def look_up(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(position, 'timeout')
+        state = timeout.state if isinstance(timeout, Instance) else None
+        seconds = state.key if isinstance(state, PlainState) else timeout
+        if seconds is not None and seconds != Const(0.0):
+            machine.note_blocking(f'Buffer.{name}', receiver, seconds, call.place)
+        return machine.mystery('a transform at run time', call.place)
+
+    return look_up
+
+
+_LOOK_UPS = {
+    'lookup_transform': 3,
+    'lookup_transform_full': 5,
+    'can_transform': 3,
+    'can_transform_full': 5,
+    'transform': 2,
+    'transform_full': 4,
+}
+
 _SYNCHRONIZER = LibraryClass(
     state=_filter_state, init=_synchronize, methods={'registerCallback': _register}
 )
@@ -134,6 +178,12 @@ _SYNCHRONIZER = LibraryClass(
 TABLE = Library(
     classes={
         _TF: LibraryClass(init=_listen),
+        'tf2_ros.Buffer': LibraryClass(
+            state=lambda machine, instance: PlainState('tf_buffer', place=instance.place),
+            init=lambda machine, receiver, call: NONE,
+            methods={name: _look_up(name, at) for name, at in _LOOK_UPS.items()},
+        ),
+        'rclpy.duration.Duration': LibraryClass(state=_duration, init=_set_duration),
         'message_filters.Subscriber': LibraryClass(
             init=_subscribe, methods={'registerCallback': _register}
         ),
@@ -144,6 +194,8 @@ TABLE = Library(
     },
     aliases={
         'tf2_ros.transform_listener.TransformListener': _TF,
+        'tf2_ros.buffer.Buffer': 'tf2_ros.Buffer',
+        'rclpy.time.Duration': 'rclpy.duration.Duration',
         'diagnostic_updater._diagnostic_updater.Updater': 'diagnostic_updater.Updater',
     },
 )
