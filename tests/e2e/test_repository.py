@@ -72,9 +72,10 @@ def test_a_dead_lock_is_not_pushed(run: Run, repository: Path, tmp_path: Path) -
     git(tmp_path, 'init', '--quiet', '--bare', 'server.git')
     git(repository, 'remote', 'add', 'origin', '../server.git')
     run('init', '--pre-commit', cwd=repository)
-    pre_commit(repository, 'install', '--hook-type', 'pre-push', PRE_COMMIT_HOME=home)
+    pre_commit(repository, 'install', PRE_COMMIT_HOME=home)
     (repository / NODE).write_text(DEADLOCK)
-    assert commit(repository, 'plant a dead-lock').returncode == 0
+    git(repository, 'add', '--all')
+    assert git(repository, 'commit', '--no-verify', '--message', 'hasty').returncode == 0
     refused = git(repository, 'push', '--quiet', 'origin', 'main', PRE_COMMIT_HOME=home)
     assert refused.returncode == 1
     assert f'{NODE}:44:9: CC101' in refused.stdout
