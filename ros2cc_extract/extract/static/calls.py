@@ -329,7 +329,11 @@ def _next_head(sequences: list[list[Value]]) -> Value:
 
 
 def _call_bound(machine: Calls, function: Bound, call: Call) -> Value:
-    return machine.call_function(function.function, call.bound_to(function.receiver))
+    result = machine.call_function(function.function, call.bound_to(function.receiver))
+    name = function.function.name
+    if name.startswith(('acquire', 'release')):
+        machine.note_lock_method(function.receiver, name)
+    return result
 
 
 def _call_partial(machine: Calls, function: Partial, call: Call) -> Value:

@@ -42,6 +42,14 @@ _SETTABLE = frozenset({'event', 'future'})
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
+class SharedLock(str):
+    """Name of a lock that readers hold together; it guards what they read, not what they write."""
+
+
+def _shared(lock: str) -> bool:
+    return isinstance(lock, SharedLock)
+
+
 class Effects(Machine):
     """Notes for the callback that is being followed; nothing while there is none."""
 
@@ -66,15 +74,16 @@ class Effects(Machine):
         deeds = self.world.deeds
         if deeds is None:
             return
+        is_read = kind is AccessKind.READ
         access = Access(
             name=name,
             source=place,
-            locks=self.world.held,
+            locks=tuple(str(lock) for lock in self.world.held if is_read or not _shared(lock)),
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=kind is AccessKind.UPDATE_IN_PLACE,
             chain=self.world.chain[1:],
         )
-        accesses = deeds.reads if kind is AccessKind.READ else deeds.writes
+        accesses = deeds.reads if is_read else deeds.writes
         note_once(accesses, access)
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
@@ -204,6 +213,17 @@ class Effects(Machine):
                 held = [name for name in self.world.held if name != option.hint]
                 self.world.held = tuple(held)
 
+    def note_lock_method(self, owner: Value, name: str) -> None:
+        """``owner.acquire…`` or ``release…`` of a class of the program that holds a lock."""
+        if not isinstance(owner, Instance) or not _holds_lock(owner):
+            return
+        lock = owner.hint or owner.class_name
+        if name.startswith(('acquire', '__enter__')):
+            is_shared = 'read' in name or 'shared' in name
+            self.world.held = (*self.world.held, SharedLock(lock) if is_shared else lock)
+        elif name.startswith('release'):
+            self.world.held = tuple(held for held in self.world.held if held != lock)
+
     def note_set(self, thing: Value) -> None:
         """An event or future is set, by the callback that is followed or by something else."""
         setter = self.world.current if self.world.deeds is not None else None
@@ -256,9 +276,22 @@ class Effects(Machine):
                 return value
             method = self.attribute(value, '__enter__', place)
             if isinstance(method, Bound):
-                return self.call(method, Call(place))
+                entered = self.call(method, Call(place))
+                self.note_lock_method(value, '__enter__')
+                return entered
             return value
         return value
+
+
+def _holds_lock(owner: Instance) -> bool:
+    return owner.state is None and any(
+        isinstance(option, Instance)
+        and isinstance(option.state, PlainState)
+        and option.state.kind in _LOCKS
+        for held in owner.slots.values()
+        if isinstance(held, Value)
+        for option in options_of(held)
+    )
 
 
 def _is_assigned(cls: Value, name: str) -> bool:

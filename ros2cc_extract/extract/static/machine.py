@@ -284,6 +284,10 @@ class Machine(ABC):
         """An event or future is set."""
 
     @abstractmethod
+    def note_lock_method(self, owner: Value, name: str) -> None:
+        """A method of ``owner`` has run, which may be a lock made by hand."""
+
+    @abstractmethod
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""
 
