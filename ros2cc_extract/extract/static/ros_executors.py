@@ -17,14 +17,17 @@ from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
+    Bound,
     Call,
     Class,
     Const,
     Coroutine,
+    Function,
     Handler,
     Instance,
     Mystery,
     Native,
+    Partial,
     Value,
     choice,
     options_of,
@@ -346,13 +349,24 @@ def add_task(
         node = world.current.node if world.current else next(iter(world.nodes), None)
     if node is None:
         return None
-    known = next((e for e in world.entities if e.place == place and e.kind is kind), None)
-    if known is not None and world.deeds is not None:
-        return None
+    run = callback.function if isinstance(callback, Coroutine) else callback
+    for known in world.by_node.get(id(node), ()):
+        is_here = known.place == place and known.kind is kind
+        if is_here and _code_of(known.callback) == _code_of(run):
+            return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
-    entity.callback = callback.function if isinstance(callback, Coroutine) else callback
+    entity.callback = run
     entity.count = 1
     return entity
+
+
+def _code_of(value: Value | None) -> object:
+    """Equal for functions of one text on one object, whatever else they were given."""
+    if isinstance(value, Partial):
+        return _code_of(value.function)
+    if isinstance(value, Bound):
+        return id(value.receiver), id(value.function.node)
+    return id(value.node) if isinstance(value, Function) else type(value)
 
 
 def groupless(machine: Machine) -> Instance:
