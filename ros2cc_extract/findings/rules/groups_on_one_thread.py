@@ -6,17 +6,18 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.waits import WaitKind, waits_of
 from ros2cc_extract.findings.words import listing, made_at
-from ros2cc_extract.findings.workers import is_one_thread
+from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import CallbackGroup
+
+_LETS_OTHERS_RUN = (WaitKind.AWAIT, WaitKind.SPIN, WaitKind.SPUN_FUTURE)
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """Coroutines are let off: with them groups matter on one thread as well."""
-    callbacks = context.written
-    if not is_one_thread(context.unit.executor) or any(c.coroutine for c in callbacks):
+    if not is_one_thread(context.unit.executor) or groups_count(context):
         return
-    used = {callback.group for callback in callbacks}
+    used = {callback.group for callback in context.written}
     groups = [group for group in context.unit.groups if group.name in used and is_made(group)]
     if groups:
         executor = context.unit.executor
@@ -28,6 +29,18 @@ def find(context: Context) -> Iterator[Hit]:
             subjects=tuple(group.name for group in groups),
             related=tuple(made_at(*groups[1:])),
         )
+
+
+def groups_count(context: Context) -> bool:
+    """
+    True when groups matter on one thread as well.
+
+    Others run while a callback awaits, or inside it while it spins; its own group stays closed.
+    """
+    if not honours_groups(context.unit.executor):
+        return False
+    lets_others_run = any(wait.kind in _LETS_OTHERS_RUN for wait in waits_of(context))
+    return lets_others_run or any(callback.coroutine for callback in context.written)
 
 
 def is_made(group: CallbackGroup) -> bool:
@@ -42,10 +55,10 @@ RULE = Rule(
     severity=Severity.NOTE,
     title='Callback groups on an executor with one thread',
     what='Callback groups were made, but one thread runs all callbacks one after the other: '
-    'neither a reentrant group nor several groups change anything. A note: a library node may '
-    'be meant for other executors.',
-    why='`rclpy.spin` and `SingleThreadedExecutor` run each callback to its end, or to its '
-    'first `await`, before the next. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    'neither a reentrant group nor several groups change anything. Not said where a callback '
+    'awaits or spins. A note: a library node may be meant for other executors.',
+    why='`rclpy.spin` and `SingleThreadedExecutor` run each callback to its end, to an `await`, '
+    'or to a nested spin, before the next. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`SingleThreadedExecutor`).',
     bad="""\
 class Arm(Node):

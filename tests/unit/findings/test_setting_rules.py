@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import pytest
 from finding_units import (
     DEFAULT,
+    EVENTS_EXECUTOR,
     FREE,
     NOT_FOUND,
     ONE_THREAD,
     OTHER,
     at,
+    calls,
     default_threads,
     exclusive,
     found,
@@ -97,6 +100,22 @@ def test_groups_without_effect_on_one_thread() -> None:
     assert found(unit(ONE_THREAD, timer('a', 'free'), timer('b'))) == ['CC402:6 note']
     assert found(unit(ONE_THREAD, timer('a'), timer('b'))) == []
     assert found(unit(ONE_THREAD, timer('a', 'free', coroutine=True), timer('b'))) == []
+
+
+@pytest.mark.parametrize('call', ['rclpy.spin_once', 'executor.spin_once', 'spin for future'])
+def test_a_nested_spin_gives_groups_an_effect_on_one_thread(call: str) -> None:
+    spinner = timer('a', 'other', blocking=calls('helper', call=call))
+    assert 'CC402:5 note' not in found(unit(ONE_THREAD, spinner, timer('b')))
+
+
+def test_an_await_gives_groups_an_effect_on_one_thread() -> None:
+    waiter = timer('a', 'other', blocking=calls('helper', call='await'))
+    assert found(unit(ONE_THREAD, waiter, timer('b'))) == []
+
+
+def test_the_events_executor_never_asks_the_groups() -> None:
+    spinner = timer('a', 'other', blocking=calls('helper', call='rclpy.spin_once'))
+    assert 'CC402:5 note' in found(unit(EVENTS_EXECUTOR, spinner, timer('b')))
 
 
 def test_threads_that_never_run() -> None:
