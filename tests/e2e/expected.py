@@ -1,7 +1,7 @@
 """
 What `expected.spec.yaml` and `expected.verdicts.yaml` of an example hold, and how to renew them.
 
-    python -m tests.e2e.expected        # rewrites them, and the README's output; read the diff
+    python -m tests.e2e.expected        # rewrites them, the README and the tutorial; read the diff
 
 The specification is exactly what ``ros2cc-extract spec node.py`` prints in the example's folder.
 The verdicts are those of profile ``paper`` for every unit, in the order of the queries.
@@ -13,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import yaml
@@ -22,6 +23,7 @@ from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import write_specs
 from ros2cc_extract.verify import verify_unit
+from tests.e2e.tutorial import PAGE, carried_out
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted(path.parent for path in (ROOT / 'launch_free_examples').glob('*/node.py'))
@@ -87,6 +89,13 @@ def renew_readme() -> None:
     README.write_text(text.replace(shown_output(), demo_output(), 1), encoding='utf-8')
 
 
+def renew_tutorial() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        page = carried_out(PAGE.read_text(encoding='utf-8'), Path(folder))
+    PAGE.write_text(page, encoding='utf-8')
+
+
 if __name__ == '__main__':
     renew()
     renew_readme()
+    renew_tutorial()

@@ -15,7 +15,7 @@ def environment(**more: str) -> dict[str, str]:
     kept = {
         name: value
         for name, value in os.environ.items()
-        if not name.startswith(('GIT_', 'PYTEST'))
+        if not name.startswith(('GIT_', 'PYTEST', 'COLUMNS'))
     }
     ours = {
         'PATH': f'{BIN}{os.pathsep}{os.environ["PATH"]}',
