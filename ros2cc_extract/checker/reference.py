@@ -31,7 +31,7 @@ from ros2cc_extract.checker.search import (
 from ros2cc_extract.checker.semantics import Semantics
 from ros2cc_extract.checker.walks import mentions_deadlock
 
-_LOOK_EVERY = 1024
+_LOOK_EVERY = 256
 _MAX_CACHED_PREDICATES = 200_000
 
 

@@ -15,6 +15,23 @@ namespace core {
 // Called now and then with states, transitions and the bytes about to be allocated; true stops.
 using Watch = std::function<bool(uint64_t, uint64_t, uint64_t)>;
 
+// Says now and then that it is time to look at limits: by work done, and by the clock, as one
+// state of a model with long loops may take as long as thousands of another.
+class Pulse {
+ public:
+  bool is_due(uint64_t work) {
+    if (work < next_ && std::chrono::steady_clock::now() < late_) return false;
+    next_ = work + kWork;
+    late_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+    return true;
+  }
+  static constexpr uint64_t kWork = 16384;
+
+ private:
+  uint64_t next_ = 0;
+  std::chrono::steady_clock::time_point late_{};
+};
+
 struct Hit {
   uint32_t state = kNone;
   double seconds = 0;
@@ -39,13 +56,21 @@ class Exploration {
   // Explores until all is known or `watch` says to stop; false in the second case.
   bool run(const Watch& watch) {
     const auto start = std::chrono::steady_clock::now();
-    uint64_t looked = 0;
+    Pulse pulse;
     while (expanded_ < states_.size()) {
-      if (expanded_ >= looked) {
-        looked = expanded_ + kLookEvery;
-        if (watch(states_.size(), transitions_, states_.growth(kMaxNew))) return false;
+      if (pulse.is_due(expanded_ + states_.size()) &&
+          watch(states_.size(), transitions_, 0)) {
+        return false;
       }
+      const uint64_t expanded = expanded_, transitions = transitions_;
       const bool is_done = expand_some(start);
+      const uint64_t growth = states_.growth(found_.size());
+      if (growth != 0 && watch(states_.size(), transitions, growth)) {
+        // Targets that were not stored must not be looked for: their sources stay unexpanded.
+        expanded_ = expanded;
+        transitions_ = transitions;
+        return false;
+      }
       insert_found();
       if (is_done) return true;
     }
@@ -73,10 +98,7 @@ class Exploration {
     uint32_t parent;
     uint64_t hash;
   };
-  static constexpr uint64_t kLookEvery = 16384;
   static constexpr size_t kBatch = 192;
-  // More states than a look's distance can bring, for the memory it asks for ahead.
-  static constexpr uint64_t kMaxNew = kLookEvery * 4;
 
   void group(const Predicate& goal, int32_t number) {
     for (Group& group : groups_) {

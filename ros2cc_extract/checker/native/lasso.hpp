@@ -44,7 +44,7 @@ class LassoSearch {
 
  private:
   enum Colour : uint8_t { UNKNOWN, OPEN, DONE, OUTSIDE };
-  static constexpr size_t kCandidates = 64, kCycleEffort = 4096, kLookEvery = 1 << 14;
+  static constexpr size_t kCandidates = 64, kCycleEffort = 4096;
 
   template <class Try>
   Lasso for_each_start(Try&& attempt) {
@@ -62,7 +62,8 @@ class LassoSearch {
   }
 
   void look() {
-    if (++steps_ % kLookEvery == 0 &&
+    // The clock is read every few steps only: a step may be as short as a look at a cache.
+    if (++steps_ % 64 == 0 && pulse_.is_due(steps_) &&
         watch_(graph_.states().size(), graph_.transitions(), 0)) {
       throw Stopped{};
     }
@@ -227,6 +228,7 @@ class LassoSearch {
   std::vector<uint8_t> colours_;
   // While a fair cycle is built: the component that paths must not leave.
   std::unordered_map<uint32_t, bool> members_;
+  Pulse pulse_;
   uint64_t steps_ = 0;
 };
 
