@@ -9,6 +9,7 @@ from ros2cc_extract.findings.races import Race, RaceKind, describe, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 
 HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
+HELP_OUTSIDE_GROUPS = 'hold one lock around both; a callback group cannot help'
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -17,12 +18,12 @@ def find(context: Context) -> Iterator[Hit]:
             yield hit_of(race)
 
 
-def hit_of(race: Race, message: str = '', help: str = HELP) -> Hit:
+def hit_of(race: Race, message: str = '') -> Hit:
     """The finding of one race; ``message`` is added to what happens."""
     return Hit(
         place=race.first.place,
         message=describe(race) + message,
-        help=help,
+        help=HELP_OUTSIDE_GROUPS if race.is_outside_groups else HELP,
         subjects=race.subjects,
         related=race.related(),
         run=race.run,

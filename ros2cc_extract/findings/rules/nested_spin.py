@@ -10,7 +10,7 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.model import Callback, GroupType, Spec
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -33,7 +33,7 @@ def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{caller} calls {wait.block.call} on {node} inside a callback: '
-        f'{_consequence(unit)}',
+        f'{_consequence(wait.caller, context)}',
         help='do not spin in a callback: use call_async and continue in a done-callback, or await '
         'in a coroutine callback',
         severity=_severity(unit, is_own),
@@ -43,7 +43,8 @@ def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
     )
 
 
-def _consequence(unit: Spec) -> str:
+def _consequence(caller: Callback, context: Context) -> str:
+    unit = context.unit
     if isinstance(unit.executor.kind, Unknown):
         return (
             'under an executor of its own the node leaves that executor and none of its '
@@ -51,10 +52,18 @@ def _consequence(unit: Spec) -> str:
         )
     if is_global(unit):
         return (
-            'callbacks of other groups run inside this one, members of its own group do not, and '
-            'from rclpy 7.1.9 on the executor refuses to be spun twice'
+            f'{_runs_inside(caller, context)}, and from rclpy 7.1.9 on the executor refuses to be '
+            'spun twice'
         )
     return f'the node leaves its {unit.executor.kind}, and none of its callbacks runs again'
+
+
+def _runs_inside(caller: Callback, context: Context) -> str:
+    group = context.group_of(caller)
+    is_open = group.type is GroupType.REENTRANT and group.unresolved is None
+    if caller.groupless or is_open:
+        return 'callbacks of the node run inside this one'
+    return 'callbacks of other groups run inside this one, members of its own group do not'
 
 
 def _severity(unit: Spec, is_own: bool) -> Severity | None:

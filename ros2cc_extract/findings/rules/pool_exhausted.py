@@ -15,9 +15,15 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import EntityKind, When
+from ros2cc_extract.spec.model import Callback, EntityKind, When
 
 _MADE_BY_CALLBACKS = (EntityKind.DONE_CALLBACK, EntityKind.TASK)
+_TASK = 'no group holds a task: do not wait in it'
+_OUTSIDE = {
+    EntityKind.ACTION_EXECUTE: 'no group holds an execute callback: accept one goal at a time in '
+    'goal_callback',
+    EntityKind.DONE_CALLBACK: 'no group holds a done-callback: do not wait in it',
+}
 USUAL_CPUS = 4
 """CPUs of a usual robot computer: with fewer waiters a default pool gets only a note."""
 
@@ -95,9 +101,19 @@ def _help(capacity: Capacity) -> str:
         return f'{capacity.at_least + 1} threads are the smallest number that is enough'
     return (
         f'at least {capacity.at_least + 1} threads, but no number is surely enough: '
-        f'{shown(capacity.unbounded)} may also overlap itself; put it into a mutually exclusive '
-        'group of its own'
+        f'{shown(capacity.unbounded)} may also overlap itself; {_remedy(capacity.unbounded)}'
     )
+
+
+def _remedy(unbounded: Sequence[Callback]) -> str:
+    """What keeps callbacks from overlapping themselves; work in no group cannot be put in one."""
+    members = [c for c in unbounded if not c.groupless]
+    outside = dict.fromkeys(
+        _OUTSIDE.get(c.entity or EntityKind.TASK, _TASK) for c in unbounded if c.groupless
+    )
+    who = 'it' if not outside else shown(members)
+    ways = [f'put {who} into a mutually exclusive group of its own'] if members else []
+    return '; '.join((*ways, *outside))
 
 
 def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers, needed: int) -> Hit:
@@ -107,8 +123,7 @@ def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers, ne
         message=f'{shown(capacity.unbounded)} may overlap itself while it waits; when answers '
         f'are slow, {plural(workers.count, "run")} of it can hold all '
         f'{plural(workers.count, "thread")}, and no thread is left for the answers',
-        help='put it into a mutually exclusive group of its own; then '
-        f'{plural(needed, "thread")} are enough',
+        help=f'{_remedy(capacity.unbounded)}; then {plural(needed, "thread")} are enough',
         severity=Severity.NOTE,
         subjects=tuple(callback.name for callback in capacity.unbounded),
         chain=first.chain,
@@ -160,7 +175,8 @@ executor = MultiThreadedExecutor(num_threads=2)
 executor = MultiThreadedExecutor(num_threads=3)  # two may wait, the third takes the answers
 """,
     mend='Raise `num_threads` above the number of callbacks that can wait at once, always by an '
-    'explicit number; put callers into mutually exclusive groups, so that none overlaps itself; '
+    'explicit number; put callers into mutually exclusive groups, so that none overlaps itself '
+    '(an execute callback is in no group: accept one goal at a time in `goal_callback`); '
     'or do not wait in callbacks at all.',
     find=find,
 )

@@ -28,6 +28,7 @@ from finding_units import (
 )
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
 
@@ -333,3 +334,54 @@ def test_the_chain_leads_from_the_callback_to_the_wait() -> None:
         (at(30), 'drive calls from here'),
         (at(35), 'and on from here'),
     ]
+
+
+@pytest.mark.parametrize(
+    ('kind', 'remedy'),
+    [
+        (
+            EntityKind.ACTION_EXECUTE,
+            'no group holds an execute callback: accept one goal at a time in goal_callback',
+        ),
+        (EntityKind.TASK, 'no group holds a task: do not wait in it'),
+        (
+            EntityKind.DONE_CALLBACK,
+            'no group holds a done-callback: do not wait in it',
+        ),
+    ],
+)
+def test_the_help_for_a_full_pool_names_no_group_for_what_is_in_none(
+    kind: EntityKind, remedy: str
+) -> None:
+    runner = outside('run', kind, blocking=calls('plan_client'))
+    finding = only(unit(threads(4), runner, client('plan_client', 'other')), 'CC103')
+    assert finding.help == f'{remedy}; then 2 threads are enough'
+
+
+def test_the_help_for_a_full_pool_names_the_group_of_others() -> None:
+    caller = subscription('on_goal', 'free', blocking=calls('plan_client'))
+    finding = only(unit(threads(4), caller, client('plan_client', 'other')), 'CC103')
+    assert finding.help == (
+        'put it into a mutually exclusive group of its own; then 2 threads are enough'
+    )
+    goal = outside('run', EntityKind.ACTION_EXECUTE, blocking=calls('plan_client'))
+    both = unit(threads(3), goal, caller, client('plan_client', 'other'))
+    assert only(both, 'CC103').help.startswith(
+        'put on_goal into a mutually exclusive group of its own; no group holds an execute'
+    )
+
+
+def test_a_done_callback_that_spins_has_no_group_that_would_stay_closed() -> None:
+    spin = calls('arm', call='rclpy.spin_once')
+    under_spin = Executor(
+        name='executor', kind=SINGLE, threads=('thread_0',), spun='rclpy.spin', source=at(90)
+    )
+    done = outside('on_done', EntityKind.DONE_CALLBACK, blocking=spin)
+    assert (
+        'callbacks of the node run inside this one, and from rclpy 7.1.9'
+        in only(unit(under_spin, done, timer('t')), 'CC106').message
+    )
+    tick = timer('tick', blocking=spin)
+    assert 'members of its own group do not' in only(unit(under_spin, tick), 'CC106').message
+    free = timer('tick', 'free', blocking=spin)
+    assert 'members of its own' not in only(unit(under_spin, free), 'CC106').message

@@ -229,3 +229,12 @@ def test_a_callback_that_overlaps_itself(callback: Callback, expected: list[str]
 
 def test_a_race_is_a_warning_and_not_an_error() -> None:
     assert only(counter(threads(2)), 'CC301').severity is Severity.WARNING
+
+
+def test_the_help_names_no_group_for_what_is_in_none() -> None:
+    done = outside('on_done', EntityKind.DONE_CALLBACK, writes=writes('Arm.goal', 40))
+    tick = timer('tick', writes=writes('Arm.goal', 30))
+    help_text = 'hold one lock around both; a callback group cannot help'
+    assert only(unit(threads(2), tick, done), 'CC302').help == help_text
+    tock = timer('tock', 'other', writes=writes('Arm.goal', 35))
+    assert 'one mutually exclusive group' in only(unit(threads(2), tick, tock), 'CC302').help
