@@ -235,20 +235,19 @@ class _ProcessAnalysis:
     def _steps(self, node: Node) -> Iterator[_Step]:
         for edge in self._process.edges:
             if edge.source == node[0]:
-                step = self._step(node, edge)
-                if step is not None:
-                    yield step
+                yield self._step(node, edge)
 
-    def _step(self, node: Node, edge: Edge) -> _Step | None:
+    def _step(self, node: Node, edge: Edge) -> _Step:
         values = self._node_values(node)
         known = Substitution(values)
         step = _Step()
         for expr in (edge.guard, edge.sync.index if edge.sync else None):
             if expr is not None:
                 simple = known.apply(expr)
-                if expr is edge.guard and isinstance(simple, Const) and not simple.low:
-                    return None
                 step.reads |= self._reads(expr, simple)
+                if expr is edge.guard and isinstance(simple, Const) and not simple.low:
+                    # Leads nowhere as long as the controls keep it closed: so they are read.
+                    return step
         step.writes |= self._usage.written_by_sender(edge, self._number)
         unknown: set[int] = set()
         for update in edge.updates:

@@ -137,3 +137,15 @@ def test_published_case_2_shrinks_to_a_fifteenth() -> None:
     reduced, full = compare(published_model(case), formulas(case))
     assert full == 300162
     assert reduced * 15 < full
+
+
+def test_what_keeps_an_edge_closed_is_not_forgotten() -> None:
+    model = single(
+        """a b c
+a -> b; do: done = 1
+b -> c; guard: done < 1 && kept[done] == 0""",
+        local='const int kept[2] = {0, 0}; int[0, 1] done;',
+    )
+    assert forgotten(model, 'P', 'E<> P.c').get('b', set()) == set()
+    result = check(model, [Query('E<> P.c', '', None)], reduction=True)
+    assert [answer.verdict.value for answer in result.answers] == ['not satisfied']
