@@ -14,6 +14,8 @@ _PAGE_BYTES = resource.getpagesize()
 _MB = 1024 * 1024
 #: What a search may take between two looks.
 _STEP_MB = 4
+#: Part of the memory that the exploration may take when lassos are looked for later.
+WITH_LASSOS = 0.8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,9 +65,17 @@ class Watch:
 
     Without a limit on memory, most of what the machine has free is the limit: the system would
     end the process otherwise, and with it what is known.
+
+    :param share: part of the memory for the exploration; the search for lassos gets the rest.
     """
 
-    def __init__(self, limits: Limits, progress: Callable[[Progress], None] | None) -> None:
+    def __init__(
+        self,
+        limits: Limits,
+        progress: Callable[[Progress], None] | None,
+        share: float = 1.0,
+    ) -> None:
+        self._share = share
         self._limits = limits
         self._memory_mb = limits.memory_mb or most_of_the_memory_mb()
         self._progress = progress
@@ -75,12 +85,18 @@ class Watch:
         """Return the time since the search began."""
         return time.monotonic() - self._start
 
-    def out_of_time(self) -> str | None:
-        """Return the reason to give up if the time is over."""
+    def exhausted(self) -> str | None:
+        """Return the reason to give up if the time is over, or all of the memory is used."""
         limit = self._limits.seconds
         if limit is not None and self.seconds() > limit:
             return f'the limit of {limit:g} s was reached'
-        return None
+        return self._out_of_memory(0, 1.0)
+
+    def _out_of_memory(self, more_bytes: int, share: float) -> str | None:
+        limit = self._memory_mb
+        if limit is None or memory_mb() + more_bytes / _MB + _STEP_MB <= share * limit:
+            return None
+        return f'the limit of {limit:.0f} MB was reached'
 
     def broken(self, states: int, transitions: int, more_bytes: int = 0) -> str | None:
         """
@@ -92,12 +108,9 @@ class Watch:
         if self._progress:
             self._progress(Progress(states=states, transitions=transitions, seconds=seconds))
         limits = self._limits
-        late = self.out_of_time()
-        if late:
-            return late
-        limit = self._memory_mb
-        if limit is not None and memory_mb() + more_bytes / _MB + _STEP_MB > limit:
-            return f'the limit of {limit:.0f} MB was reached'
+        reason = self.exhausted() or self._out_of_memory(more_bytes, self._share)
+        if reason:
+            return reason
         if limits.states is not None and states >= limits.states:
             return f'the limit of {limits.states} states was reached'
         return None

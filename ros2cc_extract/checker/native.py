@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ros2cc_extract.checker.dead import forget, forgettings
 from ros2cc_extract.checker.interpret import endless_error, site_error
-from ros2cc_extract.checker.limits import Limits, Progress, Watch
+from ros2cc_extract.checker.limits import WITH_LASSOS, Limits, Progress, Watch
 from ros2cc_extract.checker.nativecode import Lowering, Predicate
 from ros2cc_extract.checker.network import Network, Property
 from ros2cc_extract.checker.search import (
@@ -60,7 +60,7 @@ def search(
         forgotten = forgettings(network, formulas_of(properties))
         lowering.forget(forgotten)
         reduce = functools.partial(forget, forgotten)
-    watching = _Watching(Watch(limits, progress))
+    watching = _Watching(Watch(limits, progress, WITH_LASSOS if liveness else 1.0))
     try:
         result = _core.search(
             **vars(lowering.tables),
@@ -104,7 +104,7 @@ class _Watching:
             if is_exploring:
                 self.reason = self.watch.broken(states, transitions, more_bytes)
                 return self.reason is not None
-            late = INTERRUPTED if self.reason == INTERRUPTED else self.watch.out_of_time()
+            late = INTERRUPTED if self.reason == INTERRUPTED else self.watch.exhausted()
             self.reason = self.reason or late
             return late is not None
         except KeyboardInterrupt:

@@ -216,7 +216,7 @@ class _Exploration:
         return not (stopped_early and self._properties)
 
     def _liveness_outcome(self, k: int, prop: Property) -> Outcome:
-        late = INTERRUPTED if self._reason == INTERRUPTED else self._watch.out_of_time()
+        late = INTERRUPTED if self._reason == INTERRUPTED else self._watch.exhausted()
         if late:
             self._reason = self._reason or late
             return not_found(prop, self._watch.seconds(), self._reason)
