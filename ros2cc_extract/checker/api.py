@@ -206,6 +206,7 @@ def check(
     :param reduction: explore fewer states where that keeps all verdicts; the reference does not.
     :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
     :raises ToolNotFoundError: the native core was asked for and is not built.
+    :raises CoreMismatchError: a path of a reduced search could not be replayed (a defect).
     """
     try:
         return _check(model, queries, limits, engine, fairness, reduction, progress)
@@ -247,6 +248,9 @@ def _check(
         )
         for query, prop, outcome in zip(queries, properties, result.outcomes, strict=True)
     )
+    if result.reduce is not None:
+        for answer in answers:
+            _ = answer.path  # a reduction that goes wrong must fail before its verdict is seen
     return CheckResult(
         engine=chosen.name,
         note=chosen.note,
