@@ -37,13 +37,15 @@ def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     others = {other.name for other in spec.callbacks} - {callback.name}
     for block in callback.blocking:
         needed = block.on if isinstance(block.on, str) else None
-        if needed in others and block.seconds is None and not _spins(block):
+        if needed in others and block.seconds is None and not _goes_on_alone(block):
             yield NamedWait(needed, block.call == 'await')
 
 
-def _spins(block: Blocking) -> bool:
-    """A nested spin lets its thread serve others."""
-    return block.call.rpartition('.')[2].startswith('spin')
+def _goes_on_alone(block: Blocking) -> bool:
+    """A nested spin lets its thread serve others; waiting for a service only asks the graph."""
+    return block.call.rpartition('.')[2].startswith(
+        ('spin', 'wait_for_service', 'wait_for_server')
+    )
 
 
 def server_of(client: Callback, spec: Spec) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.findings.rules import (
+    absent_service,
     asyncio_sleep,
     execute_holds_thread,
     executor_spun_twice,
@@ -42,6 +43,7 @@ RULES: tuple[Rule, ...] = (
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,
+    absent_service.RULE,
     lost_update.RULE,
     unordered_write.RULE,
     outside_groups.RULE,

@@ -4,6 +4,7 @@ What a callback waits for, and which other callbacks must run before it goes on.
 Source of the table: measured on rclpy 7.1.6 and 9.1.2 (``client.py``, ``action/client.py``,
 ``timer.py``, ``task.py``): a synchronous call waits for a ``threading.Event`` that is set when
 the executor has run the client; ``Rate.sleep`` waits for one set by a timer of the node.
+``wait_for_service`` looks at the graph and needs no callback to run.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ class WaitKind(Enum):
     SPIN = 'spin'
     SPUN_FUTURE = 'spun future'
     SLEEP = 'sleep'
+    PRESENCE = 'presence'
     OTHER = 'other'
 
 
@@ -49,6 +51,8 @@ _KINDS = {
     SPIN_FOR_FUTURE: WaitKind.SPUN_FUTURE,
     'await': WaitKind.AWAIT,
     'time.sleep': WaitKind.SLEEP,
+    'wait_for_service': WaitKind.PRESENCE,
+    'wait_for_server': WaitKind.PRESENCE,
 }
 _SERVERS = {
     EntityKind.CLIENT: (EntityKind.SERVICE,),
@@ -111,13 +115,17 @@ def waits_of(context: Context) -> Iterator[Wait]:
 
 def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Callback]:
     needed = context.by_name.get(block.on) if isinstance(block.on, str) else None
+    if kind_of(block) is WaitKind.PRESENCE:
+        return
     if needed is None or needed == caller or _exclude_each_other(needed, caller):
         return
     yield needed
     client = _client_before(needed, context)
     if client is not None and client != caller:
         yield client
-    yield from _server(client or needed, context)
+    server = server_of(client or needed, context)
+    if server is not None:
+        yield server
 
 
 def _client_before(done: Callback, context: Context) -> Callback | None:
@@ -130,12 +138,13 @@ def _client_before(done: Callback, context: Context) -> Callback | None:
     return found[0] if len(found) == 1 else None
 
 
-def _server(client: Callback, context: Context) -> Iterator[Callback]:
+def server_of(client: Callback, context: Context) -> Callback | None:
     """The one server of the unit by the client's name; a remapping is not visible here."""
     kinds = _SERVERS.get(client.entity) if client.entity else None
-    if kinds and isinstance(client.key, str):
-        found = [c for c in context.written if c.entity in kinds and c.key == client.key]
-        yield from found[:1] if len(found) == 1 else ()
+    if not kinds or not isinstance(client.key, str):
+        return None
+    found = [c for c in context.written if c.entity in kinds and c.key == client.key]
+    return found[0] if len(found) == 1 else None
 
 
 def is_client(callback: Callback) -> bool:
@@ -154,10 +163,14 @@ def waits_for(wait: Wait) -> str:
     if needed is None:
         return 'something else'
     if is_client(needed) or is_done_callback(needed):
-        name = f' {needed.key!r}' if isinstance(needed.key, str) else ''
-        what = 'action' if needed.entity is EntityKind.ACTION_CLIENT else 'service'
-        return f'the answer of {what}{name}'
+        return f'the answer of {name_of_service(needed)}'
     return needed.display_name
+
+
+def name_of_service(client: Callback) -> str:
+    """Name the service or action of a client."""
+    name = f' {client.key!r}' if isinstance(client.key, str) else ''
+    return f'{"action" if client.entity is EntityKind.ACTION_CLIENT else "service"}{name}'
 
 
 def waits_in(wait: Wait) -> str:

@@ -12,11 +12,13 @@ from finding_units import (
     OTHER,
     at,
     calls,
+    client,
     default_threads,
     exclusive,
     found,
     only,
     outside,
+    service,
     sleeps,
     subscription,
     threads,
@@ -27,7 +29,7 @@ from finding_units import (
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import EntityKind, Unresolved
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Unresolved, When
 
 HOLE = Unresolved(subject='tick', fact='topic', reason='a parameter', source=at(3))
 
@@ -58,6 +60,36 @@ def test_an_execute_callback_that_sleeps_hides_the_cancel_request() -> None:
     execute = outside('execute', EntityKind.ACTION_EXECUTE, blocking=sleeps(5.0) + sleeps(5.0, 60))
     assert found(unit(ONE_THREAD, execute)) == ['CC203:50 warning']
     assert [f for f in found(unit(threads(2), execute)) if f.startswith('CC2')] == []
+
+
+def waits_for_service(executor: Executor, *others: Callback, **facts: object) -> list[str]:
+    waits = calls('plan_client', call='wait_for_service', **facts)
+    drive = timer('drive', blocking=waits)
+    spec = unit(executor, drive, client('plan_client', 'free'), *others)
+    return [f for f in found(spec) if f.startswith(('CC1', 'CC20'))]
+
+
+def test_waiting_for_a_service_without_a_time_out_holds_the_only_thread() -> None:
+    assert waits_for_service(ONE_THREAD) == ['CC204:40 warning']
+    assert waits_for_service(EVENTS_EXECUTOR) == ['CC204:40 warning']
+    assert waits_for_service(ONE_THREAD, seconds=1.0) == []
+    assert waits_for_service(threads(2)) == []
+    assert waits_for_service(NOT_FOUND) == []
+
+
+def test_a_service_of_the_same_unit_is_there_already() -> None:
+    assert waits_for_service(ONE_THREAD, service('on_plan', key='plan')) == []
+    later = service('on_plan', key='plan', when=When.CALLBACK)
+    assert waits_for_service(ONE_THREAD, later) == ['CC204:40 warning']
+
+
+def test_message_of_waiting_for_a_service() -> None:
+    waits = calls('plan_client', call='wait_for_service')
+    spec = unit(ONE_THREAD, timer('drive', blocking=waits), client('plan_client'), timer('tick'))
+    assert only(spec, 'CC204').message == (
+        'drive waits in wait_for_service without a time-out on the only thread of the '
+        "SingleThreadedExecutor: until service 'plan' is there no other callback runs"
+    )
 
 
 def test_an_overloaded_group_starves_who_is_served_later() -> None:

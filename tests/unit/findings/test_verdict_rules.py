@@ -118,3 +118,9 @@ def test_a_unit_with_a_hole_is_not_judged_by_its_model() -> None:
     assert found(with_hole, stuck) == ['CC501:3 note']
     no_executor = type(spec.executor)(name='e', kind=Unknown('none'), threads=('t',))
     assert found(type(spec)(**{**vars(spec), 'executor': no_executor}), stuck) == []
+
+
+def test_waiting_for_a_service_to_be_there_needs_no_callback() -> None:
+    refuted = progress(Verdict.NOT_SATISFIED, 'drive')
+    assert found(own_group(call='wait_for_service'), refuted) == []
+    assert found(own_group(call='Condition.wait_for'), refuted) == ['CC101:40']

@@ -92,6 +92,14 @@ def test_a_wait_with_a_time_out_ends_by_itself():
     assert stuck(unit) == []
 
 
+@pytest.mark.parametrize('call', ['wait_for_service', 'wait_for_server', 'rclpy.spin_once'])
+def test_a_wait_that_needs_no_callback_of_the_unit(call: str):
+    unit = closed_unit('ask:TMR:g reply:CLT:g', 'g:EXCLUSIVE', 1, SINGLE)
+    ask, reply = unit.spec.callbacks
+    ask = replace(ask, blocking=(Blocking(call=call, on='reply'),))
+    assert stuck(replace(unit, spec=replace(unit.spec, callbacks=(ask, reply)))) == []
+
+
 def test_an_answer_is_for_the_callback_that_asked():
     """Two callbacks share a client: one answer lets one of them go on."""
     unit = closed_unit('a:TMR:g b:TMR:g r:CLT:g', 'g:REENTRANT', 3, MULTI, 'a:r b:r')
