@@ -18,10 +18,10 @@ from ros2cc_extract.verify import Options, Verdict, Verification, verify_unit
 
 @dataclass(frozen=True)
 class Point:
-    """One setting of a sweep; ``max_cycle`` bounds how often each callback becomes ready."""
+    """One setting of a sweep; ``max_cycle`` bounds how often a callback becomes ready."""
 
     threads: int
-    max_cycle: int
+    max_cycle: int | None
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Turn:
     """
 
     query: int
-    max_cycle: int
+    max_cycle: int | None
     threads: int
     before: Verdict
     after: Verdict
@@ -57,10 +57,10 @@ class Sweep:
         return tuple(found)
 
 
-def points(threads: Iterable[int], max_cycles: Iterable[int]) -> tuple[Point, ...]:
-    """All settings, thread counts ascending within each arrival bound."""
+def points(threads: Iterable[int], max_cycles: Iterable[int | None]) -> tuple[Point, ...]:
+    """All settings, thread counts ascending within each arrival bound, as these are given."""
     counts = sorted(set(threads))
-    return tuple(Point(t, cycle) for cycle in sorted(set(max_cycles)) for t in counts)
+    return tuple(Point(t, cycle) for cycle in dict.fromkeys(max_cycles) for t in counts)
 
 
 def run_sweep(

@@ -58,7 +58,7 @@ class Options:
     runs: Runs = Runs.TOGETHER
     profile: build.Profile = build.Profile.PAPER
     text: build.Text = build.Text.COMPACT
-    max_cycle: int = 1
+    max_cycle: int | None = 1
     engine: EngineKind = EngineKind.AUTO
     fairness: Fairness = Fairness.NONE
     reduction: bool = True
@@ -159,10 +159,13 @@ def verify_unit(
 
 
 def _caveats(closed: ClosedSpec, options: Options) -> tuple[str, ...]:
+    notes = []
+    if options.max_cycle is None:
+        notes.append(f'arrivals without bound; fairness of a run: {options.fairness.value}')
     blocking = any(callback.blocking for callback in closed.spec.callbacks)
     if options.profile is build.Profile.PAPER and blocking:
-        return ('the published model knows no blocking calls; what they do, the findings tell',)
-    return ()
+        notes.append('the published model knows no blocking calls; the findings tell of them')
+    return tuple(notes)
 
 
 def _ask_verifyta(

@@ -57,10 +57,11 @@ def add_model_arguments(
     )
     group.add_argument(
         '--max-cycle',
-        type=_range if ranges else _single,
-        default=range(1, 2),
-        metavar='N|A..B' if ranges else 'N',
-        help='how often each callback becomes ready (default 1, as published)',
+        type=_bounds if ranges else _bound,
+        default=(1,),
+        metavar='N|A..B|inf' if ranges else 'N|inf',
+        help='how often each callback becomes ready (default 1, as published); inf: for ever, '
+        'which needs --fairness weak to say anything of starvation',
     )
 
 
@@ -97,7 +98,9 @@ def add_search_arguments(
     group.add_argument(
         '--no-reduction', action='store_true', help='explore every state of the text'
     )
-    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after about N states')
+    group.add_argument(
+        '--max-states', type=_positive, metavar='N', help='stop after about N states'
+    )
     group.add_argument('--max-memory', type=_positive, metavar='MB', help='stop at this memory')
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
@@ -141,6 +144,14 @@ def _positive(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
     return value
+
+
+def _bounds(text: str) -> tuple[int | None, ...]:
+    return (None,) if text == 'inf' else tuple(_range(text))
+
+
+def _bound(text: str) -> tuple[int | None, ...]:
+    return (None,) if text == 'inf' else tuple(_single(text))
 
 
 def _single(text: str) -> range:

@@ -29,6 +29,7 @@ COMMANDS = {
     'explain': 'tell what a rule means and how to mend what it finds',
     'run': 'start a command with the live hook and write what its nodes hold',
     'env': 'print the environment variables that switch the live hook on',
+    'collect': 'write the specification of what nodes switched on by `env` have recorded',
     'attach': 'write the specification of a process that already runs',
     'diff': 'compare two specifications of one program',
     'init': 'write the test file, hook and job that guard a ROS 2 package',

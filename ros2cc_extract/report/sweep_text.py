@@ -40,4 +40,4 @@ def print_sweep(sweep: Sweep, console: Console) -> None:
 
 def _head(point: Point, with_bound: bool) -> str:
     threads = f'{point.threads} thread{"s" if point.threads != 1 else ""}'
-    return f'{threads}, cycle {point.max_cycle}' if with_bound else threads
+    return f'{threads}, cycle {point.max_cycle or "inf"}' if with_bound else threads

@@ -34,12 +34,18 @@ Run = Callable[..., Outcome]
 
 
 @pytest.fixture
-def run(tmp_path: Path) -> Run:
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The user's cache folder of one test, outside its work tree."""
+    return tmp_path_factory.mktemp('cache')
+
+
+@pytest.fixture
+def run(tmp_path: Path, cache: Path) -> Run:
     def runner(*arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = ()) -> Outcome:
         done = subprocess.run(
             [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
             cwd=cwd,
-            env=environment(cache=tmp_path / 'cache'),
+            env=environment(cache),
             capture_output=True,
             timeout=120,
             check=False,

@@ -144,11 +144,11 @@ def test_a_node_that_only_publishes_is_told_and_left_out(run: Run, tmp_path: Pat
     assert outcome.out.startswith('1 file, 0 units')
 
 
-def test_a_second_scan_takes_the_first_ones_result(run: Run, tmp_path: Path) -> None:
+def test_a_second_scan_takes_the_first_ones_result(run: Run, tmp_path: Path, cache: Path) -> None:
     node = tmp_path / 'node.py'
     node.write_text(CASE_1.read_text())
     first = run('spec', 'node.py').out
-    assert list((tmp_path / 'cache').rglob('*.scan'))
+    assert list(cache.rglob('*.scan'))
     assert run('spec', 'node.py').out == first == run('spec', 'node.py', '--no-cache').out
     node.write_text(CASE_1.read_text().replace("'msg_C'", "'msg_E'"))
     assert 'topic: msg_E' in run('spec', 'node.py').out
