@@ -14,6 +14,7 @@ import pytest
 from child import Child
 from conftest import EXAMPLES, ROOT
 
+from ros2cc_extract.cli.main import main
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment, shell_commands
 from ros2cc_extract.extract.live.run import collect_directory, run_command
@@ -129,6 +130,20 @@ def test_running_process_is_collected_from_its_directory(
     output = tmp_path / 'live.yaml'
     child.wait_for(lambda: collect_directory(folder, output, io.StringIO()) == 0)
     assert [unit.name for unit in load_specs(output)] == ['obstacle_stop']
+
+
+def test_nodes_switched_on_by_env_are_collected_by_the_command_line(
+    ros_env: dict[str, str], tmp_path: Path, rclpy_python: str
+) -> None:
+    folder, output, trace = tmp_path / 'recordings', tmp_path / 'live.yaml', tmp_path / 'run.jsonl'
+    said = io.StringIO()
+    assert main(['env', '--trace', '-o', str(folder)], said, io.StringIO()) == 0
+    node = f'{rclpy_python} {EXAMPLES}/default_group_only/node.py --seconds 2'
+    subprocess.run(['sh', '-c', f'{said.getvalue()}{node}'], env=ros_env, check=True)
+    collect = ['collect', str(folder), '-o', str(output), '--trace', str(trace)]
+    assert main(collect, io.StringIO(), io.StringIO()) == 0
+    assert [unit.name for unit in load_specs(output)] == ['battery_watch']
+    assert '"event": "begin"' in trace.read_text()
 
 
 def test_directory_without_recordings_is_told(tmp_path: Path) -> None:

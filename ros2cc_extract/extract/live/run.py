@@ -76,7 +76,9 @@ def run_command(
     return end_alike(recorded.status) or finished
 
 
-def collect_directory(directory: Path, output: Path, stderr: TextIO) -> int:
+def collect_directory(
+    directory: Path, output: Path, stderr: TextIO, *, trace: Path | None = None
+) -> int:
     """
     Write the specification of all processes that recorded themselves into ``directory``.
 
@@ -88,10 +90,14 @@ def collect_directory(directory: Path, output: Path, stderr: TextIO) -> int:
     if not directory.is_dir():
         raise InputError('is no directory', Place(str(directory)), 'name the one given to env -o')
     check_output(output)
+    if trace is not None:
+        check_trace(trace)
     recordings = tuple(read_directory(directory, stderr))
     report_losses(recordings, stderr)
     recorded = Recorded(0, recordings)
     write_output(recorded, output, stderr)
+    if trace is not None:
+        write_traces(tuple(filter(None, map(read_trace, recordings))), trace)
     return 0 if recorded.specs else EXIT_ERROR
 
 
