@@ -386,6 +386,8 @@ def _get_nodes(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
     found = receiver.slots.get('__executor__')
+    if found is None and machine.world.deeds is not None:
+        found = receiver.slots.get('__owner__')  # a callback runs while it is spun
     known = options_of(found) if isinstance(found, Value) else ()
     if known:
         return choice(list(known))

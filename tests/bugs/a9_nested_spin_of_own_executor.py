@@ -1,0 +1,27 @@
+"""A9: never answered, since a callback spins its own executor with the client in its group."""
+
+import rclpy
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Asker(Node):
+    def __init__(self):
+        super().__init__('asker')
+        self.client = self.create_client(Trigger, 'answer')
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        future = self.client.call_async(Trigger.Request())
+        self.executor.spin_until_future_complete(future)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Asker())
+
+
+if __name__ == '__main__':
+    main()
+
+# finds: CC101:16, CC107:16 warning
