@@ -29,8 +29,9 @@ WITHOUT_COMPILER = {'CC': 'false', 'CXX': 'false'}
 
 
 @pytest.fixture
-def repository(tmp_path: Path) -> Path:
+def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A repository with one ROS 2 package, whose node is no node yet."""
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / '.cache'))
     folder = tmp_path / 'repository'
     make_repository(folder)
     make_package(folder, 'arm', HARMLESS)
