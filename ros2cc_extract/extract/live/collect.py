@@ -15,7 +15,7 @@ from ros2cc_extract.extract.live.recording import (
     Recording,
     Stay,
 )
-from ros2cc_extract.extract.names import Wanted, unique_names
+from ros2cc_extract.extract.names import Names, Wanted, unique_names
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
@@ -96,14 +96,13 @@ class _Unit:
         self._recording = recording
         self._executor = executor
         self._nodes = nodes
-        self._taken: set[str] = set()
+        self._taken = Names()
         self._node_names = _node_names(nodes)
         self._group_names: dict[int, str] = {}
 
     def build(self) -> Spec:
         names = tuple(self._node_names.values())
-        name = mend(names[0] if len(names) == 1 else self._unit_label())
-        self._taken.add(name)
+        name = self._taken.take(names[0] if len(names) == 1 else self._unit_label())
         threads = self._thread_names()
         drafts = sorted(self._drafts(), key=self._serving_order)
         labels = unique_names([self._wanted(draft) for draft, _ in drafts], self._taken)
@@ -130,11 +129,8 @@ class _Unit:
         return stem or 'unit'
 
     def _thread_names(self) -> tuple[str, ...]:
-        names = []
-        for index in range(self._executor.threads or 1):
-            names.append(mend(f'thread_{index}', self._taken))
-            self._taken.add(names[-1])
-        return tuple(names)
+        number = self._executor.threads or 1
+        return tuple(self._taken.take(f'thread_{index}') for index in range(number))
 
     def _drafts(self) -> Iterable[tuple[Callback, int]]:
         """Give callbacks without their final names, with the number of their group."""
@@ -235,8 +231,7 @@ class _Unit:
         groups = []
         for number in sorted(first_label, key=lambda n: (n == _GROUPLESS, n)):
             group = known.get(number)
-            name = mend(self._group_label(group, first_label[number]), self._taken)
-            self._taken.add(name)
+            name = self._taken.take(self._group_label(group, first_label[number]))
             self._group_names[number] = name
             groups.append(self._group(group, name))
         return groups
@@ -266,7 +261,7 @@ class _Unit:
     def _executor_value(self, threads: tuple[str, ...]) -> Executor:
         seen = self._executor
         return Executor(
-            name=mend('executor', self._taken),
+            name=self._taken.take('executor'),
             threads=threads,
             kind=seen.cls,
             threads_source=DEFAULT_COUNT if seen.default_threads else None,

@@ -6,14 +6,12 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ros2cc_extract.extract.names import Names, Wanted, unique_names
 from ros2cc_extract.extract.static.naming import (
     FunctionFacts,
-    Names,
-    Wanted,
     constant_text,
     describe,
     snake_case,
-    unique_names,
 )
 from ros2cc_extract.extract.static.values import (
     Class,
