@@ -3,7 +3,8 @@ Shared state that callbacks which may overlap change without a common lock.
 
 A plain assignment is atomic in CPython; what breaks is *read, then write*: an update
 (``self.n += 1``) or a test followed by an assignment. So those weigh more; two updates in place
-(``append``) do not disturb each other.
+(``append``) do not disturb each other, unless one of them rests on what was read before
+(``d[k] = d.get(k) + 1``). That one may mean another item, so it weighs less.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ class RaceKind(Enum):
 
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
+    CHECK_THEN_CHANGE = 'check then change'
     LAST_WRITE_WINS = 'last write wins'
 
 
@@ -122,6 +124,8 @@ def describe(race: Race) -> str:
         'at the same time: one of the changes can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
         f'write {it} in between: what was read no longer holds',
+        RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '
+        f'{others} may change {it} in between: what was read may no longer hold',
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]
@@ -139,35 +143,48 @@ def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Co
             (Use(one, a), Use(other, b))
             for a in one.writes
             for b in other.writes
-            if a.name == b.name == name
-            and not set(a.locks) & set(b.locks)
-            and not (a.in_place and b.in_place)
+            if a.name == b.name == name and not set(a.locks) & set(b.locks)
         ]
-        if pairs:
-            kind, first, second = min(
-                (_classify(*pair) for pair in pairs), key=lambda found: _WEIGHT[found[0]]
-            )
+        classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
+        if classified:
+            kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
             yield _Conflict(kind, first, second, together.run)
 
 
-def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use]:
+def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     for first, second in ((one, other), (other, one)):
         if first.access.update and not first.access.in_place:
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
-        if _is_read_before(first, second):
+        if not first.access.in_place and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
+    for first, second in ((one, other), (other, one)):
+        if first.access.in_place and _is_read_before(first, second):
+            return RaceKind.CHECK_THEN_CHANGE, first, second
+    if one.access.in_place and other.access.in_place:
+        return None
     return RaceKind.LAST_WRITE_WINS, one, other
 
 
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
-    return not first.access.in_place and any(
-        read.name == first.access.name
-        and _steps(read) < _steps(first.access)
+    write = first.access
+    changed_at = {_steps(other) for other in first.callback.writes if other.in_place}
+    return any(
+        read.name == write.name
+        and (_steps(read) < _steps(write) or (write.in_place and _is_operand(read, write)))
+        and _steps(read) not in changed_at
         and not set(read.locks) & set(second.access.locks)
         for read in first.callback.reads
     )
+
+
+def _is_operand(read: Access, write: Access) -> bool:
+    """True for what is read in the value or the arguments, on the line of the write."""
+    at, to = read.source, write.source
+    if at is None or to is None or read.chain != write.chain:
+        return False
+    return (at.file, at.line) == (to.file, to.line) and (at.column or 0) > (to.column or 0)
 
 
 def _steps(access: Access) -> tuple[Place, ...]:

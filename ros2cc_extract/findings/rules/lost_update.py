@@ -24,6 +24,7 @@ def hit_of(race: Race, message: str = '') -> Hit:
         place=race.first.place,
         message=describe(race) + message,
         help=HELP_OUTSIDE_GROUPS if race.is_outside_groups else HELP,
+        severity=Severity.NOTE if race.kind is RaceKind.CHECK_THEN_CHANGE else None,
         subjects=race.subjects,
         related=race.related(),
         run=race.run,
@@ -37,7 +38,8 @@ RULE = Rule(
     title='Attribute updated by callbacks that may overlap',
     what='A callback reads an attribute and writes it back (`self.n += 1`, or a test followed by '
     'an assignment), another callback writes it, the two may run at the same time, and no lock '
-    'is held by both.',
+    'is held by both. A change in place after a look (`if d: d.pop()`, `d[k] = d.get(k) + 1`) is '
+    'only a note: the two may mean different items.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between reading and writing. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '

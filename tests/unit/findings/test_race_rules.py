@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from finding_units import (
+    FILE,
     NOT_FOUND,
     ONE_THREAD,
     appends,
@@ -24,7 +25,7 @@ from finding_units import (
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Callback, EntityKind, Executor, Spec
 from ros2cc_extract.verify import QueryResult, Verdict, Verification
 
@@ -174,6 +175,51 @@ def test_updates_in_place_do_not_disturb_each_other() -> None:
     assert races(spec(appends('Arm.log', 35))) == []
     assert races(spec(writes('Arm.log', 35))) == ['CC302:30 note']
     assert races(spec(updates('Arm.log', 35)))[0] == 'CC301:35 warning'
+
+
+def item_set(reads: tuple[Access, ...], line: int = 30) -> Callback:
+    """``Arm.table[k] = …``, which looks the table up at the place of the write too."""
+    looked_up = writes('Arm.table', line)
+    return timer('tick', reads=(*reads, *looked_up), writes=appends('Arm.table', line))
+
+
+def test_a_change_in_place_of_what_was_read_before() -> None:
+    other = subscription('on_set', 'other', writes=appends('Arm.table', 35))
+    above = writes('Arm.table', 29)
+    in_value = (Access(name='Arm.table', source=Place(FILE, 30, 27)),)
+    below = writes('Arm.table', 31)
+    assert races(unit(threads(2), item_set(above), other)) == ['CC301:30 note']
+    assert races(unit(threads(2), other, item_set(above))) == ['CC301:30 note']
+    assert races(unit(threads(2), item_set(in_value), other)) == ['CC301:30 note']
+    assert races(unit(threads(2), item_set(below), other)) == []
+    assert races(unit(threads(2), item_set(()), other)) == []
+    assert races(unit(ONE_THREAD, item_set(above), other)) == []
+    reset = subscription('on_reset', 'other', writes=writes('Arm.table', 35))
+    assert races(unit(threads(2), item_set(above), reset)) == ['CC301:30 note']
+    assert only(unit(threads(2), item_set(above), other), 'CC301').message == (
+        'tick reads Arm.table and then changes it in place, and on_set may change it in between: '
+        'what was read may no longer hold'
+    )
+
+
+def test_setting_two_items_is_no_reading() -> None:
+    two = timer(
+        'tick',
+        reads=(*writes('Arm.table', 30), *writes('Arm.table', 31)),
+        writes=(*appends('Arm.table', 30), *appends('Arm.table', 31)),
+    )
+    other = subscription('on_set', 'other', writes=appends('Arm.table', 35))
+    assert races(unit(threads(2), two, other)) == []
+
+
+def test_a_lock_around_reading_and_changing_protects() -> None:
+    def locked(line: int, in_place: bool) -> tuple[Access, ...]:
+        place = at(line)
+        return (Access(name='Arm.table', source=place, locks=('lock',), in_place=in_place),)
+
+    tick = timer('tick', reads=locked(29, False), writes=locked(30, True))
+    other = subscription('on_set', 'other', writes=locked(35, True))
+    assert races(unit(threads(2), tick, other)) == []
 
 
 def test_one_finding_for_one_attribute() -> None:
