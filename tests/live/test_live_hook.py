@@ -119,7 +119,7 @@ def test_nodes_are_told_by_the_executor_they_stayed_in(run: RunProgram) -> None:
         'moving_nodes': ('MultiThreadedExecutor', ('arm', 'camera')),
         'base': ('SingleThreadedExecutor', ('base',)),
     }
-    late = named(units['moving_nodes'], 'finish')
+    late = named(units['moving_nodes'], 'count')
     assert (late.when, late.conditional) == (When.CALLBACK, True)
 
 

@@ -1,7 +1,5 @@
 """Two executors: a late entity, a late node, a node that another executor takes over."""
 
-import threading
-
 import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
@@ -11,16 +9,16 @@ pool, single = MultiThreadedExecutor(3), SingleThreadedExecutor()
 arm = rclpy.create_node('arm')
 base = rclpy.create_node('base')
 camera = rclpy.create_node('camera')
-done = threading.Event()
+runs: list[int] = []
 
 
 def make_late_timer() -> None:
     starter.cancel()
-    arm.create_timer(0.01, finish, callback_group=ReentrantCallbackGroup())
+    arm.create_timer(0.01, count, callback_group=ReentrantCallbackGroup())
 
 
-def finish() -> None:
-    done.set()
+def count() -> None:
+    runs.append(1)
 
 
 starter = arm.create_timer(0.01, make_late_timer)
@@ -28,7 +26,7 @@ base.create_timer(0.01, base.get_logger)
 camera.create_timer(0.01, camera.get_logger)
 pool.add_node(arm)
 pool.add_node(camera)
-while not done.is_set():
+while len(runs) < 30:
     pool.spin_once(timeout_sec=1)
 single.add_node(base)
 single.spin_once(timeout_sec=1)
