@@ -30,7 +30,7 @@ while len(runs) < 30:
     pool.spin_once(timeout_sec=1)
 single.add_node(base)
 single.spin_once(timeout_sec=1)
-rclpy.spin_once(camera, timeout_sec=1)
+rclpy.spin_once(camera, timeout_sec=0.02)
 print('camera is in its executor:', camera in pool.get_nodes())
 print('arm is in its executor:', arm in pool.get_nodes())
 base.destroy_node()
