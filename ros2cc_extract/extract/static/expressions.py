@@ -89,7 +89,8 @@ class Expressions(Machine):
             known = value.items if isinstance(value, Sequence) else tuple(value.entries)
             if any(item is not ABSENT and not _may_be_absent(item) for item in known):
                 return True
-            return None if value.rest or known else False
+            is_open = bool(value.rest or known) or self._may_be_filled(value)
+            return None if is_open else False
         if isinstance(value, Choice):
             truths = {self.truth(option) for option in options_of(value)}
             return truths.pop() if len(truths) == 1 else None
@@ -117,6 +118,11 @@ class Expressions(Machine):
                 text = node if isinstance(node, ast.BinOp) else side.text
                 return Mystery(side.unknown, text)
         return self.mystery('an expression that could not be folded', frame.place(node))
+
+    def _may_be_filled(self, value: Sequence | Mapping) -> bool:
+        """A callback finds in it what others, followed later, have put there."""
+        is_mutable = isinstance(value, Mapping) or value.kind != 'tuple'
+        return is_mutable and self.world.deeds is not None
 
     def _has_truth_method(self, value: Instance) -> bool:
         return isinstance(value.cls, Class) and any(
