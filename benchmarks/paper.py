@@ -125,13 +125,13 @@ def introduction() -> str:
 
 `make paper` writes this page. The three cases are the nodes in `launch_free_examples/`, scanned
 from source; models, verdicts, runs, times and logs below are what our tools gave on
-{platform.processor() or platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}.
+{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}.
 Published figures: Shin et al., IJSEKE 2026, DOI 10.1142/S0218194026500439.
 """
 
 
 def query_section(cases: Sequence[Case]) -> str:
-    """The 29 queries of the paper: its table has "always open" per callback, its tool per group."""
+    """The 29 queries of the paper, whose table has "always open" per callback, not per group."""
     lines = [
         '## Queries and verdicts',
         '',
@@ -295,8 +295,8 @@ def cost_section(cells: dict[Cell, Verification], seconds: float) -> str:
     lines = [
         '## Cost by callbacks and threads',
         '',
-        'Seconds: here, all query families on the compact text / published, Q1 alone. All 50 cells',
-        f'together took {seconds:.2f} s here, rendering and parsing included.',
+        'Seconds: here, all query families on the compact text / published, Q1 alone. All 50',
+        f'cells together took {seconds:.2f} s here, rendering and parsing included.',
         '',
     ]
     for kind in (GroupType.EXCLUSIVE, GroupType.REENTRANT):
