@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import IO
 
 WATCHDOG_S = 60.0
-RCLPY_SHUTDOWN_RACES = ('the given context is not valid', 'rcl_shutdown already called')
 LOOK_EVERY_S = 0.02
 
 
@@ -65,19 +64,11 @@ class Child:
             threading.Event().wait(LOOK_EVERY_S)
 
     def end(self, signal_number: signal.Signals | None = None) -> int:
-        """
-        Send a signal if one is given, read the rest of the output, give the exit status.
-
-        rclpy 7.1.6 handles a signal in C and shuts its context down there; an executor that makes
-        its next wait set before Python raises KeyboardInterrupt fails. That race is not ours: a
-        program that it ended has ended well.
-        """
+        """Send a signal if one is given, read the rest of the output, give the exit status."""
         if signal_number is not None:
             self.process.send_signal(signal_number)
         self.lines.extend(self._stdout)
-        status = self.process.wait()
-        raced = any(race in self.text for race in RCLPY_SHUTDOWN_RACES)
-        return 0 if status == 1 and signal_number is not None and raced else status
+        return self.process.wait()
 
     @property
     def text(self) -> str:
