@@ -13,6 +13,12 @@ WATCHDOG_S = 60.0
 LOOK_EVERY_S = 0.02
 
 
+def _hear_signals() -> None:
+    """A job in the background ignores these, and so would every child."""
+    for name in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+        signal.signal(name, signal.SIG_DFL)
+
+
 class Child:
     """A process whose output, stdout and stderr together, is read line by line."""
 
@@ -28,6 +34,7 @@ class Child:
             stdin=subprocess.DEVNULL,
             pass_fds=pass_fds,
             start_new_session=True,
+            preexec_fn=_hear_signals,
             text=True,
         )
         self._watchdog = threading.Timer(WATCHDOG_S, self._kill)
