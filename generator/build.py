@@ -8,7 +8,7 @@ executor's semantics. Knows nothing of how a model is explored.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -22,17 +22,43 @@ from ros2cc_extract.generator.queries import (
     rclpy_queries,
     write_query_file,
 )
+from ros2cc_extract.generator.serving import GUARD_RANK, TASK_RANK, ExecutorKind, task_order
 from ros2cc_extract.generator.sources import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 
-__all__ = ['Family', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
+__all__ = ['Family', 'Freedom', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
 
 #: What compact texts let move; docs/model.md shows that more would change no verdict.
 CALLBACKS_IN_PLAY = 2
 THREADS_IN_PLAY = 2
+#: A guard condition that is queued, and triggered, is queued once more, and so is what two
+#: threads find at a time that spin one pool (rclpy 7.1.6, 9.1.2).
+QUEUED_TWICE = 2
 #: Unlimited arrivals: the member of a group served first starves by two others, not by one.
 CALLBACKS_IN_PLAY_FOR_EVER = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Freedom:
+    """
+    How much of what rclpy does a model of profile rclpy shows; the least is enough for verdicts.
+
+    :param queued: how many runs of one guard condition or task may be queued at a time.
+    :param suspended: how many runs of one callback may be suspended at a time.
+    :param nested: how many callbacks may spin on one thread at a time, one inside the other;
+        ``None`` for all that there can be.
+    :param observed: for comparison with executions. Answers of a service to somebody else wake
+        its other clients too (Fast DDS); an awaited callback has to end once more, not once; a
+        guard condition that was triggered in a closed group is looked at whenever the executor
+        is woken; two workers may change places between the queue and the group; groups open
+        and close while the executor looks at its entities, one after the other.
+    """
+
+    queued: int = 1
+    suspended: int = 1
+    nested: int | None = None
+    observed: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,32 +86,52 @@ def render(
     profile: Profile = Profile.PAPER,
     text: Text = Text.PLAIN,
     max_cycle: int | None = 1,
+    freedom: Freedom | None = None,
 ) -> RenderedModel:
     """
     Write the model of ``closed``.
 
     :param max_cycle: how often each callback may become ready, at least 1; ``None`` for no bound.
+    :param freedom: of profile rclpy; what verdicts need where it is left out.
     :raises ValueError: when ``max_cycle`` is below 1.
     """
     if max_cycle is not None and max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
-    unit = number_unit(closed, max_cycle)
-    published = paper_queries(unit)
+    numbered = number_unit(closed, max_cycle)
+    published = paper_queries(numbered)
+    unit = _with_threads_that_run(numbered) if profile is Profile.RCLPY else numbered
     queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
     return RenderedModel(
         name=unit.name,
-        xml=_write_xml(unit, queries, profile, text),
+        xml=_write_xml(
+            unit, queries, profile, text, _features(unit, freedom or Freedom(), closed.spec.rclpy)
+        ),
         queries=queries,
         q=write_query_file(queries),
-        published=_write_published_files(unit, published),
+        published=_write_published_files(numbered, published),
     )
 
 
-def _write_xml(unit: Unit, queries: tuple[Query, ...], profile: Profile, text: Text) -> str:
+def _with_threads_that_run(unit: Unit) -> Unit:
+    """Only a pool has as many threads as one asks for."""
+    has_pool = unit.kind is ExecutorKind.MULTI_THREADED
+    return unit if has_pool else replace(unit, threads=unit.threads[:1])
+
+
+def _write_xml(
+    unit: Unit,
+    queries: tuple[Query, ...],
+    profile: Profile,
+    text: Text,
+    features: Mapping[str, object],
+) -> str:
     sources = choose_sources(profile, text, unit)
     in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
+    if unit.has_spins or unit.has_foreign or unit.has_absent:
+        in_play = len(unit.callbacks)  # whom a nested spin serves may matter, be they many
     values = {
         'unit': unit,
+        **features,
         'callbacks_in_play': in_play if text is Text.COMPACT else None,
         'threads_in_play': THREADS_IN_PLAY,
     }
@@ -97,6 +143,48 @@ def _write_xml(unit: Unit, queries: tuple[Query, ...], profile: Profile, text: T
         declarations=_fill(sources.declarations, **values),
         system=_fill(sources.system, **values),
     )
+
+
+def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, object]:
+    """What of the executor's text a unit needs; the rest would only make more states."""
+    ranks = [callback.rank for callback in unit.callbacks]
+    tasks = ranks.count(TASK_RANK)
+    has_executor_laps = unit.kind is not ExecutorKind.EVENTS
+    has_pool = unit.kind is ExecutorKind.MULTI_THREADED
+    has_guards = GUARD_RANK in ranks
+    pool_spins = has_pool and unit.has_own_spins
+    signals = freedom.observed and unit.has_awaits
+    has_servers = any(callback.server is not None for callback in unit.callbacks)
+    return {
+        'has_tasks': unit.has_awaits or tasks > 0,
+        'tasks': tasks,
+        'task_awaits': unit.kind is ExecutorKind.SINGLE_THREADED
+        and any(
+            wait.frees_thread
+            for callback in unit.callbacks
+            if callback.rank == TASK_RANK
+            for wait in callback.waits
+        ),
+        'task_order': task_order(rclpy) if tasks > 1 and has_executor_laps else None,
+        'has_guards': has_guards,
+        'answers_early': has_pool and bool(unit.num_waits) and (has_servers or signals),
+        'observed': freedom.observed,
+        'has_pool': has_pool,
+        'asks_groups': has_executor_laps,
+        # On a pool whoever spins the pool only hands over, and the workers run what is there.
+        'nests_on_threads': unit.has_global_spins or (unit.has_own_spins and not has_pool),
+        'nested_runs': min(unit.nested_runs, freedom.nested or unit.nested_runs),
+        'drops_harvest': unit.has_own_spins and not has_pool,
+        'pool_spins': pool_spins,
+        'gathers': freedom.observed and has_pool,
+        'foreign_answers': freedom.observed and bool(unit.called),
+        'signals': signals,
+        'queued_again': len(ranks) if pool_spins else ranks.count(GUARD_RANK) + tasks,
+        'queued_runs': max(freedom.queued, QUEUED_TWICE)
+        if has_guards or pool_spins
+        else freedom.queued,
+        'suspended_runs': freedom.suspended,
+    }
 
 
 def _write_published_files(unit: Unit, queries: tuple[Query, ...]) -> Mapping[str, str]:

@@ -9,10 +9,11 @@ callback, its generator per group, as here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
+from ros2cc_extract.generator.spins import Spun
 from ros2cc_extract.generator.unit import Unit, UnitCallback, UnitGroup
 
 
@@ -28,6 +29,12 @@ class Family(Enum):
     STARVATION = 'starvation'
     SELF_OVERLAP = 'self_overlap'
     PROGRESS = 'progress'
+    POOL_EXHAUSTION = 'pool_exhaustion'
+    OUTSIDE_GROUPS = 'outside_groups'
+    SERIAL = 'serial'
+    STRUCTURAL_STARVATION = 'structural_starvation'
+    ANSWERED_SPIN = 'answered_spin'
+    NODE_KEPT = 'node_kept'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +45,7 @@ class Query:
     :param words: what is claimed, in the developer's words.
     :param callbacks: names of the callbacks it is about, in the unit's order.
     :param groups: names of the groups it is about.
+    :param left_out: what the node does that is not in the model and could refute the claim.
     """
 
     family: Family
@@ -45,6 +53,7 @@ class Query:
     words: str
     callbacks: tuple[str, ...] = ()
     groups: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
 
 def paper_queries(unit: Unit) -> tuple[Query, ...]:
@@ -66,7 +75,7 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
 
     A spinning executor that has nothing to do is no dead-lock, so the first asks what is left.
     """
-    return (
+    asked = (
         Query(
             family=Family.DEADLOCK,
             formula='A[] (deadlock imply cb_all_served())',
@@ -75,8 +84,40 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),
         *(_self_overlap(callback) for callback in unit.callbacks),
-        *(_progress(callback, unit) for callback in unit.callbacks if callback.needs),
+        *(_progress(callback, unit) for callback in unit.callbacks if waits(callback)),
+        *_pool_exhaustion(unit),
+        *_outside_groups(unit),
+        _serial(unit),
+        *(_answered_spin(callback, unit) for callback in unit.callbacks if _spun_for(callback)),
+        *(_node_kept(callback) for callback in unit.callbacks if _moved_nodes(callback)),
     )
+    return tuple(replace(query, left_out=_left_out(query, unit)) for query in asked)
+
+
+def waits(callback: UnitCallback) -> bool:
+    """Tell whether it may not come to its end, as far as the callback itself says."""
+    return bool(callback.needs or callback.left_out)
+
+
+#: Families whose claims rest on every callback coming to its end.
+_OF_ENDS = (Family.DEADLOCK, Family.STARVATION, Family.PROGRESS, Family.POOL_EXHAUSTION)
+#: Families about a callback in the midst of which others may run, in a nested spin.
+_OF_OVERLAP = (
+    Family.NEVER_TOGETHER,
+    Family.CAN_OVERLAP,
+    Family.SELF_OVERLAP,
+    Family.OUTSIDE_GROUPS,
+)
+
+
+def _left_out(query: Query, unit: Unit) -> tuple[str, ...]:
+    if query.family in _OF_ENDS:
+        return tuple(words for callback in unit.callbacks for words in callback.left_out)
+    if query.family in (*_OF_OVERLAP, Family.SERIAL):
+        concerned = query.callbacks or [callback.name for callback in unit.callbacks]
+        entered = (c for c in unit.callbacks if c.is_entered and c.name in concerned)
+        return tuple(words for callback in entered for words in callback.left_out)
+    return ()
 
 
 def write_query_file(queries: tuple[Query, ...]) -> str:
@@ -177,10 +218,107 @@ def _self_overlap(callback: UnitCallback) -> Query:
 
 def _progress(callback: UnitCallback, unit: Unit) -> Query:
     """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
-    needs = ' and '.join(dict.fromkeys(unit.callbacks[place].name for place in callback.needs))
+    ending = (wait.place for wait in callback.waits if wait.is_for_callback)
+    needs = ' and '.join(dict.fromkeys(unit.callbacks[place].name for place in ending))
+    words = f': {needs} can run while it waits' if needs else ''
     return Query(
         family=Family.PROGRESS,
         formula=f'A[] not (deadlock and cb_unfinished({callback.index}))',
-        words=f'{callback.name} always ends: {needs} can run while it waits',
+        words=f'{callback.name} always ends{words}',
         callbacks=(callback.name,),
+    )
+
+
+def _pool_exhaustion(unit: Unit) -> Iterator[Query]:
+    """Every thread waits, and whoever could end a wait would need one."""
+    waiting = [c for c in unit.callbacks if any(not wait.frees_thread for wait in c.waits)]
+    if not waiting:
+        return
+    held = '({0}.blocked or {0}.spinning)' if unit.has_spins else '{}.blocked'
+    blocked = ' and '.join(held.format(thread) for thread in unit.threads)
+    yield Query(
+        family=Family.POOL_EXHAUSTION,
+        formula=f'A[] not (deadlock and {blocked})',
+        words='the threads are never all taken by callbacks that wait for ever',
+        callbacks=tuple(callback.name for callback in waiting),
+    )
+
+
+def _outside_groups(unit: Unit) -> Iterator[Query]:
+    """Work in no group: done-callbacks, tasks, execute callbacks of actions."""
+    for callback in unit.callbacks:
+        for group in unit.groups:
+            if callback.is_groupless and group.type == 'EXCLUSIVE':
+                yield Query(
+                    family=Family.OUTSIDE_GROUPS,
+                    formula=f'A[] not (cb_running({callback.index}) and '
+                    f'group_closed[{group.index}])',
+                    words=f'{callback.name}, which is in no group, never runs while a member of '
+                    f'{group.name} does',
+                    callbacks=(callback.name,),
+                    groups=(group.name,),
+                )
+
+
+def _serial(unit: Unit) -> Query:
+    one_thread = (
+        'A[] forall (a : ThreadId) forall (b : ThreadId) '
+        '(thread_running[a] and thread_running[b] imply a == b)'
+    )
+    # A nested spin runs others on its own thread.
+    one_callback = 'A[] (sum (c : CbId) cb_runs(c)) <= 1'
+    return Query(
+        family=Family.SERIAL,
+        formula=one_callback if unit.has_spins else one_thread,
+        words='no two callbacks ever run at the same time: groups and threads have no effect',
+    )
+
+
+def _spun_for(callback: UnitCallback) -> tuple[int, ...]:
+    """Places of the callbacks for which a callback spins."""
+    return tuple(wait.place for wait in callback.waits if wait.spin and wait.is_for_callback)
+
+
+def _answered_spin(callback: UnitCallback, unit: Unit) -> Query:
+    """With a time-out a nested spin ends in any case, and the question is with what."""
+    needs = ' and '.join(dict.fromkeys(unit.callbacks[p].name for p in _spun_for(callback)))
+    c = callback.index
+    answered = ' or '.join(
+        f'({thread}.answered and thread_cb_assign_table[{number}] == {c})'
+        for number, thread in enumerate(unit.threads)
+    )
+    return Query(
+        family=Family.ANSWERED_SPIN,
+        formula=f'E<> ({answered})',
+        words=f'{callback.name} can get what it spins for: {needs} can run inside',
+        callbacks=(callback.name,),
+    )
+
+
+def _moved_nodes(callback: UnitCallback) -> tuple[int, ...]:
+    """Places of the nodes that a callback gives to the global executor."""
+    moved = (w.node for w in callback.waits if w.spin and w.spin.spun is Spun.GLOBAL)
+    return tuple(dict.fromkeys(moved))
+
+
+def _node_kept(callback: UnitCallback) -> Query:
+    taken = ' or '.join(f'node_taken[{node}]' for node in _moved_nodes(callback))
+    return Query(
+        family=Family.NODE_KEPT,
+        formula=f'A[] not (cb_running({callback.index}) and ({taken}))',
+        words=f'{callback.name} runs without its node being taken out of the executor',
+        callbacks=(callback.name,),
+    )
+
+
+def structural_starvation(callback: UnitCallback) -> Query:
+    """
+    Ask of a unit without a bound on arrivals, whose callbacks all end, with fair threads.
+
+    Not satisfied means *possible under overload*: whether it happens, the rates decide.
+    """
+    return replace(
+        _starvation_of_data(callback),
+        family=Family.STRUCTURAL_STARVATION,
+        words=f'{callback.name} is served however much arrives for others',
     )

@@ -24,21 +24,41 @@ def executor_kind(spec: Spec) -> ExecutorKind:
     return ExecutorKind.SINGLE_THREADED if is_single else ExecutorKind.MULTI_THREADED
 
 
+class TaskOrder(Enum):
+    """Which of the tasks that wait is served first."""
+
+    NEWEST_FIRST = 'newest'
+    OLDEST_FIRST = 'oldest'
+
+
+def task_order(rclpy: str | None) -> TaskOrder | None:
+    """
+    Tell in which order a version of rclpy serves tasks; ``None`` where the version is not known.
+
+    Source: ``executors.py``, ``_wait_for_ready_callbacks``: reversed up to 7 (Humble, Iron,
+    Jazzy), in order from 8 (Rolling of December 2024, Kilted).
+    """
+    major = (rclpy or '').partition('.')[0]
+    if not major.isdecimal():
+        return None
+    return TaskOrder.NEWEST_FIRST if int(major) < 8 else TaskOrder.OLDEST_FIRST
+
+
 # Source: rclpy 7.1.6, executors.py, _wait_for_ready_callbacks: tasks, then the waitables of all
 # nodes, then node by node timers, subscriptions, guard conditions, clients, services.
-_TASK, _WAITABLE, _TIMER, _SUBSCRIPTION, _GUARD, _CLIENT, _SERVICE = range(7)
+TASK_RANK, _WAITABLE, _TIMER, _SUBSCRIPTION, GUARD_RANK, _CLIENT, _SERVICE = range(7)
 
 _RANK = {
-    EntityKind.ACTION_EXECUTE: _TASK,
-    EntityKind.DONE_CALLBACK: _TASK,
-    EntityKind.TASK: _TASK,
+    EntityKind.ACTION_EXECUTE: TASK_RANK,
+    EntityKind.DONE_CALLBACK: TASK_RANK,
+    EntityKind.TASK: TASK_RANK,
     EntityKind.ACTION_SERVER: _WAITABLE,
     EntityKind.ACTION_CLIENT: _WAITABLE,
     EntityKind.WAITABLE: _WAITABLE,
     EntityKind.QOS_EVENT: _WAITABLE,
     EntityKind.TIMER: _TIMER,
     EntityKind.SUBSCRIPTION: _SUBSCRIPTION,
-    EntityKind.GUARD_CONDITION: _GUARD,
+    EntityKind.GUARD_CONDITION: GUARD_RANK,
     EntityKind.CLIENT: _CLIENT,
     EntityKind.SERVICE: _SERVICE,
     EntityKind.PARAMETER_SERVICE: _SERVICE,

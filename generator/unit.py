@@ -2,20 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from ros2cc_extract.generator.left_out import is_entered_unseen, left_out_of_models
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
-from ros2cc_extract.generator.waits import server_of, waits_of
+from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
+from ros2cc_extract.generator.waits import NamedWait, WaitKind, waits_of
+from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.partners import server_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class UnitWait:
-    """A wait for the callback at ``place``; an ``await`` frees the thread."""
+    """
+    A wait of the model.
+
+    :param place: of the callback that it is for; of its own where it is for none.
+    :param frees_thread: an ``await``.
+    :param is_for_callback: the callback at ``place`` ends it.
+    :param node: place of the node that a nested spin gives to the global executor.
+    """
 
     place: int
+    kind: WaitKind
     frees_thread: bool
+    is_for_callback: bool
+    spin: NestedSpin | None = None
+    node: int = 0
+
+    @property
+    def is_absent(self) -> bool:
+        """For a service that nobody may ever offer."""
+        return self.kind is WaitKind.ABSENT
+
+    @property
+    def is_foreign(self) -> bool:
+        """For a future that a thread of the user's own makes done."""
+        return self.kind is WaitKind.FOREIGN
+
+    @property
+    def spun(self) -> int:
+        """Number of the executor that is spun, 0 for none."""
+        return self.spin.spun.value if self.spin else 0
+
+    @property
+    def end(self) -> int:
+        """Number of what ends a nested spin."""
+        return self.spin.end.value if self.spin else 0
+
+    @property
+    def is_timed(self) -> bool:
+        """A nested spin that also ends by itself."""
+        return self.spin is not None and self.spin.is_timed
+
+    @property
+    def refusal(self) -> int:
+        """Whether the executor refuses to be spun, by number."""
+        return self.spin.refusal.value if self.spin else 0
+
+
+@dataclass(frozen=True, order=True)
+class SpinForm:
+    """
+    How nested spins are told.
+
+    :param spun: number of the executor.
+    """
+
+    spun: int
+    is_for_callback: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +87,9 @@ class UnitCallback:
     :param rank: when it is served among what is ready, 0 first.
     :param waits: what it waits for while it runs, in order.
     :param server: place of the service that answers a client of the unit.
+    :param is_groupless: it is in no group; the model has a reentrant one for it.
+    :param left_out: what may hold it for ever and is not in the model, in words.
+    :param is_entered: others may run inside it where the model does not show it.
     """
 
     index: int
@@ -39,6 +100,9 @@ class UnitCallback:
     rank: int
     waits: tuple[UnitWait, ...]
     server: int | None
+    is_groupless: bool = False
+    left_out: tuple[str, ...] = ()
+    is_entered: bool = False
 
     @property
     def needs(self) -> tuple[int, ...]:
@@ -80,12 +144,67 @@ class Unit:
     @property
     def has_awaits(self) -> bool:
         """True when a callback suspends itself."""
-        return any(wait.frees_thread for callback in self.callbacks for wait in callback.waits)
+        return any(wait.frees_thread for wait in self.waits)
+
+    @property
+    def waits(self) -> tuple[UnitWait, ...]:
+        """All waits of all callbacks."""
+        return tuple(wait for callback in self.callbacks for wait in callback.waits)
+
+    @property
+    def has_foreign(self) -> bool:
+        """True when a coroutine waits for a thread of the user's own."""
+        return any(wait.is_foreign for wait in self.waits)
+
+    @property
+    def has_absent(self) -> bool:
+        """True when a callback waits for a service that may not be there."""
+        return any(wait.is_absent for wait in self.waits)
+
+    @property
+    def has_spins(self) -> bool:
+        """True when a callback spins an executor."""
+        return any(wait.spin for wait in self.waits)
+
+    @property
+    def has_own_spins(self) -> bool:
+        """True when a callback spins the executor that runs it."""
+        return any(wait.spin and wait.spin.spun is Spun.OWN for wait in self.waits)
+
+    @property
+    def has_global_spins(self) -> bool:
+        """True when a callback gives a node to the global executor."""
+        return any(wait.spin and wait.spin.spun is Spun.GLOBAL for wait in self.waits)
+
+    @property
+    def has_refusals(self) -> bool:
+        """True when an executor may refuse to be spun."""
+        return any(wait.spin and wait.spin.refusal is not Refusal.NEVER for wait in self.waits)
+
+    @property
+    def spin_forms(self) -> tuple[SpinForm, ...]:
+        """The kinds of nested spins that there are."""
+        found = {SpinForm(wait.spun, wait.is_for_callback) for wait in self.waits if wait.spin}
+        return tuple(sorted(found))
+
+    @property
+    def nested_runs(self) -> int:
+        """
+        How many callbacks can spin at a time on one thread, one inside the other.
+
+        A member of an exclusive group can only once; more than so many is not modelled.
+        """
+        most = 0
+        for callback in self.callbacks:
+            if any(wait.spin for wait in callback.waits):
+                is_exclusive = self.group_of(callback).type == 'EXCLUSIVE'
+                most += 1 if is_exclusive else self.max_cycle or 1
+        return most
 
     @property
     def called(self) -> frozenset[int]:
         """Places of the clients whose answers a callback waits for: nothing else arrives there."""
-        needed = {place for callback in self.callbacks for place in callback.needs}
+        needed = {wait.place for wait in self.waits if wait.is_for_callback}
         return frozenset(place for place in needed if self.callbacks[place].type == 'CLT')
 
     @property
@@ -146,10 +265,12 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 node=nodes[callback.node],
                 rank=rank_of(callback),
                 waits=tuple(
-                    UnitWait(places[wait.needed], wait.frees_thread)
-                    for wait in waits_of(callback, spec)
+                    _number_wait(wait, places, nodes) for wait in waits_of(callback, spec)
                 ),
-                server=places.get(server_of(callback, spec) or ''),
+                server=_place_of(server_of(callback, spec.callbacks), places),
+                is_groupless=callback.groupless,
+                left_out=left_out_of_models(callback, spec),
+                is_entered=is_entered_unseen(callback, spec),
             )
             for index, callback in enumerate(spec.callbacks)
         ),
@@ -161,3 +282,21 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         executor=spec.executor.name,
         max_cycle=max_cycle,
     )
+
+
+def _number_wait(
+    wait: NamedWait, places: Mapping[str, int], nodes: Mapping[str | Unknown | None, int]
+) -> UnitWait:
+    spun_node = wait.spin.node if wait.spin else None
+    return UnitWait(
+        place=places[wait.needed],
+        kind=wait.kind,
+        frees_thread=wait.frees_thread,
+        is_for_callback=wait.is_for_callback,
+        spin=wait.spin,
+        node=nodes.get(spun_node, 0),
+    )
+
+
+def _place_of(callback: Callback | None, places: Mapping[str, int]) -> int | None:
+    return None if callback is None else places[callback.name]

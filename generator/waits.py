@@ -10,13 +10,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
 
-from ros2cc_extract.spec.model import Blocking, Callback, EntityKind, Spec
+from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
+from ros2cc_extract.generator.spins import (
+    NestedSpin,
+    SpinEnd,
+    is_open,
+    is_part_of_spin,
+    nested_spins,
+)
+from ros2cc_extract.spec.model import Blocking, Callback, Spec
+from ros2cc_extract.spec.partners import client_before, is_client, server_of
+from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
 
-_SERVER = {
-    EntityKind.CLIENT: EntityKind.SERVICE,
-    EntityKind.ACTION_CLIENT: EntityKind.ACTION_SERVER,
-}
+_ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
+# They end by themselves, even where it is not known when.
+_PAUSES = ('time.sleep', 'asyncio.sleep')
+
+
+class WaitKind(Enum):
+    """What a callback keeps while it waits, and who ends the wait."""
+
+    HELD = 'the thread is held until another callback has run'
+    AWAITED = 'the thread is freed, the group is held'
+    FOREIGN = 'as awaited, for what a thread of the user makes done, which wakes no executor'
+    ABSENT = 'the thread is held until somebody outside offers a service'
+    SPUN = 'the thread spins an executor'
 
 
 @dataclass(frozen=True)
@@ -24,34 +44,102 @@ class NamedWait:
     """
     One wait of a callback.
 
-    :param needed: name of the callback of the unit that must run before it ends.
-    :param frees_thread: an ``await``, which holds the group alone.
+    :param needed: name of the callback of the unit that must run before it ends; its own where
+        none must.
     """
 
     needed: str
-    frees_thread: bool
+    kind: WaitKind
+    spin: NestedSpin | None = None
+
+    @property
+    def frees_thread(self) -> bool:
+        """An ``await``, which holds the group alone."""
+        return self.kind in (WaitKind.AWAITED, WaitKind.FOREIGN)
+
+    @property
+    def is_for_callback(self) -> bool:
+        """True when another callback of the unit ends it."""
+        if self.spin is not None:
+            return self.spin.end is SpinEnd.ANSWER
+        return self.kind in (WaitKind.HELD, WaitKind.AWAITED)
 
 
 def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
-    """List the waits that other callbacks end; one with a time-out ends by itself."""
-    others = {other.name for other in spec.callbacks} - {callback.name}
+    """
+    List the waits that others end; one with a time-out ends by itself, unless it spins.
+
+    Whoever waits for a service that nobody offers does so last: what else may hold the callback
+    is then seen without it.
+    """
+    spins = tuple(nested_spins(callback, spec))
     for block in callback.blocking:
-        needed = block.on if isinstance(block.on, str) else None
-        if needed in others and block.seconds is None and not _goes_on_alone(block):
-            yield NamedWait(needed, block.call == 'await')
+        if not is_part_of_spin(block, callback):
+            yield from _waits_for_callbacks(block, callback, spec)
+        for spun, spin in spins:
+            if spun is block and spin is not None:
+                yield NamedWait(spin.needed or callback.name, WaitKind.SPUN, spin)
+    for block in callback.blocking:
+        if is_absent(block, spec) and isinstance(block.on, str):
+            yield NamedWait(block.on, WaitKind.ABSENT)
 
 
-def _goes_on_alone(block: Blocking) -> bool:
-    """A nested spin lets its thread serve others; waiting for a service only asks the graph."""
-    return block.call.rpartition('.')[2].startswith(
-        ('spin', 'wait_for_service', 'wait_for_server')
-    )
+def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+    others = {other.name: other for other in spec.callbacks if other.name != callback.name}
+    needed = others.get(block.on) if isinstance(block.on, str) else None
+    if is_foreign(block, spec):
+        yield NamedWait(callback.name, WaitKind.FOREIGN)
+    if needed is None or block.seconds is not None or asks_the_graph(block):
+        return
+    kind = WaitKind.AWAITED if block.call == 'await' else WaitKind.HELD
+    client = client_before(needed, spec.callbacks)
+    if client is not None and client.name in others:
+        yield NamedWait(client.name, kind)
+    yield NamedWait(needed.name, kind)
 
 
-def server_of(client: Callback, spec: Spec) -> str | None:
-    """Name the one service of the unit that a client calls; remapping is not visible here."""
-    kind = _SERVER.get(client.entity) if client.entity else None
-    if kind is None or not isinstance(client.key, str):
-        return None
-    found = [c.name for c in spec.callbacks if c.entity is kind and c.key == client.key]
-    return found[0] if len(found) == 1 else None
+def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
+    """What may hold a callback for ever, or let others run inside it, and is in no model."""
+    yield from (block for block, spin in nested_spins(callback, spec) if is_open(spin))
+    others = {other.name: other for other in spec.callbacks if other.name != callback.name}
+    for block in callback.blocking:
+        partner = others.get(block.on) if isinstance(block.on, str) else None
+        if is_part_of_spin(block, callback) or block.call in _PAUSES or block.seconds is not None:
+            continue
+        if is_foreign(block, spec) or is_absent(block, spec):
+            continue
+        is_there = partner is not None and server_of(partner, spec.callbacks) is not None
+        if not is_there if asks_the_graph(block) else partner is None:
+            yield block
+
+
+def is_foreign(block: Blocking, spec: Spec) -> bool:
+    """
+    Tell whether only a thread of the user's own makes done what is awaited.
+
+    Up to 7.1.8 and in 9.1.2 that wakes no executor: a lap asks every coroutine whether it can go
+    on, and nothing but a lap (``task.py``, ``Future.__await__``).
+    """
+    is_ours = executor_kind(spec) is not ExecutorKind.EVENTS
+    wakes = has_change(spec.rclpy, FUTURE_YIELDS_ITSELF) is True
+    is_await = block.call == 'await' and block.seconds is None
+    return is_await and block.foreign and is_ours and not wakes
+
+
+def is_absent(block: Blocking, spec: Spec) -> bool:
+    """
+    Tell whether a wait without a time-out is for a service that nobody in the unit offers.
+
+    Where a callback waits for an answer of that client, somebody outside answers, and is there.
+    """
+    client = next((c for c in spec.callbacks if c.name == block.on), None)
+    if client is None or not asks_the_graph(block) or block.seconds is not None:
+        return False
+    asks = (b for c in spec.callbacks for b in c.blocking if b.on == block.on)
+    is_asked = any(not asks_the_graph(b) for b in asks)
+    return is_client(client) and not is_asked and server_of(client, spec.callbacks) is None
+
+
+def asks_the_graph(block: Blocking) -> bool:
+    """Waiting for a service to be there needs no callback to run."""
+    return block.call.rpartition('.')[2].startswith(_ASKS_THE_GRAPH)

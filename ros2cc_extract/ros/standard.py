@@ -11,7 +11,7 @@ from ros2cc_extract.cli.pipeline import Job
 from ros2cc_extract.cli.sources import read_input
 from ros2cc_extract.findings.baseline import read_baseline
 from ros2cc_extract.spec.close import Policy
-from ros2cc_extract.verify import Options
+from ros2cc_extract.verify.unit import Options
 
 SECONDS_PER_UNIT = 20.0
 

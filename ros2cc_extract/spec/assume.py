@@ -7,6 +7,7 @@ filled that way carries the assumption, so that no verdict hides it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -22,7 +23,8 @@ from ros2cc_extract.spec.model import (
 )
 
 DEFAULT_COUNT = 'default_cpu_count'
-MEND = 'write threads=N, executor=CLASS or group.NAME=EXCLUSIVE|REENTRANT'
+MEND = 'write threads=N, executor=CLASS, rclpy=X.Y.Z or group.NAME=EXCLUSIVE|REENTRANT'
+_RELEASE = re.compile(r'\d+\.\d+\.\d+')
 _GROUP = 'group.'
 
 
@@ -34,10 +36,12 @@ class Assumptions:
     :param threads: worker threads of executors whose number is not known.
     :param executor: class of executors that were not found.
     :param groups: type by name of unresolved groups.
+    :param rclpy: release that facts are tied to which name none.
     """
 
     threads: int | None = None
     executor: str | None = None
+    rclpy: str | None = None
     groups: Mapping[str, GroupType] = field(default_factory=dict)
 
 
@@ -49,6 +53,7 @@ def read_assumptions(entries: Iterable[str], place: Place | None = None) -> Assu
     """
     threads: int | None = None
     executor: str | None = None
+    rclpy: str | None = None
     groups: dict[str, GroupType] = {}
     for entry in entries:
         key, equals, value = entry.partition('=')
@@ -56,17 +61,21 @@ def read_assumptions(entries: Iterable[str], place: Place | None = None) -> Assu
             threads = int(value)
         elif key == 'executor' and value.isidentifier():
             executor = value
+        elif key == 'rclpy' and _RELEASE.fullmatch(value):
+            rclpy = value
         elif key.startswith(_GROUP) and equals and value in GroupType.__members__:
             groups[key.removeprefix(_GROUP)] = GroupType[value]
         else:
             raise InputError(f'assumption {entry!r} is not understood', place, MEND)
-    return Assumptions(threads=threads, executor=executor, groups=groups)
+    return Assumptions(threads=threads, executor=executor, rclpy=rclpy, groups=groups)
 
 
 def assume(spec: Spec, assumptions: Assumptions) -> Spec:
     """Fill the holes of ``spec`` that ``assumptions`` speak of."""
     executor = _with_threads(_with_kind(spec.executor, assumptions), spec, assumptions)
     groups = tuple(_with_type(group, assumptions) for group in spec.groups)
+    if spec.rclpy is None:
+        spec = replace(spec, rclpy=assumptions.rclpy)
     if executor == spec.executor and groups == spec.groups:
         return spec
     filled = replace(spec, executor=executor, groups=groups)

@@ -22,10 +22,12 @@ class Policy:
 
     :param builtin: keep the entities nobody wrote in the model.
     :param threads: number of worker threads, instead of what the unit says.
+    :param rclpy: version of rclpy, instead of the one that the unit names, if any.
     """
 
     builtin: bool = False
     threads: int | None = None
+    rclpy: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +57,13 @@ def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
     used = {callback.group for callback in callbacks}
     groups = tuple(group for group in spec.groups if group.name in used)
     executor = _with_threads(spec, policy.threads)
-    reduced = replace(spec, callbacks=callbacks, groups=groups, executor=executor)
+    reduced = replace(
+        spec,
+        callbacks=callbacks,
+        groups=groups,
+        executor=executor,
+        rclpy=policy.rclpy or spec.rclpy,
+    )
     return ClosedSpec(spec=reduced, assumptions=tuple(_assumptions(reduced, policy)))
 
 

@@ -13,6 +13,7 @@ from collections.abc import Collection
 
 _IDENTIFIER = re.compile(r'[A-Za-z_][A-Za-z0-9_]*\Z')
 _OTHER = re.compile(r'[^A-Za-z0-9_]+')
+_EDGES = re.compile(r'\A[^A-Za-z0-9_]+|[^A-Za-z0-9_]+\Z')
 
 _KEYWORD_TEXT = """
 chan clock double bool int commit const urgent broadcast init process state invariant location
@@ -27,18 +28,23 @@ _QUERY_WORD_TEXT = 'A E U W R M inf sup bounds control simulate strategy query u
 _MODEL_NAME_TEXT = """
 NUM_CB NUM_CB_GROUP NUM_THREAD MAX_CYCLE CbId GroupId ThreadId CbType GroupType TMR SUB SRV
 CLT REENTRANT EXCLUSIVE cb_group_table cb_type_table group_closed group_close group_open
-ready_set cb_assign_signal thread_free thread_running thread_cb_assign_table cb_running
-get_thread_running_cb get_thread_running_group NUM_NODE NUM_EVENT QUEUE_DEPTH NodeId cb_node_table
+ready_set cb_assign_signal thread_free thread_popped thread_running thread_cb_assign_table
+cb_running get_thread_running_cb get_thread_running_group NUM_NODE NUM_EVENT QUEUE_DEPTH NodeId
+cb_node_table
 cb_rank_table NUM_WAIT cb_wait_table cb_server_table cb_calls cb_asked cb_answers cb_ended
-cb_arrive cb_is_answered cb_take_answer cb_await_table cb_suspended cb_await_at cb_awaited_by
-cb_can_resume cb_resuming cb_unfinished CB_IN_PLAY num_cb_in_play related_in_play
+cb_arrive cb_is_answered cb_take_answer cb_await_table cb_suspended cb_await_at cb_can_resume
+cb_sent cb_send cb_own_answers cb_freed cb_signal cb_overlooked cb_polled cb_awaited_table
+gathering more_runs task_list task_count
+task_place drop_task MAX_TASKS WaitId MAX_SUSPENDED MAX_QUEUED PoolEntry POOL_DEPTH cb_resuming
+cb_unfinished CB_IN_PLAY num_cb_in_play related_in_play
 cb_waiting cb_queued cb_runs cb_all_served pool_queue pool_size event_queue event_count hurry
 Callback CallbackGroup Thread Executor
 """
 
 KEYWORDS = frozenset(_KEYWORD_TEXT.split())
 MODEL_NAMES = frozenset(_MODEL_NAME_TEXT.split())
-AVOIDED = KEYWORDS | MODEL_NAMES | frozenset(_QUERY_WORD_TEXT.split())
+QUERY_WORDS = frozenset(_QUERY_WORD_TEXT.split())
+AVOIDED = KEYWORDS | MODEL_NAMES | QUERY_WORDS
 
 
 def complaint(name: str) -> str | None:
@@ -52,9 +58,20 @@ def complaint(name: str) -> str | None:
     return None
 
 
+def complaint_of_executor(name: str) -> str | None:
+    """Say why ``name`` cannot name the executor, the one process that queries name."""
+    if name in QUERY_WORDS:
+        return f'{name!r} is a word of UPPAAL queries, and queries name the executor'
+    return complaint(name)
+
+
 def mend(text: str, taken: Collection[str] = ()) -> str:
-    """Make ``text`` a usable name that is not in ``taken``: ``2nd scan`` -> ``_2nd_scan``."""
-    name = _OTHER.sub('_', text).strip('_') or 'unnamed'
+    """
+    Make ``text`` a usable name that is not in ``taken``: ``2nd scan`` -> ``_2nd_scan``.
+
+    Underscores of its own are kept: ``tick`` and ``_tick`` are two.
+    """
+    name = _OTHER.sub('_', _EDGES.sub('', text)) or 'unnamed'
     if name[0].isdigit():
         name = f'_{name}'
     if name in AVOIDED:

@@ -89,6 +89,7 @@ _KEY_NAME = {
     EntityKind.ACTION_SERVER: 'action',
     EntityKind.ACTION_CLIENT: 'action',
     EntityKind.ACTION_EXECUTE: 'action',
+    EntityKind.DONE_CALLBACK: 'client',
 }
 
 
@@ -119,6 +120,8 @@ class Blocking:
         ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
     :param on: name of the callback, entity or object waited for, where known.
     :param seconds: how long it sleeps; for calls with a time-out, the time-out.
+    :param foreign: true for an event or future that a thread of the user's own sets, and no
+        callback: that wakes no executor.
     :param chain: places of the calls that lead from the callback to ``source``, outermost first.
     """
 
@@ -126,7 +129,11 @@ class Blocking:
     source: Place | None = None
     on: str | Unknown | None = None
     seconds: float | Unknown | None = None
+    foreign: bool = False
     chain: tuple[Place, ...] = ()
+
+
+SHARED = ' (shared)'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,10 +142,12 @@ class Access:
     A read or write of shared state by a callback.
 
     :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
-    :param locks: locks held at that place, outermost first.
+    :param locks: locks held at that place, outermost first; one that others may hold too, as
+        readers do, ends in ``SHARED``.
     :param update: true when the old value is read for the new one (``+=``, ``append`` …).
     :param in_place: true for an update by one operation on the object itself (``append``,
         ``d[k] = v``), which CPython does in one piece.
+    :param iterates: class of the collection, where a loop goes over it.
     """
 
     name: str
@@ -146,6 +155,7 @@ class Access:
     locks: tuple[str, ...] = ()
     update: bool = False
     in_place: bool = False
+    iterates: str | None = None
     chain: tuple[Place, ...] = ()
 
 
@@ -155,11 +165,14 @@ class Act:
     Something else a callback does: takes a lock, publishes, creates an entity, moves a node.
 
     :param name: the lock, the topic, the entity or executor concerned.
+    :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
+        name is among them where it cannot be taken twice.
     """
 
     name: str | Unknown
     source: Place | None = None
     chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,10 +215,12 @@ class Callback:
     :param entity: exact kind; ``None`` in hand-written files of the published format.
     :param node: name of the ROS node it belongs to.
     :param function: qualified name of the function; ``None`` for a client without one.
-    :param key: topic, service or action name.
-    :param period_s: seconds, of a timer.
+    :param key: topic, service or action name; of a done-callback, that of the client it answers.
+    :param period_s: seconds, of a timer; by hand also of what arrives for any other.
+    :param duration_s: seconds of one run, as somebody has written down by hand.
     :param count: how many such entities one creation place makes.
     :param alternative: equal marks stand for branches of which only one is taken.
+    :param branch: which of these; callbacks of one branch are there together.
     :param library: made by a library on the node's behalf (tf, message_filters …).
     :param builtin: made by rclpy itself; nobody wrote it.
     :param unresolved: why the callback function or its node could not be followed.
@@ -221,10 +236,12 @@ class Callback:
     cls: str | None = None
     key: str | Unknown | None = None
     period_s: float | Unknown | None = None
+    duration_s: float | None = None
     count: int | Unknown = 1
     when: When = When.START
     conditional: bool = False
     alternative: str | None = None
+    branch: int | None = None
     coroutine: bool = False
     one_shot: bool = False
     destroyed: bool = False
@@ -245,8 +262,30 @@ class Callback:
 
     @property
     def display_name(self) -> str:
-        """How the callback is called in text for people: its function, else its name."""
-        return self.function.rpartition('.')[2] if self.function else self.name
+        """
+        How the callback is called in text for people: its function, else its name.
+
+        An action server has up to three functions, of which ``function`` is the first.
+        """
+        function = self.function_name
+        if function is None or self.entity is EntityKind.ACTION_SERVER:
+            return self.name
+        if function == '<lambda>':
+            at = self.defined or self.source
+            return f'lambda at line {at.line}' if at else self.name
+        return function
+
+    @property
+    def function_name(self) -> str | None:
+        """The bare name of its function."""
+        return self.function.rpartition('.')[2] if self.function else None
+
+
+def exclude_each_other(one: Callback, other: Callback) -> bool:
+    """Whether only one of two callbacks is ever created."""
+    if one.alternative is None or one.alternative != other.alternative:
+        return False
+    return one.branch is None or one.branch != other.branch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -286,6 +325,7 @@ class Executor:
         (``default_cpu_count``: rclpy takes the number of CPUs at run time).
     :param unresolved: why the executor, its kind or its thread count could not be followed.
     :param spun: how it is run: ``rclpy.spin``, ``spin_once`` …
+    :param alternative: as of a callback: units of equal marks are never run together.
     """
 
     name: str
@@ -294,6 +334,8 @@ class Executor:
     threads_source: str | None = None
     in_thread: bool = False
     spun: str | None = None
+    alternative: str | None = None
+    branch: int | None = None
     unresolved: Unknown | None = None
     assumed: str | None = None
     source: Place | None = None

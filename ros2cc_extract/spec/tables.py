@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +22,7 @@ from ros2cc_extract.spec.codecs import (
 )
 from ros2cc_extract.spec.cursor import Cursor
 from ros2cc_extract.spec.fields import ABSENT, Open, Plain, Resolution, Row, plain_rows, record
-from ros2cc_extract.spec.identifiers import complaint
+from ros2cc_extract.spec.identifiers import complaint, complaint_of_executor
 from ros2cc_extract.spec.model import (
     Access,
     Act,
@@ -40,15 +40,18 @@ from ros2cc_extract.spec.model import (
 )
 
 
-def _decode_name(cursor: Cursor) -> str:
-    name = cursor.text()
-    what = complaint(name)
-    if what:
-        raise cursor.error(what, 'rename it: the model names a process by it')
-    return name
+def _name_of_process(complaint: Callable[[str], str | None]) -> Codec:
+    def decode(cursor: Cursor) -> str:
+        name = cursor.text()
+        what = complaint(name)
+        if what:
+            raise cursor.error(what, 'rename it: the model names a process by it')
+        return name
+
+    return Codec(NAME.encode, decode, NAME.schema)
 
 
-PROCESS_NAME = Codec(NAME.encode, _decode_name, NAME.schema)
+PROCESS_NAME = _name_of_process(complaint)
 _PLACES = listing(PLACE)
 _OPTIONAL_PLACE = optional(PLACE)
 
@@ -61,7 +64,7 @@ BLOCKING = record(
         Plain('call', 'call', TEXT),
         Open(('waits_for',), 'on', TEXT, ('waits_for_resolved', False), 'waits_for_', None),
         Open(('seconds',), 'seconds', SECONDS, ('seconds_resolved', False), 'seconds_', None),
-        *plain_rows(Blocking, (_SOURCE, _CHAIN)),
+        *plain_rows(Blocking, (('foreign', 'foreign', FLAG), _SOURCE, _CHAIN)),
     ),
     required=('call',),
     flow=True,
@@ -75,6 +78,7 @@ ACCESS = record(
             (
                 ('update', 'update', FLAG),
                 ('in_place', 'in_place', FLAG),
+                ('iterates', 'iterates', optional(TEXT)),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,
@@ -88,7 +92,7 @@ ACT = record(
     Act,
     (
         Open(('name',), 'name', TEXT, ('name_resolved', False), 'name_'),
-        *plain_rows(Act, (_SOURCE, _CHAIN)),
+        *plain_rows(Act, (('held', 'held', listing(TEXT)), _SOURCE, _CHAIN)),
     ),
     flow=True,
 )
@@ -147,7 +151,7 @@ CALLBACK = record(
         Plain('callback', 'function', optional(TEXT), None, _is_extracted),
         *plain_rows(Callback, (('class', 'cls', optional(TEXT)),)),
         Open(
-            ('topic', 'service', 'action'),
+            ('topic', 'service', 'action', 'client'),
             'key',
             TEXT,
             ('key_resolved', False),
@@ -164,6 +168,7 @@ CALLBACK = record(
             None,
             _period_name,
         ),
+        *plain_rows(Callback, (('duration_s', 'duration_s', optional(SECONDS)),)),
         Open(('count',), 'count', COUNT, ('count', 'unknown'), 'count_', 1),
         *plain_rows(
             Callback,
@@ -171,6 +176,7 @@ CALLBACK = record(
                 ('when', 'when', member(When)),
                 ('conditional', 'conditional', FLAG),
                 ('alternative', 'alternative', optional(TEXT)),
+                ('branch', 'branch', optional(COUNT)),
                 ('coroutine', 'coroutine', FLAG),
                 ('one_shot', 'one_shot', FLAG),
                 ('destroyed', 'destroyed', FLAG),
@@ -283,7 +289,7 @@ THREAD = Codec(
     _thread_schema(),
 )
 EXECUTOR_ROWS: tuple[Row, ...] = (
-    Plain('name', 'name', PROCESS_NAME),
+    Plain('name', 'name', _name_of_process(complaint_of_executor)),
     _ExecutorKind(),
     _ExecutorResolution(),
     Plain('threads', 'threads', listing(THREAD, at_least=1)),
@@ -293,6 +299,8 @@ EXECUTOR_ROWS: tuple[Row, ...] = (
             ('threads_source', 'threads_source', optional(TEXT)),
             ('in_thread', 'in_thread', FLAG),
             ('spun', 'spun', optional(TEXT)),
+            ('alternative', 'alternative', optional(TEXT)),
+            ('branch', 'branch', optional(COUNT)),
             ('assumed', 'assumed', optional(TEXT)),
             _SOURCE,
         ),

@@ -1,0 +1,47 @@
+"""
+Which callbacks of a unit belong together: a client and its server, an answer and its client.
+
+Both are found by name, since that is all a specification has; a remapping is not visible here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros2cc_extract.spec.model import Callback, EntityKind
+
+SERVER_KINDS = {
+    EntityKind.CLIENT: EntityKind.SERVICE,
+    EntityKind.ACTION_CLIENT: EntityKind.ACTION_SERVER,
+}
+"""What answers each kind of client."""
+
+
+def is_client(callback: Callback) -> bool:
+    """True for what takes the answers of a service or an action."""
+    return callback.entity in SERVER_KINDS
+
+
+def is_done_callback(callback: Callback) -> bool:
+    """True for what runs when an answer has come."""
+    return callback.entity is EntityKind.DONE_CALLBACK
+
+
+def server_of(client: Callback, callbacks: Iterable[Callback]) -> Callback | None:
+    """The one server of the client's name."""
+    kind = SERVER_KINDS.get(client.entity) if client.entity else None
+    if kind is None or not isinstance(client.key, str):
+        return None
+    return _the_one([c for c in callbacks if c.entity is kind and c.key == client.key])
+
+
+def client_before(done: Callback, callbacks: Iterable[Callback]) -> Callback | None:
+    """The one client of its node that takes the answer for which ``done`` is a done-callback."""
+    if not is_done_callback(done) or not isinstance(done.key, str):
+        return None
+    name = (done.node, done.key)
+    return _the_one([c for c in callbacks if is_client(c) and (c.node, c.key) == name])
+
+
+def _the_one(found: Sequence[Callback]) -> Callback | None:
+    return found[0] if len(found) == 1 else None

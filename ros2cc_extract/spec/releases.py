@@ -1,0 +1,56 @@
+"""
+Which releases of rclpy behave in which way.
+
+A major number is one distribution's line (3 Humble, 4 Iron, 7 Jazzy, 9 Kilted, 10 and later
+Rolling); a change reaches each line in a release of its own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+Release = tuple[int, int, int]
+_RELEASE = re.compile(r'(\d+)\.(\d+)\.(\d+)')
+
+
+def release_of(version: str | None) -> Release | None:
+    """The numbers of ``7.1.6`` or ``7.1.6-1jammy``; ``None`` for what is no release."""
+    found = _RELEASE.match(version or '')
+    return (int(found[1]), int(found[2]), int(found[3])) if found else None
+
+
+def has_change(version: str | None, first: Mapping[int, Release]) -> bool | None:
+    """
+    Whether a release has a change.
+
+    :param first: the first release with it, by line; lines before the earliest lack it, lines
+        after the latest have it.
+    :return: ``None`` where the version, or what became of its line, is not known.
+    """
+    release = release_of(version)
+    if release is None:
+        return None
+    line = release[0]
+    if line in first:
+        return release >= first[line]
+    if line > max(first):
+        return True
+    return False if line < min(first) else None
+
+
+# What follows was read in the release notes of rclpy.
+SPIN_REFUSED_TWICE = {7: (7, 1, 9), 10: (10, 0, 1)}
+"""An executor that spins refuses to be spun (ros2/rclpy pull request 1510)."""
+
+NODE_STAYS = {3: (3, 3, 15), 7: (7, 1, 2)}
+"""``spin_until_future_complete`` takes out only a node that it has added (1316)."""
+
+TIMEOUT_KEEPS_HARVEST = {3: (3, 3, 11), 7: (7, 0, 0)}
+"""Spinning with a time-out walks through all that is ready (1165)."""
+
+FUTURE_YIELDS_ITSELF = {7: (7, 1, 9), 10: (10, 0, 3)}
+"""``Future.__await__`` yields the future, which asyncio refuses (1469, 1560)."""
+
+COROUTINES_IN_EVENTS = {7: (7, 1, 11), 9: (9, 1, 2), 10: (10, 0, 1)}
+"""``EventsExecutor`` runs coroutine callbacks of services and subscriptions (1478, 1613)."""
