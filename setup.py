@@ -26,16 +26,21 @@ setup(
                     'model',
                     'layout',
                     'machine',
+                    'symmetry',
                     'moves',
                     'store',
                     'predicates',
+                    'goals',
+                    'expander',
                     'explore',
+                    'chains',
                     'lasso',
                 )
             ],
             include_dirs=INCLUDES,
             language='c++',
-            extra_compile_args=['-std=c++17', '-O3', '-fvisibility=hidden', '-g0'],
+            extra_compile_args=['-std=c++17', '-O3', '-fvisibility=hidden', '-g0', '-pthread'],
+            extra_link_args=['-pthread'],
             # Without a compiler the package still works: the checker then is pure Python.
             optional=True,
         )

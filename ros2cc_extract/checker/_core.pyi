@@ -1,11 +1,12 @@
 from collections.abc import Callable, Sequence
 
-from ros2cc_extract.checker.nativecode import Predicate
+from ros2cc_extract.checker.nativecode import Family, Predicate
 
 OPERATIONS: list[str]
 
 class CheckError(Exception): ...
 class EndlessError(Exception): ...
+class UnevenError(Exception): ...
 
 class Answer:
     path: list[list[int]]
@@ -17,6 +18,7 @@ class Result:
     states: int
     transitions: int
     is_complete: bool
+    is_full: bool
     goals: list[Answer]
     lassos: list[Answer]
 
@@ -32,8 +34,13 @@ def search(
     initial: list[int],
     locations: list[list[int]],
     forgettings: list[tuple[list[int], int, list[int]]],
+    families: list[Family],
+    picks: list[int],
     goals: Sequence[Predicate],
     lassos: Sequence[tuple[Predicate, Predicate | None]],
     is_fair: bool,
+    runs_chains: bool,
+    max_states: int,
+    jobs: tuple[int, int],
     watch: Callable[[int, int, int, bool], bool],
 ) -> Result: ...

@@ -13,7 +13,7 @@ from ros2cc_extract.checker.limits import Limits, Progress, peak_mb
 from ros2cc_extract.checker.network import Network
 from ros2cc_extract.checker.replay import Replayer
 from ros2cc_extract.checker.run import EdgeRef, Run, StateView, Step
-from ros2cc_extract.checker.search import Fairness, Verdict
+from ros2cc_extract.checker.search import NO_REDUCTIONS, Fairness, Reductions, Verdict
 from ros2cc_extract.checker.uppaal.document import read_document
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration, elaborate
 from ros2cc_extract.checker.uppaal.queryfile import Query, clean, first_line, read_query_file
@@ -30,6 +30,7 @@ __all__ = [
     'Model',
     'Progress',
     'Query',
+    'Reductions',
     'Run',
     'StateView',
     'Step',
@@ -197,19 +198,23 @@ def check(
     limits: Limits = Limits(),  # noqa: B008 - frozen value
     engine: EngineKind = EngineKind.AUTO,
     fairness: Fairness = Fairness.NONE,
-    reduction: bool = True,
+    reduction: bool | Reductions = True,
     progress: Callable[[Progress], None] | None = None,
+    jobs: int = 1,
 ) -> CheckResult:
     """
     Answer all queries by one exploration.
 
-    :param reduction: explore fewer states where that keeps all verdicts; the reference does not.
+    :param reduction: explore fewer states where that keeps all verdicts.
+    :param jobs: threads that explore together; the answer does not depend on them.
     :raises ModelFormatError: a query is wrong, or a reachable state breaks a range.
     :raises ToolNotFoundError: the native core was asked for and is not built.
     :raises CoreMismatchError: a path of a reduced search could not be replayed (a defect).
     """
+    if isinstance(reduction, bool):
+        reduction = Reductions() if reduction else NO_REDUCTIONS
     try:
-        return _check(model, queries, limits, engine, fairness, reduction, progress)
+        return _check(model, queries, limits, engine, fairness, reduction, progress, jobs)
     except RecursionError:
         raise ModelFormatError(_TOO_DEEP, Place(model.name), _MEND_DEEP) from None
 
@@ -220,8 +225,9 @@ def _check(
     limits: Limits,
     engine: EngineKind,
     fairness: Fairness,
-    reduction: bool,
+    reductions: Reductions,
     progress: Callable[[Progress], None] | None,
+    jobs: int,
 ) -> CheckResult:
     unnamed = Place('query', 1)
     properties = [model.elaboration.query(q.formula, q.place or unnamed) for q in queries]
@@ -232,8 +238,9 @@ def _check(
         properties,
         limits=limits,
         fairness=fairness,
-        reduction=reduction,
+        reductions=reductions,
         progress=progress,
+        jobs=jobs,
     )
     replayer = Replayer(model.elaboration, network, fairness)
     answers = tuple(

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from ros2cc_extract.checker.limits import Limits, Progress
 from ros2cc_extract.checker.network import Network, Property
-from ros2cc_extract.checker.search import Fairness, SearchResult
+from ros2cc_extract.checker.search import Fairness, Reductions, SearchResult
 from ros2cc_extract.errors import ToolNotFoundError
 
 REFERENCE, NATIVE = 'reference', 'native'
@@ -26,8 +26,9 @@ class Search(Protocol):
         *,
         limits: Limits,
         fairness: Fairness,
-        reduction: bool,
+        reductions: Reductions,
         progress: Callable[[Progress], None] | None,
+        jobs: int,
     ) -> SearchResult: ...
 
 

@@ -59,9 +59,14 @@ def most_of_the_memory_mb() -> float | None:
     return memory_mb() + 0.9 * free_kb[0] / 1024 if free_kb else None
 
 
+def states_reason(limit: int | None) -> str:
+    """Return the reason to give up when a state more than the limit was found."""
+    return f'the limit of {limit} states was reached'
+
+
 class Watch:
     """
-    Looks at the clock and the memory now and then.
+    Looks at the clock and the memory now and then; states are for the searches to count.
 
     Without a limit on memory, most of what the machine has free is the limit: the system would
     end the process otherwise, and with it what is known.
@@ -107,10 +112,4 @@ class Watch:
         seconds = self.seconds()
         if self._progress:
             self._progress(Progress(states=states, transitions=transitions, seconds=seconds))
-        limits = self._limits
-        reason = self.exhausted() or self._out_of_memory(more_bytes, self._share)
-        if reason:
-            return reason
-        if limits.states is not None and states >= limits.states:
-            return f'the limit of {limits.states} states was reached'
-        return None
+        return self.exhausted() or self._out_of_memory(more_bytes, self._share)

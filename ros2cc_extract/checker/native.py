@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from ros2cc_extract.checker.dead import forget, forgettings
+from ros2cc_extract.checker.canonical import Reducer
+from ros2cc_extract.checker.dead import forgettings
 from ros2cc_extract.checker.interpret import endless_error, site_error
-from ros2cc_extract.checker.limits import WITH_LASSOS, Limits, Progress, Watch
+from ros2cc_extract.checker.limits import WITH_LASSOS, Limits, Progress, Watch, states_reason
 from ros2cc_extract.checker.nativecode import Lowering, Predicate
 from ros2cc_extract.checker.network import Network, Property
 from ros2cc_extract.checker.search import (
@@ -16,8 +16,10 @@ from ros2cc_extract.checker.search import (
     End,
     Fairness,
     Outcome,
+    Reductions,
     SearchResult,
     StatePath,
+    Symmetry,
     formulas_of,
     found,
     goal_of,
@@ -29,7 +31,10 @@ from ros2cc_extract.checker.semantics import State
 
 if TYPE_CHECKING:
     from ros2cc_extract.checker import _core
+    from ros2cc_extract.checker.symmetry import Family
 
+#: More than the core can number.
+MAX_STATES = 2**63
 _ENDS = {1: End.DEADLOCK, 2: End.IDLE}
 
 
@@ -39,8 +44,9 @@ def search(
     *,
     limits: Limits,
     fairness: Fairness,
-    reduction: bool,
+    reductions: Reductions,
     progress: Callable[[Progress], None] | None,
+    jobs: int,
 ) -> SearchResult:
     """
     Answer all properties by one exploration in the core.
@@ -48,43 +54,130 @@ def search(
     :raises ModelFormatError: a reachable state breaks a range, an index or a loop bound.
     :raises ImportError: the core is not built.
     """
-    from ros2cc_extract.checker import _core
+    question = _Question(network, properties, limits, fairness, reductions, progress, jobs)
+    if reductions.symmetry is Symmetry.NEVER:
+        return question.answer(limits.states)
+    if reductions.symmetry is Symmetry.ALWAYS:
+        return question.answer_by_symmetry() or question.answer(limits.states)
+    is_small = limits.states is not None and limits.states <= SYMMETRY_PAYS_FROM
+    found = question.answer(limits.states if is_small else SYMMETRY_PAYS_FROM)
+    if is_small or not question.is_full:
+        return found
+    return question.answer_by_symmetry() or question.answer(limits.states)
 
-    lowering = Lowering(network, _core.OPERATIONS)
-    reachability = positions(properties, reachability=True)
-    liveness = positions(properties, reachability=False)
-    goals = [lowering.predicate(goal_of(properties[i])) for i in reachability]
-    lassos = [_lasso(lowering, properties[i]) for i in liveness]
-    reduce = None
-    if reduction:
-        forgotten = forgettings(network, formulas_of(properties))
-        lowering.forget(forgotten)
-        reduce = functools.partial(forget, forgotten)
-    watching = _Watching(Watch(limits, progress, WITH_LASSOS if liveness else 1.0))
-    try:
-        result = _core.search(
-            **vars(lowering.tables),
-            goals=goals,
-            lassos=lassos,
-            is_fair=fairness is Fairness.WEAK,
-            watch=watching,
+
+#: States that are explored before families are looked for, which takes longer than these states.
+SYMMETRY_PAYS_FROM = 20_000
+
+#: States from which several threads explore together, and how many threads at most.
+JOBS_PAY_FROM = 100_000
+MOST_JOBS = 64
+
+
+class _Question:
+    """
+    One question to the core, which may be asked in several ways.
+
+    :param is_full: whether the last answer ended at its number of states.
+    """
+
+    def __init__(
+        self,
+        network: Network,
+        properties: Sequence[Property],
+        limits: Limits,
+        fairness: Fairness,
+        reductions: Reductions,
+        progress: Callable[[Progress], None] | None,
+        jobs: int,
+    ) -> None:
+        from ros2cc_extract.checker import _core
+
+        self.is_full = False
+        self._core = _core
+        self._network, self._properties, self._limits = network, properties, limits
+        self._fairness, self._jobs = fairness, jobs
+        self._reachability = positions(properties, reachability=True)
+        self._liveness = positions(properties, reachability=False)
+        self._lowering = Lowering(network, _core.OPERATIONS)
+        lowered = self._lowering.predicate
+        self._goals = [lowered(goal_of(properties[i])) for i in self._reachability]
+        self._lassos = [_lasso(self._lowering, properties[i]) for i in self._liveness]
+        formulas = formulas_of(properties)
+        self._forgotten = forgettings(network, formulas) if reductions.dead else ()
+        if self._forgotten:
+            self._lowering.forget(self._forgotten)
+        may_run = reductions.chains and not self._liveness and jobs == 1
+        self._runs_chains = may_run and has_chains(network)
+        self._families: tuple[Family, ...] = ()
+        share = WITH_LASSOS if self._liveness else 1.0
+        self._watching = _Watching(Watch(limits, progress, share))
+
+    def answer_by_symmetry(self) -> SearchResult | None:
+        """Return the answer, None where there is no symmetry or it breaks on the way."""
+        if self._fairness is Fairness.WEAK and self._liveness:
+            return None  # a cycle that is fair to like processes in turn need not be to each
+        # Imported late: few searches grow that large.
+        from ros2cc_extract.checker.symmetry import families
+
+        self._families = families(self._network, formulas_of(self._properties))
+        if not self._families:
+            return None
+        self._lowering.order(self._families, self._forgotten)
+        try:
+            return self.answer(self._limits.states)
+        except self._core.UnevenError:
+            return None
+        finally:
+            self._families = ()
+            self._lowering.order((), ())
+
+    def answer(self, max_states: int | None) -> SearchResult:
+        """Return the answer; families are as they were set."""
+        watching = self._watching
+        watching.reason = None
+        try:
+            result = self._core.search(
+                **vars(self._lowering.tables),
+                goals=self._goals,
+                lassos=self._lassos,
+                is_fair=self._fairness is Fairness.WEAK,
+                runs_chains=self._runs_chains,
+                max_states=MAX_STATES if max_states is None else max_states,
+                jobs=(min(self._jobs, MOST_JOBS), JOBS_PAY_FROM),
+                watch=watching,
+            )
+        except self._core.CheckError as error:
+            site, value = error.args
+            raise site_error(self._network.sites[site], value) from None
+        except self._core.EndlessError as error:
+            raise endless_error(self._network.functions[error.args[0]]) from None
+        self.is_full = result.is_full
+        if result.is_full:
+            watching.reason = watching.reason or states_reason(max_states)
+        return self._told(result)
+
+    def _told(self, result: _core.Result) -> SearchResult:
+        answers = _Answers(self._network, self._properties, self._watching)
+        reached = map(answers.goal, self._reachability, result.goals)
+        outcomes = dict(zip(self._reachability, reached, strict=True))
+        outcomes |= zip(
+            self._liveness, map(answers.lasso, self._liveness, result.lassos), strict=True
         )
-    except _core.CheckError as error:
-        site, value = error.args
-        raise site_error(network.sites[site], value) from None
-    except _core.EndlessError as error:
-        raise endless_error(network.functions[error.args[0]]) from None
-    answers = _Answers(network, properties, watching)
-    outcomes = dict(zip(reachability, map(answers.goal, reachability, result.goals), strict=True))
-    outcomes |= zip(liveness, map(answers.lasso, liveness, result.lassos), strict=True)
-    return SearchResult(
-        result.states,
-        result.transitions,
-        watching.watch.seconds(),
-        result.is_complete,
-        tuple(outcomes[i] for i in range(len(properties))),
-        reduce,
-    )
+        is_plain = not (self._forgotten or self._families or self._runs_chains)
+        return SearchResult(
+            result.states,
+            result.transitions,
+            self._watching.watch.seconds(),
+            result.is_complete,
+            tuple(outcomes[i] for i in range(len(self._properties))),
+            None if is_plain else Reducer(self._network, self._forgotten, self._families),
+        )
+
+
+def has_chains(network: Network) -> bool:
+    """Whether there is a committed location."""
+    return any(at.is_committed for process in network.processes for at in process.locations)
 
 
 def _lasso(lowering: Lowering, prop: Property) -> tuple[Predicate, Predicate | None]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.dead import Forgetting
 from ros2cc_extract.checker.network import (
@@ -41,8 +41,15 @@ from ros2cc_extract.checker.network import (
 )
 from ros2cc_extract.checker.reads import reads_of
 
+if TYPE_CHECKING:
+    from ros2cc_extract.checker.symmetry import Family as Members
+
 #: Node, whether it reads ``deadlock``, and which variables and processes it reads.
 Predicate = tuple[int, bool, list[int], list[int]]
+#: Slot, initial value, and the processes that may forget it.
+Pointer = tuple[int, int, list[int]]
+#: Processes, their names, their variables, and the pointers to them.
+Family = tuple[list[int], list[int], list[list[int]], list[Pointer]]
 NONE = -1
 _SYNC = {Direction.SEND: 1, Direction.RECEIVE: 2}
 
@@ -61,6 +68,8 @@ class Tables:
     initial: list[int] = field(default_factory=list)
     locations: list[list[int]] = field(default_factory=list)
     forgettings: list[tuple[list[int], int, list[int]]] = field(default_factory=list)
+    families: list[Family] = field(default_factory=list)
+    picks: list[int] = field(default_factory=list)
 
 
 class Lowering:
@@ -117,6 +126,34 @@ class Lowering:
         """Add what processes make forgettable."""
         for process, forgetting in zip(self._network.processes, forgettings, strict=True):
             self.tables.forgettings.append(self._forgetting(process, forgetting))
+
+    def order(self, families: Sequence[Members], forgettings: Sequence[Forgetting]) -> None:
+        """Add the families whose members can be exchanged; nodes and lists may grow."""
+        functions = len(self._network.functions)
+        self.tables.picks = [NONE, 0, 0, 0, NONE, 0] * functions if families else []
+        self.tables.families = [
+            (
+                [*family.processes],
+                [*family.names],
+                [[*part] for part in family.parts],
+                [self._pointer(slot, forgettings) for slot in family.pointers],
+            )
+            for family in families
+        ]
+        for number, family in enumerate(families):
+            for function, pick in family.picks.items():
+                node = self.expr(pick.condition)
+                self.tables.picks[6 * function : 6 * function + 6] = (
+                    number, pick.slot, pick.low, pick.high, node, pick.default,
+                )  # fmt: skip
+
+    def _pointer(self, slot: int, forgettings: Sequence[Forgetting]) -> Pointer:
+        owners = [
+            number
+            for number, forgetting in enumerate(forgettings)
+            if any(slot == reset for resets in forgetting.resets.values() for reset, _ in resets)
+        ]
+        return slot, self._network.variables[slot].initial, owners
 
     def _forgetting(
         self, process: Process, forgetting: Forgetting

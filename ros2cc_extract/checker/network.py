@@ -300,10 +300,15 @@ class Edge:
 
 @dataclass(frozen=True)
 class Process:
-    """An instance of a template."""
+    """
+    An instance of a template.
+
+    :param arguments: values of the template's value parameters, in order.
+    """
 
     name: str
     template: str
+    arguments: tuple[int, ...]
     locations: tuple[Location, ...]
     initial: int
     edges: tuple[Edge, ...]

@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from ros2cc_extract.checker.canonical import Reducer
+from ros2cc_extract.checker.dead import Forgetting, forgettings
 from ros2cc_extract.checker.graph import DEADLOCK, IDLE, Graph
 from ros2cc_extract.checker.layout import Layout
-from ros2cc_extract.checker.limits import Limits, Progress, Watch
+from ros2cc_extract.checker.limits import Limits, Progress, Watch, states_reason
 from ros2cc_extract.checker.liveness import Lasso, Movers, find_fair_lasso, find_lasso
 from ros2cc_extract.checker.moves import Moving, Plan
 from ros2cc_extract.checker.network import Expr, Network, Property, QueryKind
@@ -20,8 +22,10 @@ from ros2cc_extract.checker.search import (
     INTERRUPTED,
     Fairness,
     Outcome,
+    Reductions,
     SearchResult,
     StatePath,
+    formulas_of,
     found,
     goal_of,
     inside_of,
@@ -33,6 +37,7 @@ from ros2cc_extract.checker.walks import mentions_deadlock
 
 _LOOK_EVERY = 256
 _MAX_CACHED_PREDICATES = 200_000
+_MAX_CACHED_STATES = 200_000
 
 
 def search(
@@ -41,16 +46,19 @@ def search(
     *,
     limits: Limits,
     fairness: Fairness,
-    reduction: bool,
+    reductions: Reductions,
     progress: Callable[[Progress], None] | None,
+    jobs: int,
 ) -> SearchResult:
     """
     Answer all properties by one exploration.
 
-    :param reduction: has no effect here: this engine always explores all states.
+    :param reductions: dead variables only; the others are the core's.
+    :param jobs: of no use here.
     :raises ModelFormatError: a reachable state breaks a range, an index or a loop bound.
     """
-    exploration = _Exploration(network, properties, Watch(limits, progress), fairness)
+    forgotten = forgettings(network, formulas_of(properties)) if reductions.dead else ()
+    exploration = _Exploration(network, properties, limits, fairness, forgotten, progress)
     exploration.run()
     return exploration.result()
 
@@ -95,10 +103,16 @@ class _Exploration:
         self,
         network: Network,
         properties: Sequence[Property],
-        watch: Watch,
+        limits: Limits,
         fairness: Fairness,
+        forgotten: tuple[Forgetting, ...],
+        progress: Callable[[Progress], None] | None,
     ) -> None:
-        self._network, self._properties, self._watch = network, properties, watch
+        self._network, self._properties = network, properties
+        self._watch = Watch(limits, progress)
+        self._max_states = limits.states
+        self._reducer = Reducer(network, forgotten, ()) if forgotten else None
+        self._reduced: dict[tuple[int, int], int] = {}
         self._layout = Layout(network)
         self._moving = Moving(network, self._layout)
         self._fairness = fairness
@@ -157,6 +171,12 @@ class _Exploration:
                 else:
                     moves = move(packed)
                 for target, label in moves:
+                    if self._reducer is not None:
+                        target = self._forget(target, label)
+                    if len(order) == self._max_states and target not in known:
+                        self._transitions = before
+                        self._reason = states_reason(self._max_states)
+                        return
                     transitions += 1
                     index = known.setdefault(target, len(order))
                     if index == len(order):
@@ -180,6 +200,16 @@ class _Exploration:
                 graph.offsets.append(len(graph.targets))
                 graph.ends.append(DEADLOCK if is_deadlock else IDLE if plan.is_idle(packed) else 0)
         self._transitions = transitions
+
+    def _forget(self, packed: int, label: int) -> int:
+        key = packed, label
+        if key not in self._reduced:
+            assert self._reducer is not None
+            state = self._reducer.forget(self._layout.unpack(packed), self._moving.labels[label])
+            if len(self._reduced) >= _MAX_CACHED_STATES:
+                self._reduced.clear()
+            self._reduced[key] = self._layout.pack(state)
+        return self._reduced[key]
 
     def _note_hits(self, hit: int, number: int) -> None:
         seconds = self._watch.seconds()
@@ -207,6 +237,7 @@ class _Exploration:
             self._watch.seconds(),
             self._is_complete(),
             tuple(self._outcomes[i] for i in range(len(self._properties))),
+            self._reducer,
         )
 
     def _is_complete(self) -> bool:

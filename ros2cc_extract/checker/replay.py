@@ -8,7 +8,7 @@ ends are established here anew. A disagreement is a defect of this tool.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ros2cc_extract.checker.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.run import EdgeRef, Naming, Run, Step
@@ -26,9 +26,21 @@ class _RealPath:
     """States of the model and the moves between them; with a cycle the last state closes it."""
 
     states: list[State]
-    moves: list[Transition]
-    cycle_start: int | None
     end: End | None
+    moves: list[Transition] = field(default_factory=list)
+    cycle_start: int | None = None
+
+
+#: Edges, and the state of the search that they lead to, before like processes are ordered.
+_Move = tuple[Edges, State]
+
+
+class _Walk:
+    """Goes along a path in the states of the search and those of the model at once."""
+
+    def __init__(self, searched: State, real: State, end: End | None) -> None:
+        self.searched = searched
+        self.real = _RealPath([real], end)
 
 
 class Replayer:
@@ -40,7 +52,7 @@ class Replayer:
         self._semantics = Semantics(network)
         self._naming = Naming(elaboration, network)
         self._known: dict[State, list[Transition]] = {}
-        self._steps: dict[tuple[State, State], list[Edges]] = {}
+        self._steps: dict[tuple[State, State], list[_Move]] = {}
 
     def run(self, prop: Property, path: StatePath, reduce: Reduce | None) -> Run:
         """
@@ -51,13 +63,14 @@ class Replayer:
         """
         if path.states[0] != self._semantics.initial():
             raise _mismatch('it does not start in the initial state')
-        states = list(path.states)
+        walk = _Walk(self._semantics.initial(), self._semantics.initial(), path.end)
+        stem = len(path.states) - 1 if path.cycle_start is None else path.cycle_start
+        for target in path.states[1 : stem + 1]:
+            self._advance(walk, target, reduce, set())
         if path.cycle_start is not None:
-            states.append(states[path.cycle_start])
-        moves = self._moves(states, path.cycle_start, reduce)
-        real = self._walk(moves, path)
-        self._check_formulas(prop, real)
-        return self._told(real)
+            self._go_round(walk, (*path.states[stem + 1 :], path.states[stem]), reduce)
+        self._check_formulas(prop, walk.real)
+        return self._told(walk.real)
 
     def _successors(self, state: State) -> list[Transition]:
         # The paths of one search share most of their beginnings.
@@ -65,64 +78,60 @@ class Replayer:
             self._known[state] = list(self._semantics.successors(state))
         return self._known[state]
 
-    def _fitting(self, state: State, target: State, reduce: Reduce | None) -> list[Edges]:
-        """Return the edges that lead from one state of the search to the next."""
+    def _fitting(self, state: State, target: State, reduce: Reduce | None) -> list[_Move]:
+        """Return the moves that lead from one state of the search to what the next stands for."""
         key = state, target
         if key not in self._steps:
-            self._steps[key] = [
-                t.edges
+            moves = (
+                (t.edges, reduce.forget(t.target, t.edges) if reduce else t.target)
                 for t in self._successors(state)
-                if (reduce(t.target, t.edges) if reduce else t.target) == target
+            )
+            self._steps[key] = [
+                (edges, then)
+                for edges, then in moves
+                if (reduce.canonical(then) if reduce else then) == target
             ]
         if not self._steps[key]:
             raise _mismatch('one of its steps is no transition of the model')
         return self._steps[key]
 
-    def _moves(
-        self, states: Sequence[State], cycle_start: int | None, reduce: Reduce | None
-    ) -> list[Edges]:
-        """Return the edges between the states of a path, on a fair cycle serving everybody."""
-        is_fair = cycle_start is not None and self._fairness is Fairness.WEAK
-        unserved = set(range(len(self._network.processes))) if is_fair else set()
-        moves: list[Edges] = []
-        for index, state in enumerate(states[:-1]):
-            fitting = self._fitting(state, states[index + 1], reduce)
-            if cycle_start is not None and index >= cycle_start:
-                leaving = self._successors(state)
+    def _advance(
+        self, walk: _Walk, target: State, reduce: Reduce | None, unserved: set[int]
+    ) -> None:
+        """Take the step that serves the most processes that are not served yet."""
+        fitting = self._fitting(walk.searched, target, reduce)
+        edges, then = max(fitting, key=lambda move: len({p for p, _ in move[0]} & unserved))
+        self._extend(walk.real, edges)
+        walk.searched = then
+
+    def _go_round(self, walk: _Walk, targets: Sequence[State], reduce: Reduce | None) -> None:
+        """
+        Go round a cycle until a round ends where one began.
+
+        After one round, values that nobody reads may differ from those at its start, and
+        processes that are alike may have changed places.
+        """
+        begun: dict[tuple[State, State], int] = {}
+        while (walk.searched, walk.real.states[-1]) not in begun:
+            begun[walk.searched, walk.real.states[-1]] = len(walk.real.states) - 1
+            is_fair = self._fairness is Fairness.WEAK
+            unserved = set(range(len(self._network.processes))) if is_fair else set[int]()
+            for target in targets:
+                leaving = self._successors(walk.searched)
                 unserved &= {process for t in leaving for process, _ in t.edges}
-            moves.append(max(fitting, key=lambda edges: len({p for p, _ in edges} & unserved)))
-            if cycle_start is not None and index >= cycle_start:
-                unserved -= {process for process, _ in moves[-1]}
-        if unserved:
-            raise _mismatch('its cycle is not fair to every process')
-        return moves
+                before = len(walk.real.moves)
+                self._advance(walk, target, reduce, unserved)
+                unserved -= {p for move in walk.real.moves[before:] for p, _ in move.edges}
+            if unserved:
+                raise _mismatch('its cycle is not fair to every process')
+        walk.real.cycle_start = begun[walk.searched, walk.real.states[-1]]
 
-    def _walk(self, moves: Sequence[Edges], path: StatePath) -> _RealPath:
-        """
-        Take the moves from the initial state.
-
-        After one round of a cycle, values that nobody reads may differ from those at its start;
-        so rounds are added until a round ends where one began.
-        """
-        real = _RealPath([self._semantics.initial()], [], None, path.end)
-        stem = len(moves) if path.cycle_start is None else path.cycle_start
-        self._extend(real, moves[:stem])
-        if path.cycle_start is None:
-            return real
-        begun: dict[State, int] = {}
-        while real.states[-1] not in begun:
-            begun[real.states[-1]] = len(real.states) - 1
-            self._extend(real, moves[stem:])
-        real.cycle_start = begun[real.states[-1]]
-        return real
-
-    def _extend(self, real: _RealPath, moves: Sequence[Edges]) -> None:
-        for edges in moves:
-            taken = [t for t in self._successors(real.states[-1]) if t.edges == edges]
-            if not taken:
-                raise _mismatch('one of its steps is not enabled')
-            real.moves.append(taken[0])
-            real.states.append(taken[0].target)
+    def _extend(self, real: _RealPath, edges: Edges) -> None:
+        taken = [t for t in self._successors(real.states[-1]) if t.edges == edges]
+        if not taken:
+            raise _mismatch('one of its steps is not enabled')
+        real.moves.append(taken[0])
+        real.states.append(taken[0].target)
 
     # -- what the path should show -------------------------------------------------------
     def _holds(self, formula: Expr, state: State) -> bool:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Protocol
 
 from ros2cc_extract.checker.network import Expr, Property, QueryKind
 from ros2cc_extract.checker.semantics import Edges, State
@@ -38,8 +39,43 @@ class End(Enum):
     IDLE = 'idle'
 
 
-#: What a search does to a state that was reached by some edges, before it stores it.
-Reduce = Callable[[State, Edges], State]
+class Symmetry(Enum):
+    """When states are merged that differ only in which of several like processes does what."""
+
+    NEVER = 'never'
+    WHEN_LARGE = 'when large'
+    ALWAYS = 'always'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reductions:
+    """
+    What a search may leave out, as no verdict depends on it.
+
+    :param dead: values that are written before they are read again.
+    :param chains: states with a committed location are run through and not stored, if all
+        properties are of reachability.
+    """
+
+    dead: bool = True
+    symmetry: Symmetry = Symmetry.WHEN_LARGE
+    chains: bool = True
+
+
+NO_REDUCTIONS = Reductions(dead=False, symmetry=Symmetry.NEVER, chains=False)
+
+
+class Reduce(Protocol):
+    """What a search does to a state that was reached by some edges, before it stores it."""
+
+    def forget(self, state: State, edges: Edges) -> State:
+        """Return the state without what is forgotten where the edges lead."""
+        ...
+
+    def canonical(self, state: State) -> State:
+        """Return the state that stands for all that are like it."""
+        ...
+
 
 INTERRUPTED = 'interrupted'
 

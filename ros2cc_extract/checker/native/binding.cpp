@@ -43,9 +43,26 @@ std::vector<Forgetting> forgettings_from(const std::vector<RawForgetting>& raw) 
   return forgettings;
 }
 
+// Processes, names, parts, and of each pointer its slot, initial value and owners.
+using RawPointer = std::tuple<int32_t, int32_t, Ints>;
+using RawFamily = std::tuple<Ints, Ints, std::vector<Ints>, std::vector<RawPointer>>;
+
+std::vector<Family> families_from(const std::vector<RawFamily>& raw) {
+  std::vector<Family> families;
+  for (const auto& [processes, names, parts, pointers] : raw) {
+    Family family{processes, names, parts, {}};
+    for (const auto& [slot, initial, owners] : pointers) {
+      family.pointers.push_back({slot, initial, owners});
+    }
+    families.push_back(std::move(family));
+  }
+  return families;
+}
+
 Model model_from(const Ints& nodes, Ints lists, const Ints& ranges, const Ints& functions,
                  const Ints& edges, Ints channels, const Ints& variables, Ints initial,
-                 std::vector<Ints> locations, const std::vector<RawForgetting>& forgettings) {
+                 std::vector<Ints> locations, const std::vector<RawForgetting>& forgettings,
+                 const std::vector<RawFamily>& families, const Ints& picks) {
   Model model;
   for (size_t i = 0; i < nodes.size(); i += 4) {
     model.nodes.push_back({static_cast<Op>(nodes[i]), nodes[i + 1], nodes[i + 2], nodes[i + 3]});
@@ -64,6 +81,11 @@ Model model_from(const Ints& nodes, Ints lists, const Ints& ranges, const Ints& 
   model.initial = std::move(initial);
   model.locations = std::move(locations);
   model.forgettings = forgettings_from(forgettings);
+  model.families = families_from(families);
+  for (size_t i = 0; i < picks.size(); i += 6) {
+    const int32_t* p = &picks[i];
+    model.picks.push_back({p[0], p[1], p[2], p[3], p[4], p[5]});
+  }
   return model;
 }
 
@@ -94,6 +116,7 @@ PYBIND11_MODULE(_core, module) {
 
   static py::exception<CheckFailed> check_failed(module, "CheckError");
   static py::exception<Endless> endless(module, "EndlessError");
+  static py::exception<Uneven> uneven(module, "UnevenError");
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
@@ -101,6 +124,8 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetObject(check_failed.ptr(), py::make_tuple(error.site, error.value).ptr());
     } catch (const Endless& error) {
       PyErr_SetObject(endless.ptr(), py::make_tuple(error.function).ptr());
+    } catch (const Uneven&) {
+      PyErr_SetNone(uneven.ptr());
     }
   });
 
@@ -113,6 +138,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readonly("states", &Result::states)
       .def_readonly("transitions", &Result::transitions)
       .def_readonly("is_complete", &Result::is_complete)
+      .def_readonly("is_full", &Result::is_full)
       .def_readonly("goals", &Result::goals)
       .def_readonly("lassos", &Result::lassos);
 
@@ -121,19 +147,25 @@ PYBIND11_MODULE(_core, module) {
       [](const Ints& nodes, Ints lists, const Ints& ranges, const Ints& functions,
          const Ints& edges, Ints channels, const Ints& variables, Ints initial,
          std::vector<Ints> locations, const std::vector<RawForgetting>& forgettings,
-         const std::vector<RawPredicate>& goals,
-         const std::vector<RawLasso>& lassos, bool is_fair, const Ask& watch) {
+         const std::vector<RawFamily>& families, const Ints& picks,
+         const std::vector<RawPredicate>& goals, const std::vector<RawLasso>& lassos,
+         bool is_fair, bool runs_chains, uint64_t max_states,
+         std::pair<size_t, uint64_t> jobs, const Ask& watch) {
         // pybind11 takes the lock again around each call of `watch`.
         py::gil_scoped_release release;
         const Model model =
             model_from(nodes, std::move(lists), ranges, functions, edges, std::move(channels),
-                       variables, std::move(initial), std::move(locations), forgettings);
+                       variables, std::move(initial), std::move(locations), forgettings,
+                       families, picks);
         std::vector<Predicate> predicates;
         for (const RawPredicate& goal : goals) predicates.push_back(predicate_from(goal));
-        return search(model, predicates, lassos_from(lassos), is_fair, watch);
+        if (runs_chains) return search_chains(model, predicates, max_states, watch);
+        return search(model, predicates, lassos_from(lassos), is_fair, max_states,
+                      {jobs.first, jobs.second}, watch);
       },
       py::kw_only(), py::arg("nodes"), py::arg("lists"), py::arg("ranges"),
       py::arg("functions"), py::arg("edges"), py::arg("channels"), py::arg("variables"),
-      py::arg("initial"), py::arg("locations"), py::arg("forgettings"), py::arg("goals"),
-      py::arg("lassos"), py::arg("is_fair"), py::arg("watch"));
+      py::arg("initial"), py::arg("locations"), py::arg("forgettings"), py::arg("families"),
+      py::arg("picks"), py::arg("goals"), py::arg("lassos"), py::arg("is_fair"), py::arg("runs_chains"),
+      py::arg("max_states"), py::arg("jobs"), py::arg("watch"));
 }

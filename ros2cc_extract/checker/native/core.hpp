@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "explore.hpp"
 #include "model.hpp"
 
 namespace core {
@@ -25,13 +26,20 @@ struct Answer {
 struct Result {
   uint64_t states = 0, transitions = 0;
   bool is_complete = false;
+  bool is_full = false;  // whether there are more states than were allowed
   std::vector<Answer> goals, lassos;
 };
 
 // What all states of a lasso fulfil, and what its first does; without that it starts initially.
 using LassoQuestion = std::pair<Predicate, std::optional<Predicate>>;
 
+// Answers goals and lassos by one exploration that stores every state.
 Result search(const Model& model, const std::vector<Predicate>& goals,
-              const std::vector<LassoQuestion>& lassos, bool is_fair, const Ask& ask);
+              const std::vector<LassoQuestion>& lassos, bool is_fair, uint64_t max_states,
+              Jobs jobs, const Ask& ask);
+
+// Answers goals by an exploration that stores no state with a committed location.
+Result search_chains(const Model& model, const std::vector<Predicate>& goals,
+                     uint64_t max_states, const Ask& ask);
 
 }  // namespace core

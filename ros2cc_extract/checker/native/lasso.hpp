@@ -23,9 +23,12 @@ struct Stopped {};
 // One liveness question over an explored graph; edges are worked out again where needed.
 class LassoSearch {
  public:
-  LassoSearch(Exploration& graph, const Predicate& inside, const Predicate* start,
-              const Watch& watch)
-      : graph_(graph),
+  LassoSearch(const Model& model, const Exploration& graph, const Predicate& inside,
+              const Predicate* start, const Watch& watch)
+      : model_(model),
+        graph_(graph),
+        machine_(model, graph.layout()),
+        moves_(model, machine_),
         inside_(graph.layout(), inside),
         watch_(watch),
         colours_(graph.states().size(), UNKNOWN) {
@@ -40,7 +43,7 @@ class LassoSearch {
     });
   }
 
-  Lasso run_fair(const Model& model);
+  Lasso run_fair();
 
  private:
   enum Colour : uint8_t { UNKNOWN, OPEN, DONE, OUTSIDE };
@@ -72,8 +75,7 @@ class LassoSearch {
   bool holds(PredicateGroup& predicate, uint32_t number) {
     const uint64_t* words = graph_.states()[number];
     const bool is_deadlock = predicate.reads_deadlock() && end_of(number) == DEADLOCK_END;
-    return predicate.bits(words, is_deadlock, graph_.machine(),
-                          [&] { graph_.machine().load(words); }) != 0;
+    return predicate.bits(words, is_deadlock, machine_, [&] { machine_.load(words); }) != 0;
   }
 
   bool is_inside(uint32_t number) {
@@ -87,13 +89,12 @@ class LassoSearch {
   End each(uint32_t number, Visit&& visit) {
     look();
     const uint64_t* words = graph_.states()[number];
-    Machine& machine = graph_.machine();
-    machine.load(words);
-    bool any = false, urgent = graph_.moves().stops_time();
-    graph_.moves().each(words, [&](const Edges& edges) {
+    machine_.load(words);
+    bool any = false, urgent = moves_.stops_time();
+    moves_.each(words, [&](const Edges& edges) {
       any = true;
-      urgent = urgent || graph_.moves().is_urgent(edges);
-      visit(graph_.states().find(machine.packed.data()), edges);
+      urgent = urgent || moves_.is_urgent(edges);
+      visit(graph_.states().find(machine_.packed.data()), edges);
     });
     return !any ? DEADLOCK_END : urgent ? NO_END : IDLE_END;
   }
@@ -208,20 +209,23 @@ class LassoSearch {
     uint32_t state, successor;  // kNone: a process is disabled in `state`
   };
 
-  Bits movers(const Model& model, const Edges& edges) const {
-    Bits bits((model.locations.size() + 63) / 64, 0);
+  Bits movers(const Edges& edges) const {
+    Bits bits((model_.locations.size() + 63) / 64, 0);
     for (const int32_t edge : edges) {
-      const int32_t process = model.edges[edge].process;
+      const int32_t process = model_.edges[edge].process;
       bits[process >> 6] |= uint64_t{1} << (process & 63);
     }
     return bits;
   }
 
-  Lasso fair_in(const Model& model, uint32_t start, std::vector<uint32_t>& component);
-  std::vector<Goal> fair_goals(const Model& model, const std::vector<uint32_t>& component);
+  Lasso fair_in(uint32_t start, std::vector<uint32_t>& component);
+  std::vector<Goal> fair_goals(const std::vector<uint32_t>& component);
   void tour(Lasso& lasso, const std::vector<Goal>& goals);
 
-  Exploration& graph_;
+  const Model& model_;
+  const Exploration& graph_;
+  Machine machine_;
+  Moves moves_;
   PredicateGroup inside_;
   std::vector<PredicateGroup> start_;  // none: the initial state
   const Watch& watch_;
@@ -233,7 +237,7 @@ class LassoSearch {
 };
 
 // Tarjan's components without recursion; the first fair one from the first start counts.
-inline Lasso LassoSearch::run_fair(const Model& model) {
+inline Lasso LassoSearch::run_fair() {
   std::vector<uint32_t> numbers(graph_.states().size(), kNone), low(numbers.size());
   uint32_t counter = 0;
   struct Visit {
@@ -275,15 +279,14 @@ inline Lasso LassoSearch::run_fair(const Model& model) {
         colours_[trail.back()] = DONE;
         trail.pop_back();
       } while (component.back() != state);
-      Lasso lasso = fair_in(model, start, component);
+      Lasso lasso = fair_in(start, component);
       if (!lasso.states.empty()) return lasso;
     }
     return Lasso{};
   });
 }
 
-inline Lasso LassoSearch::fair_in(const Model& model, uint32_t start,
-                                  std::vector<uint32_t>& component) {
+inline Lasso LassoSearch::fair_in(uint32_t start, std::vector<uint32_t>& component) {
   std::sort(component.begin(), component.end());
   const uint32_t turn = component[0];
   Lasso lasso;
@@ -298,7 +301,7 @@ inline Lasso LassoSearch::fair_in(const Model& model, uint32_t start,
     if (!loops) return lasso;
   }
   for (const uint32_t state : component) members_[state] = true;
-  const std::vector<Goal> goals = fair_goals(model, component);
+  const std::vector<Goal> goals = fair_goals(component);
   if (!goals.empty()) {
     members_.clear();
     lasso.states = turn == start ? std::vector<uint32_t>{start} : path(start, turn, 0);
@@ -312,8 +315,8 @@ inline Lasso LassoSearch::fair_in(const Model& model, uint32_t start,
 
 // For each process a state where it is disabled or a step in which it moves; empty if one has none.
 inline std::vector<LassoSearch::Goal> LassoSearch::fair_goals(
-    const Model& model, const std::vector<uint32_t>& component) {
-  const size_t count = model.locations.size();
+    const std::vector<uint32_t>& component) {
+  const size_t count = model_.locations.size();
   std::vector<Goal> goals;
   std::vector<bool> served(count, false);
   size_t missing = count;
@@ -329,7 +332,7 @@ inline std::vector<LassoSearch::Goal> LassoSearch::fair_goals(
   for (const uint32_t state : component) {
     Bits enabled((count + 63) / 64, 0);
     each(state, [&](uint32_t target, const Edges& edges) {
-      const Bits bits = movers(model, edges);
+      const Bits bits = movers(edges);
       for (size_t i = 0; i < bits.size(); ++i) enabled[i] |= bits[i];
       if (members_.count(target)) note(bits, true, {state, target});
     });

@@ -46,4 +46,16 @@ class Layout {
   int word_ = 0, bit_ = 0;
 };
 
+inline std::vector<uint64_t> initial_words(const Model& model, const Layout& layout) {
+  std::vector<uint64_t> words(layout.words(), 0);
+  size_t i = 0;
+  for (const Field& field : layout.locations()) {
+    words[field.word] |= static_cast<uint64_t>(model.initial[i++]) << field.shift;
+  }
+  for (const Field& field : layout.variables()) {
+    words[field.word] |= static_cast<uint64_t>(model.initial[i++] - field.low) << field.shift;
+  }
+  return words;
+}
+
 }  // namespace core

@@ -12,6 +12,15 @@ namespace core {
 
 constexpr int64_t kMaxLoopSteps = 1000000;  // network.py: MAX_LOOP_STEPS
 
+// Hears among which names a pick chose.
+class PickJudge {
+ public:
+  virtual void picked(const Pick& pick, uint64_t names) = 0;
+
+ protected:
+  ~PickJudge() = default;
+};
+
 class Machine {
  public:
   Machine(const Model& model, const Layout& layout)
@@ -51,18 +60,31 @@ class Machine {
 
   // Reset what nobody will read, now that a process has arrived where it is.
   void forget(int32_t process) {
-    const Forgetting& forgetting = model_.forgettings[process];
-    if (forgetting.resets.empty()) return;
-    int32_t place = at[process] * forgetting.stride;
-    for (const Control& control : forgetting.controls) {
-      place += (value[control.slot] - control.low) * control.stride;
-    }
-    const int32_t list = forgetting.resets[place];
-    if (list < 0) return;
-    const int32_t* pair = model_.lists.data() + list;
+    const int32_t* pair = resets(process);
+    if (pair == nullptr) return;
     for (int32_t i = *pair++; i > 0; --i, pair += 2) {
       if (value[pair[0]] != pair[1]) set(pair[0], pair[1]);
     }
+  }
+
+  // Whether some process forgets a variable where it is.
+  bool is_dead(const Pointer& pointer) const {
+    for (const int32_t owner : pointer.owners) {
+      const int32_t* pair = resets(owner);
+      if (pair == nullptr) continue;
+      for (int32_t i = *pair++; i > 0; --i, pair += 2) {
+        if (pair[0] == pointer.slot) return true;
+      }
+    }
+    return false;
+  }
+
+  // Whether the variable was written since the state was loaded.
+  bool is_written(int32_t slot) const {
+    for (const Old& old : undo_) {
+      if (old.slot == slot) return true;
+    }
+    return false;
   }
 
   // Back to the state that was loaded; `words` are its words.
@@ -184,6 +206,9 @@ class Machine {
     for (int32_t i = 0; i < node.c; ++i) fresh[i] = evaluate(arguments[i]);
     if (depth_ == 0) passes_ = 0;
     Nested nested(*this, node.a, fresh);
+    if (!model_.picks.empty() && model_.picks[node.a].family >= 0) {
+      return pick(model_.picks[node.a]);
+    }
     block(function.body);
     return returned_;
   }
@@ -210,6 +235,33 @@ class Machine {
     int64_t* frame_;
     int32_t function_;
   };
+
+  // What the function would return, and among whom it chose.
+  int64_t pick(const Pick& pick) {
+    int64_t lowest = pick.fallback;
+    uint64_t names = 0;
+    count(int64_t{pick.high} - pick.low + 1);
+    for (int64_t name = pick.high; name >= pick.low; --name) {
+      frame_[pick.slot] = name;
+      if (evaluate(pick.condition) == 0) continue;
+      names |= uint64_t{1} << name;
+      lowest = name;
+    }
+    judge->picked(pick, names);
+    return lowest;
+  }
+
+  // The list of what is forgotten where a process is: its length, then slots and values.
+  const int32_t* resets(int32_t process) const {
+    const Forgetting& forgetting = model_.forgettings[process];
+    if (forgetting.resets.empty()) return nullptr;
+    int32_t place = at[process] * forgetting.stride;
+    for (const Control& control : forgetting.controls) {
+      place += (value[control.slot] - control.low) * control.stride;
+    }
+    const int32_t list = forgetting.resets[place];
+    return list < 0 ? nullptr : model_.lists.data() + list;
+  }
 
   void count(int64_t passes) {
     passes_ += passes;
@@ -259,6 +311,7 @@ class Machine {
   std::vector<int32_t> at, value;
   std::vector<uint64_t> packed;
   bool is_deadlock = false;
+  PickJudge* judge = nullptr;  // hears of picks; needed where the model has some
 
  private:
   std::vector<Old> undo_, moved_;

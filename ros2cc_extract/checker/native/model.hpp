@@ -70,6 +70,26 @@ struct Forgetting {
   std::vector<int32_t> resets;  // by place: offset of a list of slots and values, or -1
 };
 
+// Processes that differ in nothing but their name: see symmetry.py.
+struct Pointer {
+  int32_t slot, initial;
+  std::vector<int32_t> owners;  // processes that may forget it
+};
+struct Family {
+  std::vector<int32_t> processes, names;
+  std::vector<std::vector<int32_t>> parts;  // slots of each member, in the same order
+  std::vector<Pointer> pointers;            // slots whose value is a name
+};
+
+// A function that returns the lowest name for which a condition holds.
+struct Pick {
+  int32_t family;  // -1: the function is no such one
+  int32_t slot, low, high, condition, fallback;
+};
+
+// Thrown when a pick was among members that can be told apart.
+struct Uneven {};
+
 struct Model {
   std::vector<Node> nodes;
   std::vector<int32_t> lists;
@@ -81,6 +101,8 @@ struct Model {
   std::vector<int32_t> initial;                   // locations, then variables
   std::vector<std::vector<int32_t>> locations;    // flags, by process
   std::vector<Forgetting> forgettings;            // by process; empty: nothing is forgotten
+  std::vector<Family> families;
+  std::vector<Pick> picks;                        // by function; empty: there is none
 };
 
 // A predicate over states and the variables and locations it may read.

@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "machine.hpp"
+#include "symmetry.hpp"
 
 namespace core {
 
-// The edges that move together, sender first.
-using Edges = std::vector<int32_t>;
-
 class Moves {
  public:
-  Moves(const Model& model, Machine& machine) : model_(model), machine_(machine) {
+  Moves(const Model& model, Machine& machine)
+      : model_(model), machine_(machine), symmetry_(model, machine, moving_) {
     std::vector<std::vector<int32_t>> leaving;
     for (const auto& flags : model.locations) {
       base_.push_back(static_cast<int32_t>(flags_.size()));
@@ -43,10 +42,11 @@ class Moves {
   // back in the state `words`, which was loaded before, afterwards.
   template <class Visit>
   void each(const uint64_t* words, Visit&& visit) {
-    any_committed_ = false;
+    committed_ = 0;
     for (size_t p = 0; p < machine_.at.size(); ++p) {
-      if (flags(p) & COMMITTED) any_committed_ = true;
+      if (flags(p) & COMMITTED) ++committed_;
     }
+    symmetry_.note_source();
     for (size_t p = 0; p < machine_.at.size(); ++p) {
       // Moves change the location while they are visited, so it is read once.
       const int32_t place = base_[p] + machine_.at[p];
@@ -61,6 +61,18 @@ class Moves {
       if (flags(p)) return true;
     }
     return false;
+  }
+
+  // Whether a process is committed after the transition that is visited.
+  bool leads_to_committed(const Edges& edges) const {
+    int32_t left = committed_;
+    for (const int32_t number : edges) {
+      const Edge& edge = model_.edges[number];
+      const int32_t* flags = &flags_[base_[edge.process]];
+      if (flags[edge.source] & COMMITTED) --left;
+      if (flags[edge.target] & COMMITTED) ++left;
+    }
+    return left > 0;
   }
 
   bool is_urgent(const Edges& edges) const {
@@ -89,20 +101,38 @@ class Moves {
   template <class Visit>
   void from(int32_t number, const uint64_t* words, Visit&& visit) {
     const Edge& edge = model_.edges[number];
+    moving_.assign(1, number);
+    symmetry_.begin_step();
     if (edge.sync == NO_SYNC) {
-      if (any_committed_ && !leaves_committed(number)) return;
+      if (committed_ > 0 && !leaves_committed(number)) return;
       if (!enabled(edge)) return;
-      moving_.assign(1, number);
       take(words, visit);
       return;
     }
     if (!enabled(edge)) return;
     const int32_t at = channel(edge);
+    if (symmetry_.is_uneven()) {
+      if (is_held_back(number)) return;
+      throw Uneven{};
+    }
     if (model_.channels[at] & BROADCAST) {
       broadcast(number, at, words, visit);
     } else {
       binary(number, at, words, visit);
     }
+  }
+
+  // Whether a sender has to wait for others, whichever channel it chooses.
+  bool is_held_back(int32_t sender) const {
+    if (committed_ == 0 || leaves_committed(sender)) return false;
+    const Edge& edge = model_.edges[sender];
+    for (int32_t c = edge.channel; c < edge.channel + edge.length; ++c) {
+      for (const int32_t receiver : receivers_[c]) {
+        const Edge& other = model_.edges[receiver];
+        if (machine_.at[other.process] == other.source && leaves_committed(receiver)) return false;
+      }
+    }
+    return true;
   }
 
   bool can_receive(int32_t number, int32_t sender, int32_t at) {
@@ -115,7 +145,7 @@ class Moves {
   template <class Visit>
   void binary(int32_t sender, int32_t at, const uint64_t* words, Visit&& visit) {
     for (const int32_t receiver : receivers_[at]) {
-      if (any_committed_ && !leaves_committed(sender) && !leaves_committed(receiver)) continue;
+      if (committed_ > 0 && !leaves_committed(sender) && !leaves_committed(receiver)) continue;
       if (!can_receive(receiver, sender, at)) continue;
       moving_.assign(1, sender);
       moving_.push_back(receiver);
@@ -138,7 +168,7 @@ class Moves {
     std::vector<size_t> chosen(ready.size(), 0);
     while (true) {
       moving_.assign(1, sender);
-      bool is_allowed = !any_committed_ || leaves_committed(sender);
+      bool is_allowed = committed_ == 0 || leaves_committed(sender);
       for (size_t i = 0; i < ready.size(); ++i) {
         moving_.push_back(ready[i][chosen[i]]);
         is_allowed = is_allowed || leaves_committed(moving_.back());
@@ -152,6 +182,7 @@ class Moves {
 
   template <class Visit>
   void take(const uint64_t* words, Visit&& visit) {
+    const Symmetry::Last picked = symmetry_.last();
     for (const int32_t number : moving_) {
       const Edge& edge = model_.edges[number];
       if (edge.source != edge.target) machine_.move(edge.process, edge.target);
@@ -159,6 +190,11 @@ class Moves {
     }
     if (!model_.forgettings.empty()) {
       for (const int32_t number : moving_) machine_.forget(model_.edges[number].process);
+    }
+    if (!model_.families.empty()) {
+      if (symmetry_.is_uneven()) throw Uneven{};
+      symmetry_.order();
+      symmetry_.back_to(picked);
     }
     visit(moving_);
     machine_.restore(words);
@@ -171,7 +207,8 @@ class Moves {
   std::vector<int32_t> first_, leaving_;         // edges that do not wait for a sender
   std::vector<std::vector<int32_t>> receivers_;  // by channel
   Edges moving_;
-  bool any_committed_ = false;
+  Symmetry symmetry_;
+  int32_t committed_ = 0;
 };
 
 }  // namespace core

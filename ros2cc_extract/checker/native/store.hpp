@@ -17,7 +17,8 @@ constexpr uint32_t kNone = 0xffffffff;
 template <class T>
 class Pieces {
  public:
-  explicit Pieces(size_t width = 1) : width_(width) {}
+  // The list of pieces never moves: some threads look at states while one appends others.
+  explicit Pieces(size_t width = 1) : width_(width) { pieces_.reserve(kMostPieces); }
 
   T* operator[](uint64_t i) { return pieces_[i >> kShift].data() + (i & kMask) * width_; }
   const T* operator[](uint64_t i) const {
@@ -36,6 +37,7 @@ class Pieces {
  private:
   static constexpr int kShift = 18;
   static constexpr uint64_t kMask = (uint64_t{1} << kShift) - 1;
+  static constexpr size_t kMostPieces = size_t{1} << (32 - kShift);
   size_t width_;
   uint64_t size_ = 0;
   std::vector<Block<T>> pieces_;

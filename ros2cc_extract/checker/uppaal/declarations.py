@@ -43,17 +43,17 @@ class Declarations:
             if isinstance(node, syntax.Variables):
                 self._variables(node, scope, owner)
             elif isinstance(node, syntax.Typedef):
-                base = self._expressions.type_of(node.type, scope)
+                base = self._expressions.types.named(node.type, scope)
                 for alias in node.aliases:
-                    named = self._expressions.array_type(base, alias.dimensions, scope)
+                    named = self._expressions.types.array(base, alias.dimensions, scope)
                     scope.declare(alias.name, TypeSymbol(named), alias.line)
             elif isinstance(node, syntax.Function):
                 scope.declare(node.name, FunctionSymbol(node, scope), node.line)
 
     def _variables(self, node: syntax.Variables, scope: Scope, owner: str) -> None:
-        base = self._expressions.type_of(node.type, scope)
+        base = self._expressions.types.named(node.type, scope)
         for declarator in node.declarators:
-            declared = self._expressions.array_type(base, declarator.dimensions, scope)
+            declared = self._expressions.types.array(base, declarator.dimensions, scope)
             place = scope.place(declarator.line)
             self._tables.check_room(size_of(declared), place)
             if isinstance(scalar_of(declared), ChannelType):

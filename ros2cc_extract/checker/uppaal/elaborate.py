@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ros2cc_extract.checker.network import (
+    Call,
+    Check,
     Const,
     Direction,
     Edge,
@@ -34,7 +36,7 @@ from ros2cc_extract.checker.uppaal.instances import Definition, Instance, Instan
 from ros2cc_extract.checker.uppaal.parsing import Start, parse, parse_query
 from ros2cc_extract.checker.uppaal.tables import Tables
 from ros2cc_extract.checker.uppaal.types import ChannelType, ProcessSymbol, Scope, ValueSymbol
-from ros2cc_extract.checker.walks import has_effect
+from ros2cc_extract.checker.walks import has_effect, walk
 from ros2cc_extract.errors import ModelFormatError
 from ros2cc_extract.places import Place
 
@@ -172,6 +174,11 @@ class _ModelBuilder:
             Process(
                 name=instance.name,
                 template=node.name.value.strip(),
+                arguments=tuple(
+                    symbol.expr.low
+                    for symbol in instance.bindings.values()
+                    if isinstance(symbol, ValueSymbol) and isinstance(symbol.expr, Const)
+                ),
                 locations=tuple(
                     Location(name, raw.urgent, raw.committed)
                     for name, raw in zip(names, node.locations, strict=True)
@@ -220,16 +227,21 @@ class _ModelBuilder:
                 target=indices[raw.target],
                 guard=None if isinstance(guard, Const) else guard,
                 sync=self._sync(labels, scope),
-                updates=tuple(e for e in updates if has_effect(e, self._tables.functions)),
+                updates=tuple(e for e in updates if self._matters(e)),
                 select=select,
                 comment=labels.comment,
                 place=place,
             )
 
+    def _matters(self, update: Expr) -> bool:
+        """Whether an update assigns anything, or may be an error."""
+        may_fail = any(isinstance(node, (Call, Check)) for node in walk(update))
+        return may_fail or has_effect(update, self._tables.functions)
+
     def _selections(
         self, selects: tuple[syntax.Select, ...], outer: Scope
     ) -> Iterator[tuple[tuple[tuple[str, int], ...], Scope]]:
-        types = [self._expressions.int_type(select.type, outer) for select in selects]
+        types = [self._expressions.types.integer(select.type, outer) for select in selects]
         for values in itertools.product(*(range(t.low, t.high + 1) for t in types)):
             scope = outer.inner()
             for select, declared, value in zip(selects, types, values, strict=True):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -36,21 +35,19 @@ from ros2cc_extract.checker.uppaal.arithmetic import (
     truth,
 )
 from ros2cc_extract.checker.uppaal.tables import Tables
+from ros2cc_extract.checker.uppaal.typenames import TypeReader
 from ros2cc_extract.checker.uppaal.types import (
-    BOOL,
-    INT16,
     ArrayType,
-    ChannelType,
     IntType,
     ProcessSymbol,
     Reference,
     Scope,
     Storage,
-    Type,
     TypeSymbol,
     ValueSymbol,
     scalar_of,
     size_of,
+    suggestion,
 )
 from ros2cc_extract.checker.walks import has_effect
 from ros2cc_extract.errors import ModelFormatError
@@ -61,7 +58,6 @@ if TYPE_CHECKING:
 MAX_QUANTIFIED = 4096
 _MEND_SIZE = 'name an array that has as many elements'
 _MEND_NAME = 'name a variable'
-_MEND_SUBSET = 'docs/checker.md lists the supported subset'
 
 
 class Expressions:
@@ -75,6 +71,7 @@ class Expressions:
 
     def __init__(self, tables: Tables) -> None:
         self.tables = tables
+        self.types = TypeReader(self.constant)
         self._handlers: dict[type, Callable[[Any, Scope], Expr]] = {
             syntax.Name: self._value_of,
             syntax.Index: self._value_of,
@@ -239,7 +236,7 @@ class Expressions:
         return choice(condition, self.value(node.then, scope), self.value(node.otherwise, scope))
 
     def _quantifier(self, node: syntax.Quantifier, scope: Scope) -> Expr:
-        over = self.int_type(node.type, scope)
+        over = self.types.integer(node.type, scope)
         if over.high - over.low >= MAX_QUANTIFIED:
             raise ModelFormatError(
                 f'{node.kind} over more than {MAX_QUANTIFIED} values',
@@ -355,7 +352,7 @@ class Expressions:
                 return Reference(node.name, Storage.CONSTANT, symbol.type, 0, 1, values=(value,))
             names = sorted({*process.locations, *process.scope.names})
             what = f'{_spelled(node.owner)} has no location or variable {node.name!r}'
-            raise ModelFormatError(what, scope.place(node.line), _suggest(node.name, names))
+            raise ModelFormatError(what, scope.place(node.line), suggestion(node.name, names))
         raise ModelFormatError(
             'only variables and array elements can stand here', scope.place(node.line), _MEND_NAME
         )
@@ -416,7 +413,7 @@ class Expressions:
             return symbol
         known = sorted(n for n in scope.visible() if isinstance(scope.find(n), ProcessSymbol))
         what = f'there is no process {name!r}'
-        raise ModelFormatError(what, scope.place(node.line), _suggest(name, known))
+        raise ModelFormatError(what, scope.place(node.line), suggestion(name, known))
 
     def _process_name(self, node: syntax.Expression, scope: Scope) -> str:
         if isinstance(node, syntax.Call) and isinstance(node.function, syntax.Name):
@@ -430,88 +427,10 @@ class Expressions:
         place = scope.place(line)
         if symbol is None:
             return ModelFormatError(
-                f'{name!r} is not declared', place, _suggest(name, sorted(scope.visible()))
+                f'{name!r} is not declared', place, suggestion(name, sorted(scope.visible()))
             )
         kind = {TypeSymbol: 'a type', ProcessSymbol: 'a process'}.get(type(symbol), 'a function')
         return ModelFormatError(f'{name!r} is {kind}, not a variable', place, _MEND_NAME)
-
-    # -- types ---------------------------------------------------------------------------
-    def type_of(self, node: syntax.TypeExpression, scope: Scope) -> Type:
-        """Elaborate a type; prefixes but ``const`` are for channels."""
-        place = scope.place(node.line)
-        for prefix in node.prefixes:
-            if prefix in ('meta', 'hybrid'):
-                raise ModelFormatError(
-                    f'{prefix} variables are not supported', place, _MEND_SUBSET
-                )
-        if node.base == 'chan':
-            return ChannelType('broadcast' in node.prefixes, 'urgent' in node.prefixes)
-        if set(node.prefixes) - {'const'}:
-            raise ModelFormatError(
-                f'{node.prefixes[0]} stands before {node.base}', place, 'only channels have it'
-            )
-        if node.base == 'bool':
-            return BOOL
-        if node.base == 'int':
-            return self._int_range(node, scope)
-        symbol = scope.find(node.base)
-        if isinstance(symbol, TypeSymbol):
-            return symbol.type
-        if symbol is None and node.base not in ('clock', 'double', 'string', 'void', 'scalar'):
-            names = sorted(n for n in scope.visible() if isinstance(scope.find(n), TypeSymbol))
-            what = f'there is no type {node.base!r}'
-            raise ModelFormatError(what, place, _suggest(node.base, names))
-        raise ModelFormatError(
-            f'the type {node.base} is outside the supported subset of UPPAAL', place, _MEND_SUBSET
-        )
-
-    def _int_range(self, node: syntax.TypeExpression, scope: Scope) -> IntType:
-        if node.low is None or node.high is None:
-            return IntType(*INT16)
-        low, high = self.constant(node.low, scope), self.constant(node.high, scope)
-        if low > high:
-            raise ModelFormatError(
-                f'the range {low}..{high} is empty', scope.place(node.line), 'swap the bounds'
-            )
-        return IntType(low, high)
-
-    def int_type(self, node: syntax.TypeExpression, scope: Scope) -> IntType:
-        """Elaborate a type that must be an integer range or bool."""
-        found = self.type_of(node, scope)
-        if isinstance(found, IntType):
-            return found
-        raise ModelFormatError(
-            f'{node.base} is no integer type', scope.place(node.line), 'use an integer range'
-        )
-
-    def array_type(
-        self, base: Type, dimensions: tuple[syntax.Dimension, ...], scope: Scope
-    ) -> Type:
-        """Wrap ``base`` into arrays; a dimension is a size or a type 0..n."""
-        for dimension in reversed(dimensions):
-            base = ArrayType(base, self._length(dimension, scope))
-        return base
-
-    def _length(self, node: syntax.Dimension, scope: Scope) -> int:
-        if isinstance(node, syntax.Name):
-            symbol = scope.find(node.name)
-            if isinstance(symbol, TypeSymbol) and isinstance(symbol.type, IntType):
-                return self._length_of(symbol.type, scope, node.line)
-        if isinstance(node, syntax.TypeExpression):
-            return self._length_of(self.int_type(node, scope), scope, node.line)
-        length = self.constant(node, scope)
-        if length < 1:
-            raise ModelFormatError(
-                f'an array of {length} elements', scope.place(node.line), 'give it one or more'
-            )
-        return length
-
-    def _length_of(self, index: IntType, scope: Scope, line: int) -> int:
-        if index.low != 0:
-            raise ModelFormatError(
-                f'an array is indexed from {index.low}', scope.place(line), 'index it from 0'
-            )
-        return index.high + 1
 
     def _call(self, node: syntax.Call, scope: Scope) -> Expr:
         return self.functions.call(node, scope)
@@ -519,10 +438,3 @@ class Expressions:
 
 def _spelled(node: syntax.Expression) -> str:
     return node.name if isinstance(node, syntax.Name) else 'the expression'
-
-
-def _suggest(name: str, known: list[str]) -> str:
-    close = difflib.get_close_matches(name, known, n=1)
-    if close:
-        return f'did you mean {close[0]!r}?'
-    return 'known are ' + ', '.join(known[:8]) if known else 'declare it first'

@@ -135,8 +135,8 @@ class FunctionCompiler:
 
     def parameter_type(self, parameter: syntax.Parameter, scope: Scope) -> Type:
         """Return the declared type of a parameter."""
-        base = self._expressions.type_of(parameter.type, scope)
-        return self._expressions.array_type(base, parameter.dimensions, scope)
+        base = self._expressions.types.named(parameter.type, scope)
+        return self._expressions.types.array(base, parameter.dimensions, scope)
 
     def bound(
         self,
@@ -239,7 +239,7 @@ class FunctionCompiler:
         """Let local names stand for their initial values; false where that would not do."""
         if isinstance(declaration, syntax.Typedef):
             return False
-        base = self._expressions.type_of(declaration.type, scope)
+        base = self._expressions.types.named(declaration.type, scope)
         if not isinstance(base, IntType):
             return False
         for declarator in declaration.declarators:
@@ -290,7 +290,7 @@ class FunctionCompiler:
     def _return_type(self, symbol: FunctionSymbol) -> IntType | None:
         if symbol.function.type.base == 'void':
             return None
-        return self._expressions.int_type(symbol.function.type, symbol.scope)
+        return self._expressions.types.integer(symbol.function.type, symbol.scope)
 
     def _compile(
         self, symbol: FunctionSymbol, references: dict[str, Reference]
@@ -342,10 +342,10 @@ class FunctionCompiler:
         inner = scope.inner()
         result: list[Stmt] = []
         for declaration in block.declarations:
-            base = self._expressions.type_of(declaration.type, inner)
+            base = self._expressions.types.named(declaration.type, inner)
             if isinstance(declaration, syntax.Typedef):
                 for alias in declaration.aliases:
-                    named = self._expressions.array_type(base, alias.dimensions, inner)
+                    named = self._expressions.types.array(base, alias.dimensions, inner)
                     inner.declare(alias.name, TypeSymbol(named), alias.line)
                 continue
             is_const = 'const' in declaration.type.prefixes
@@ -363,7 +363,7 @@ class FunctionCompiler:
         scope: Scope,
         frame: _Frame,
     ) -> list[Stmt]:
-        declared = self._expressions.array_type(base, declarator.dimensions, scope)
+        declared = self._expressions.types.array(base, declarator.dimensions, scope)
         line = declarator.line
         whole = _local(frame, declarator.name, declared, scope, line, False)
         cells = self._expressions.elements(whole)
@@ -429,7 +429,7 @@ class FunctionCompiler:
         return [self._return(node, scope, frame)]
 
     def _iteration(self, node: syntax.Iteration, scope: Scope, frame: _Frame) -> list[Stmt]:
-        over = self._expressions.int_type(node.type, scope)
+        over = self._expressions.types.integer(node.type, scope)
         inner = scope.inner()
         line = node.type.line
         variable = _local(frame, node.variable, over, scope, line, True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -171,3 +172,11 @@ class Scope:
     def visible(self) -> set[str]:
         """Return all names that can be used here."""
         return set(self.names) | (self.outer.visible() if self.outer else set())
+
+
+def suggestion(name: str, known: list[str]) -> str:
+    """Return how to mend a name that is not known."""
+    close = difflib.get_close_matches(name, known, n=1)
+    if close:
+        return f'did you mean {close[0]!r}?'
+    return 'known are ' + ', '.join(known[:8]) if known else 'declare it first'

@@ -11,9 +11,13 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from ros2cc_extract.generator.build import Family
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify import Options, Verdict, Verification, verify_unit
+from ros2cc_extract.verify.unit import Options, Verdict, Verification, verify_unit
+
+PROGRESS = Family.PROGRESS.value
+OF_DEADLOCK = (Family.DEADLOCK.value, PROGRESS, Family.POOL_EXHAUSTION.value)
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,20 @@ class Sweep:
     unit: str
     points: tuple[Point, ...]
     verifications: tuple[Verification, ...]
+
+    def least_threads(self) -> int | None:
+        """
+        Give the smallest thread count from which on nobody waits for ever.
+
+        Of the counts that were asked, with every arrival bound; ``None`` if none of them will
+        do, or if the profile does not ask.
+        """
+        stuck = [
+            p.threads for p, v in zip(self.points, self.verifications, strict=True) if _hangs(v)
+        ]
+        asked = any(r.family == PROGRESS for v in self.verifications for r in v.results)
+        enough = [p.threads for p in self.points if p.threads > max(stuck, default=0)]
+        return min(enough) if asked and enough else None
 
     def turns(self) -> tuple[Turn, ...]:
         """List where a verdict changes from one thread count to the next."""
@@ -89,6 +107,15 @@ def run_sweep(
             done.append(verification)
             on_done(len(done))
     return Sweep(unit.name, tuple(settings), tuple(done))
+
+
+def _hangs(verification: Verification) -> bool:
+    """What is undecided may hang too."""
+    return any(
+        result.verdict is not Verdict.SATISFIED
+        for result in verification.results
+        if result.family in OF_DEADLOCK
+    )
 
 
 def _at(options: Options, point: Point) -> Options:

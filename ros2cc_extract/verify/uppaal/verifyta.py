@@ -3,7 +3,9 @@ Asks UPPAAL's own ``verifyta``, where it is installed: finds it, runs it, reads 
 
 Verdicts are taken from its text; its exit status says nothing dependable. Options used (``verifyta
 --help`` of 4.1 and 5.0): ``-u`` figures after each query, ``-s`` no progress, ``-o 0`` breadth
-first.
+first, ``-t 0`` prints the run behind a verdict. Verdicts go to its standard output, runs and
+complaints to its error stream, as programs that read them know (Jack0Chan/PyUPPAAL,
+``verifyta.py``; uppaal-emf/uppaal, ``DiagnosticTrace.xtext``).
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import chain
 from pathlib import Path
@@ -23,17 +25,19 @@ from pathlib import Path
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import ToolNotFoundError
 from ros2cc_extract.places import Place
+from ros2cc_extract.verify.uppaal.verifyta_trace import PrintedRun, read_runs
 
 PROGRAM = 'verifyta'
 USUAL_FOLDERS = ('/opt', '/usr/local', '/usr/local/share', '~', '~/opt', '~/.local/share')
-ARGUMENTS = ('-u', '-s', '-o', '0')
+ARGUMENTS = ('-u', '-s', '-o', '0', '-t', '0')
 _TERMINAL_CODE = re.compile(r'\x1b\[[0-9;?]*[A-Za-z]')
 _LICENCE = re.compile(r'licen[cs]e|failed to retrieve', re.IGNORECASE)
 _VERDICTS = (
-    (re.compile(r'Formula is satisfied'), Verdict.SATISFIED),
-    (re.compile(r'Formula is NOT satisfied'), Verdict.NOT_SATISFIED),
-    (re.compile(r'Formula MAY'), Verdict.UNDECIDED),
+    (re.compile(r'(?:Formula|Property) is satisfied'), Verdict.SATISFIED),
+    (re.compile(r'(?:Formula|Property) is NOT satisfied'), Verdict.NOT_SATISFIED),
+    (re.compile(r'(?:Formula|Property) MAY'), Verdict.UNDECIDED),
 )
+_SHOWS_RUN = re.compile(r'Showing (?:counter example|example trace)')
 _STATES = re.compile(r'States stored\s*:\s*(\d+)')
 _MEMORY = re.compile(r'Resident memory used\s*:\s*(\d+) KiB')
 
@@ -57,6 +61,7 @@ class VerifytaAnswer:
     :param seconds: of the whole process that gave it.
     :param states: stored states, 0 where it printed none.
     :param peak_mb: resident memory, 0.0 where it printed none.
+    :param printed: states of the run that it printed, not replayed yet; empty where it did not.
     """
 
     verdict: Verdict
@@ -64,6 +69,7 @@ class VerifytaAnswer:
     seconds: float
     states: int
     peak_mb: float
+    printed: PrintedRun = ()
 
 
 def find_verifyta(given: Path | None = None) -> Path:
@@ -111,7 +117,7 @@ def _is_program(path: Path) -> bool:
 
 def run_verifyta(
     program: Path,
-    xml: str,
+    xml: bytes,
     formulas: Sequence[str],
     *,
     runs: Runs = Runs.TOGETHER,
@@ -127,7 +133,7 @@ def run_verifyta(
     deadline = None if seconds is None else time.monotonic() + seconds
     with tempfile.TemporaryDirectory(prefix='ros2cc-') as folder:
         model = Path(folder) / 'model.xml'
-        model.write_text(xml, encoding='utf-8')
+        model.write_bytes(xml)
         batches = [formulas] if runs is Runs.TOGETHER else [[formula] for formula in formulas]
         return tuple(
             answer for batch in batches for answer in _batch(program, model, batch, deadline)
@@ -140,46 +146,62 @@ def _batch(
     queries = model.with_suffix('.q')
     queries.write_text('\n'.join(formulas) + '\n', encoding='utf-8')
     started = time.monotonic()
-    text, in_time = _call([str(program), *ARGUMENTS, str(model), str(queries)], deadline)
+    said, complained, in_time = _call(
+        [str(program), *ARGUMENTS, str(model), str(queries)], deadline
+    )
     seconds = time.monotonic() - started
-    answers = read_answers(text, seconds)
+    answers = read_answers(said, seconds, read_runs(complained) or read_runs(said))
     missing = len(formulas) - len(answers)
     if missing and in_time:
-        raise _no_verdict(program, text)
+        raise _no_verdict(program, f'{said}\n{complained}')
     late = VerifytaAnswer(
         verdict=Verdict.UNDECIDED, reason='time limit', seconds=seconds, states=0, peak_mb=0.0
     )
     return (*answers, *[late] * missing)
 
 
-def _call(command: Sequence[str], deadline: float | None) -> tuple[str, bool]:
-    """Run to the end or the deadline; what was printed, and whether it ended by itself."""
+def _call(command: Sequence[str], deadline: float | None) -> tuple[str, str, bool]:
+    """Run to the end or the deadline; output, error stream, and whether it ended by itself."""
     left = None if deadline is None else max(0.1, deadline - time.monotonic())
     try:
         done = subprocess.run(
             command,
             stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
+            capture_output=True,
             timeout=left,
             check=False,
         )
     except subprocess.TimeoutExpired as expired:
-        return _decoded(expired.stdout), False
+        return _decoded(expired.stdout), _decoded(expired.stderr), False
     except OSError as error:
         place = Place(command[0])
         raise ToolNotFoundError(f'cannot be started: {error.strerror}', place) from None
-    return _decoded(done.stdout), True
+    return _decoded(done.stdout), _decoded(done.stderr), True
 
 
 def _decoded(output: bytes | None) -> str:
     return _TERMINAL_CODE.sub('', (output or b'').decode('utf-8', 'replace'))
 
 
-def read_answers(text: str, seconds: float) -> tuple[VerifytaAnswer, ...]:
-    """Read the verdicts of one run, in the order of its queries, from what it printed."""
+def read_answers(
+    text: str, seconds: float, runs: Sequence[PrintedRun] = ()
+) -> tuple[VerifytaAnswer, ...]:
+    """
+    Read the verdicts of one call, in the order of its queries, from what it printed.
+
+    :param runs: those it printed, in order; the verdicts say which of them have one. When it
+        announced more or fewer, nobody can say whose they are and none is kept.
+    """
     blocks = re.split(r'Verifying (?:formula|property) \d+', _TERMINAL_CODE.sub('', text))[1:]
-    return tuple(answer for block in blocks if (answer := _answer(block, seconds)))
+    shows = [_SHOWS_RUN.search(block) is not None for block in blocks]
+    left = iter(runs if len(runs) == sum(shows) else [()] * len(blocks))
+    printed = [next(left) if announced else () for announced in shows]
+    answers = (_answer(block, seconds) for block in blocks)
+    return tuple(
+        replace(answer, printed=run)
+        for answer, run in zip(answers, printed, strict=True)
+        if answer is not None
+    )
 
 
 def _answer(block: str, seconds: float) -> VerifytaAnswer | None:
@@ -208,7 +230,7 @@ def _no_verdict(program: Path, text: str) -> ToolNotFoundError:
         return LicenceError(
             f'refuses to work without a licence ({line})',
             Place(str(program)),
-            'set its key once with `verifyta --key KEY`, or use the embedded checker',
+            'lease it once with `verifyta --lease 168 --key KEY`; the embedded checker needs none',
         )
     said = lines[-1] if lines else 'it printed nothing'
     return ToolNotFoundError(f'gave no verdict: {said}', Place(str(program)))

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from ros2cc_extract.checker.api import EdgeRef, Run, StateView
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.uppaal.run import UppaalRun
 
 _PHRASE = re.compile(r'\{(callback|thread|group|executor)(?:\s+([^{}]+))?\}')
 
@@ -56,12 +57,22 @@ class Evidence:
     :param start: location of every process before the first moment.
     :param cycle_from: number of the moment from which the run repeats for ever.
     :param ends: how a run without a cycle ends for good (``deadlock``, ``idle``), if it does.
+    :param left_out: how many moments are not among ``moments``, since they have no part in it.
+    :param closing: what the run ends in, in a sentence.
+    :param origin: the run that was told, step by step; it stays behind when evidence is pickled,
+        as it holds the whole model.
     """
 
     start: Mapping[str, str]
     moments: tuple[Moment, ...]
     cycle_from: int | None
     ends: str | None
+    left_out: int = 0
+    closing: str = ''
+    origin: UppaalRun | None = field(default=None, repr=False, compare=False)
+
+    def __getstate__(self) -> dict[str, object]:
+        return {**self.__dict__, 'origin': None}
 
 
 @dataclass(frozen=True)
@@ -93,9 +104,14 @@ class Names:
 
 
 def tell(run: Run, names: Names) -> Evidence:
-    """Turn a replayed run into moments; steps without words are passed over."""
-    has_words = any(edge.comment for step in run.steps for edge in step.edges)
-    phrase = _spoken(names) if has_words else _located
+    """
+    Turn a replayed run into moments.
+
+    Where comments have names in braces, as ours do, steps without words are passed over; of a
+    model of somebody else every step is told, by its comment or else by its locations.
+    """
+    comments = (edge.comment for step in run.steps for edge in step.edges)
+    phrase = _spoken(names) if any(map(_PHRASE.search, comments)) else _located
     moments: list[Moment] = []
     cycle_from: int | None = None
     before = run.initial
@@ -145,6 +161,8 @@ def _spoken(names: Names) -> Phrase:
 
 
 def _located(edge: EdgeRef, state: StateView) -> str:
+    if edge.comment:
+        return f'{edge.process}: {" ".join(edge.comment.split())}'
     channel = f' ({edge.channel})' if edge.channel else ''
     return f'{edge.process}: {edge.source} -> {edge.target}{channel}'
 

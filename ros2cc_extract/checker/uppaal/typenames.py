@@ -1,0 +1,107 @@
+"""Elaborates types: ranges, channels, names of typedefs, and the sizes of arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ros2cc_extract.checker.uppaal import syntax
+from ros2cc_extract.checker.uppaal.types import (
+    BOOL,
+    INT16,
+    ArrayType,
+    ChannelType,
+    IntType,
+    Scope,
+    Type,
+    TypeSymbol,
+    suggestion,
+)
+from ros2cc_extract.errors import ModelFormatError
+
+_MEND_SUBSET = 'docs/checker.md lists the supported subset'
+
+
+class TypeReader:
+    """
+    Reads the types of a model.
+
+    :param constant: elaborates a bound or a size, which no state may change.
+    """
+
+    def __init__(self, constant: Callable[[syntax.Expression, Scope], int]) -> None:
+        self._constant = constant
+
+    def named(self, node: syntax.TypeExpression, scope: Scope) -> Type:
+        """Elaborate a type; prefixes but ``const`` are for channels."""
+        place = scope.place(node.line)
+        for prefix in node.prefixes:
+            if prefix in ('meta', 'hybrid'):
+                raise ModelFormatError(
+                    f'{prefix} variables are not supported', place, _MEND_SUBSET
+                )
+        if node.base == 'chan':
+            return ChannelType('broadcast' in node.prefixes, 'urgent' in node.prefixes)
+        if set(node.prefixes) - {'const'}:
+            raise ModelFormatError(
+                f'{node.prefixes[0]} stands before {node.base}', place, 'only channels have it'
+            )
+        if node.base == 'bool':
+            return BOOL
+        if node.base == 'int':
+            return self._int_range(node, scope)
+        symbol = scope.find(node.base)
+        if isinstance(symbol, TypeSymbol):
+            return symbol.type
+        if symbol is None and node.base not in ('clock', 'double', 'string', 'void', 'scalar'):
+            names = sorted(n for n in scope.visible() if isinstance(scope.find(n), TypeSymbol))
+            what = f'there is no type {node.base!r}'
+            raise ModelFormatError(what, place, suggestion(node.base, names))
+        raise ModelFormatError(
+            f'the type {node.base} is outside the supported subset of UPPAAL', place, _MEND_SUBSET
+        )
+
+    def _int_range(self, node: syntax.TypeExpression, scope: Scope) -> IntType:
+        if node.low is None or node.high is None:
+            return IntType(*INT16)
+        low, high = self._constant(node.low, scope), self._constant(node.high, scope)
+        if low > high:
+            raise ModelFormatError(
+                f'the range {low}..{high} is empty', scope.place(node.line), 'swap the bounds'
+            )
+        return IntType(low, high)
+
+    def integer(self, node: syntax.TypeExpression, scope: Scope) -> IntType:
+        """Elaborate a type that must be an integer range or bool."""
+        found = self.named(node, scope)
+        if isinstance(found, IntType):
+            return found
+        raise ModelFormatError(
+            f'{node.base} is no integer type', scope.place(node.line), 'use an integer range'
+        )
+
+    def array(self, base: Type, dimensions: tuple[syntax.Dimension, ...], scope: Scope) -> Type:
+        """Wrap ``base`` into arrays; a dimension is a size or a type 0..n."""
+        for dimension in reversed(dimensions):
+            base = ArrayType(base, self._length(dimension, scope))
+        return base
+
+    def _length(self, node: syntax.Dimension, scope: Scope) -> int:
+        if isinstance(node, syntax.Name):
+            symbol = scope.find(node.name)
+            if isinstance(symbol, TypeSymbol) and isinstance(symbol.type, IntType):
+                return self._length_of(symbol.type, scope, node.line)
+        if isinstance(node, syntax.TypeExpression):
+            return self._length_of(self.integer(node, scope), scope, node.line)
+        length = self._constant(node, scope)
+        if length < 1:
+            raise ModelFormatError(
+                f'an array of {length} elements', scope.place(node.line), 'give it one or more'
+            )
+        return length
+
+    def _length_of(self, index: IntType, scope: Scope, line: int) -> int:
+        if index.low != 0:
+            raise ModelFormatError(
+                f'an array is indexed from {index.low}', scope.place(line), 'index it from 0'
+            )
+        return index.high + 1

@@ -1,0 +1,184 @@
+"""
+Work on all cores: forked children that inherit everything and send small results back.
+
+A child answers requests in its own copy of the process, so nothing but requests and answers
+is ever pickled. What a child cannot finish is done by the parent, where it fails as it would
+have failed without children.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+    from multiprocessing.context import ForkProcess
+
+Request = TypeVar('Request')
+Answer = TypeVar('Answer')
+Done = Callable[[int], None]
+
+
+def usable_cores(wanted: int | None = None) -> int:
+    """
+    How many processes may share the work; one where a fork is not possible or not safe.
+
+    :param wanted: as the user says; by default all cores this process may use.
+    """
+    alone = threading.active_count() == 1
+    if not alone or sys.platform != 'linux' or not hasattr(os, 'fork'):
+        return 1
+    return wanted or len(os.sched_getaffinity(0))
+
+
+class Crew(Generic[Request, Answer]):
+    """
+    Children that answer requests; use as a context manager.
+
+    :param answer: runs in a child, or here where there is none.
+    :param size: number of children; none are made for one.
+    """
+
+    def __init__(self, answer: Callable[[Request], Answer], size: int) -> None:
+        self._answer = answer
+        self._children: list[ForkProcess] = []
+        self._lines: list[Connection | None] = []
+        self.size = size
+
+    def __enter__(self) -> Crew[Request, Answer]:
+        if self.size > 1:
+            with _no_interrupts():
+                for _ in range(self.size):
+                    self._start_child()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with _no_interrupts():  # a second Ctrl-C must not leave a child behind
+            for line in self._lines:
+                if line is not None:
+                    line.close()
+            for child in self._children:
+                child.kill()
+                child.join()
+
+    def ask(
+        self,
+        requests: Sequence[Request],
+        by: Sequence[int | None] | None = None,
+        done: Done = lambda number: None,
+    ) -> list[tuple[Answer, int | None]]:
+        """
+        Answer ``requests``, each by the child named in ``by`` or by whoever is free.
+
+        :param done: called with the number of each request that is answered.
+        :return: answers in the order of the requests, and which child gave them.
+        """
+        found: dict[int, tuple[Answer, int | None]] = {}
+        for number, given in self._answers(requests, by or [None] * len(requests)):
+            found[number] = given
+            done(number)
+        for number, request in enumerate(requests):
+            if number not in found:
+                found[number] = (self._answer(request), None)
+                done(number)
+        return [found[number] for number in range(len(requests))]
+
+    def _answers(
+        self, requests: Sequence[Request], by: Sequence[int | None]
+    ) -> Iterator[tuple[int, tuple[Answer, int]]]:
+        from multiprocessing.connection import wait
+
+        own = [deque(n for n, who in enumerate(by) if who == i) for i in range(self.size)]
+        common = deque(number for number, who in enumerate(by) if who is None)
+        busy: dict[Any, tuple[int, int]] = {}
+        for child in range(len(self._lines)):
+            self._next(child, own, common, requests, busy)
+        while busy:
+            for line in wait(list(busy)):
+                number, child = busy.pop(line)
+                answer = self._received(child)
+                if answer is not None:
+                    yield number, (answer[0], child)
+                self._next(child, own, common, requests, busy)
+
+    def _next(
+        self,
+        child: int,
+        own: list[deque[int]],
+        common: deque[int],
+        requests: Sequence[Request],
+        busy: dict[Any, tuple[int, int]],
+    ) -> None:
+        """Give ``child`` its next request, if it lives and there is one."""
+        line = self._lines[child]
+        queue = own[child] or common
+        if line is None or not queue:
+            return
+        number = queue.popleft()
+        try:
+            line.send(requests[number])
+        except OSError:
+            self._lines[child] = None
+            return
+        busy[line] = number, child
+
+    def _received(self, child: int) -> tuple[Answer] | None:
+        """The answer of ``child``; ``None`` when it could not give one."""
+        line = self._lines[child]
+        assert line is not None, 'only asked of children that are busy'
+        try:
+            answer: tuple[Answer] | None = pickle.loads(line.recv_bytes())
+        except (EOFError, OSError):
+            self._lines[child] = None
+            return None
+        return answer
+
+    def _start_child(self) -> None:
+        import multiprocessing
+
+        context = multiprocessing.get_context('fork')
+        here, there = context.Pipe()
+        child = context.Process(target=_serve, args=(there, here, self._answer), daemon=True)
+        child.start()
+        there.close()
+        self._children.append(child)
+        self._lines.append(here)
+
+
+def _serve(line: Connection, parents: Connection, answer: Callable[[Request], Answer]) -> None:
+    """Answer until the parent hangs up; an interrupt is the parent's to handle."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    parents.close()
+    while True:
+        try:
+            request = line.recv()
+        except (EOFError, OSError):
+            return
+        line.send_bytes(_packed(answer, request))
+
+
+def _packed(answer: Callable[[Request], Answer], request: Request) -> bytes:
+    """The pickled answer; ``None`` when there is none to be had here, whatever the reason."""
+    try:
+        return pickle.dumps((answer(request),), pickle.HIGHEST_PROTOCOL)
+    except Exception:  # the parent tries again, and fails as it would have without children
+        return pickle.dumps(None)
+
+
+@contextmanager
+def _no_interrupts() -> Iterator[None]:
+    """Ctrl-C waits: no child is left half started, or behind."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

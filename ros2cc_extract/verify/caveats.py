@@ -1,0 +1,46 @@
+"""What the model of a unit leaves out or changes, in words beside its verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
+from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.spec.model import Spec
+
+
+def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
+    """Say what the reader of all verdicts should know."""
+    yield from _threads_of_no_use(unit, profile)
+    blocking = any(callback.blocking for callback in unit.callbacks)
+    if profile is Profile.PAPER and blocking:
+        yield 'the published model knows no blocking calls; the findings tell of them'
+
+
+def left_out_of_deadlocks(unit: Spec, profile: Profile) -> str:
+    """
+    Begin the words on dead-locks where the model leaves waits out; empty where it does not.
+
+    Nobody shall read that there is no dead-lock beside a finding that shows one.
+    """
+    waits = any(any(waits_of(callback, unit)) for callback in unit.callbacks)
+    return 'blocking calls left out, ' if profile is Profile.PAPER and waits else ''
+
+
+def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
+    """Say what becomes of threads that were asked for an executor without a pool."""
+    executor = unit.executor
+    has_pool = executor_kind(unit) is ExecutorKind.MULTI_THREADED
+    if has_pool or len(executor.threads) == 1:
+        return
+    if profile is Profile.RCLPY:
+        yield (
+            f'{executor.kind} runs callbacks on one thread, whatever number is asked; to try a '
+            'pool, write kind: MultiThreadedExecutor into the specification'
+        )
+    else:
+        yield (
+            f'{executor.kind} runs callbacks on one thread; the published model has a pool of '
+            'as many as asked'
+        )

@@ -1,0 +1,267 @@
+"""
+Decides the queries of a large unit with few states: by slices, and each shape of slice once.
+
+What slices cannot decide is asked of the whole unit, as far as the limits go.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
+from ros2cc_extract.generator.build import Family, Query
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.slices import Names, Shape, Slicer, shape_of
+
+if TYPE_CHECKING:
+    from ros2cc_extract.verify.unit import QueryResult
+
+#: A unit of up to so many callbacks is explored as a whole if it has no more states than that.
+SMALL = 8
+FIRST_LOOK_STATES = 20_000
+SLICE_STATES = 200_000
+Key = tuple[Family, tuple[str, ...], tuple[str, ...]]
+Role = tuple[Family, tuple[int, ...], tuple[int, ...]]
+
+
+def key_of(query: Query) -> Key:
+    """What a query is about; equal in a unit and in its slices."""
+    return query.family, query.callbacks, query.groups
+
+
+@dataclass(frozen=True)
+class Found:
+    """
+    What one search has found, or several together.
+
+    :param check: of the whole unit or of the first slice; counts are of all.
+    :param by_slices: how many results are from slices.
+    """
+
+    results: dict[Key, QueryResult]
+    check: CheckResult
+    by_slices: int = 0
+
+
+Search = Callable[[ClosedSpec, Sequence[Key], Limits], Found]
+
+
+def narrow(
+    closed: ClosedSpec, queries: Sequence[Query], max_cycle: int, search: Search, limits: Limits
+) -> Found:
+    """Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each."""
+    clock = _Clock(limits, time.monotonic())
+    found: Found | None = None
+    if len(closed.spec.callbacks) <= SMALL:
+        first = replace(limits, states=FIRST_LOOK_STATES)
+        found = search(closed, [key_of(query) for query in queries], first)
+        if found.check.complete:
+            return found
+    left = [q for q in queries if found is None or _is_open(found.results[key_of(q)])]
+    slicer = Slicer(closed, max_cycle)
+    slicing = _Slicing(slicer, search, clock)
+    # Who starves follows from who comes to no end, as a rule.
+    for last in (False, True):
+        part = slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
+        if part is not None:
+            found = part if found is None else _joined(found, part)
+        if found is not None:
+            found = _derive(found, left, slicer)
+            left = [q for q in left if _is_undecided(found.results.get(key_of(q)))]
+    results = {} if found is None else found.results
+    rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
+    if rest or found is None:
+        whole = search(closed, rest, clock.remaining or replace(limits, states=1))
+        found = whole if found is None else _joined(found, whole)
+    complete = not any(map(_is_open, found.results.values()))
+    return replace(found, check=replace(found.check, complete=complete))
+
+
+def _is_undecided(result: QueryResult | None) -> bool:
+    return result is None or _is_open(result)
+
+
+@dataclass(frozen=True)
+class _Clock:
+    limits: Limits
+    started: float
+
+    @property
+    def remaining(self) -> Limits | None:
+        """What is left of the time; ``None`` when nothing is."""
+        if self.limits.seconds is None:
+            return self.limits
+        seconds = self.limits.seconds - (time.monotonic() - self.started)
+        return replace(self.limits, seconds=seconds) if seconds > 0 else None
+
+
+@dataclass(frozen=True)
+class _Question:
+    """One query, asked of one slice."""
+
+    part: ClosedSpec
+    key: Key
+
+    @property
+    def role(self) -> Role:
+        """The query by places in the slice; slices of one shape share it."""
+        callbacks = [callback.name for callback in self.part.spec.callbacks]
+        groups = [group.name for group in self.part.spec.groups]
+        family, named, of_groups = self.key
+        return (
+            family,
+            tuple(map(callbacks.index, named)),
+            tuple(map(groups.index, of_groups)),
+        )
+
+
+@dataclass(frozen=True)
+class _Slicing:
+    slicer: Slicer
+    search: Search
+    clock: _Clock
+
+    def decide(self, queries: Iterable[Query]) -> Found | None:
+        """Ask every slice of ``queries``; ``None`` where none of them has any."""
+        asked: dict[Shape, list[_Question]] = {}
+        parts: dict[Names, tuple[ClosedSpec, Shape]] = {}
+        for query in queries:
+            for names in self._slices(query):
+                if names not in parts:
+                    part = self.slicer.cut(names)
+                    parts[names] = (part, shape_of(part.spec))
+                part, shape = parts[names]
+                asked.setdefault(shape, []).append(_Question(part, key_of(query)))
+        found: Found | None = None
+        for questions in asked.values():
+            remaining = self.clock.remaining
+            if remaining is not None:
+                answered = self._ask(questions, replace(remaining, states=SLICE_STATES))
+                found = answered if found is None else _joined(found, answered)
+        return found
+
+    def _slices(self, query: Query) -> Iterator[Names]:
+        names = self.slicer.slice_for(query)
+        if names is not None and len(names) < len(self.slicer.closed.spec.callbacks):
+            yield names
+
+    def _ask(self, questions: Sequence[_Question], limits: Limits) -> Found:
+        """Ask questions of slices of one shape: each role once, of the first slice."""
+        part = questions[0].part
+        keys = {question.role: _key_in(part.spec, question.role) for question in questions}
+        answered = self.search(part, list(keys.values()), limits)
+        results: dict[Key, QueryResult] = {}
+        for question in questions:
+            result = answered.results[keys[question.role]]
+            if question.part is not part and result.run is not None:
+                result = replace(result, run=partial(self._evidence, question))
+            if question.key not in results or _weighs_more(result, results[question.key]):
+                results[question.key] = result
+        return Found(results, answered.check, sum(not _is_open(r) for r in results.values()))
+
+    def _evidence(self, question: _Question) -> Evidence:
+        """Find the run of a slice of which another one of its shape was asked."""
+        found = self.search(question.part, [question.key], Limits())
+        evidence = found.results[question.key].evidence
+        assert evidence is not None, 'only asked of results that have a run'
+        return evidence
+
+
+def _key_in(part: Spec, role: Role) -> Key:
+    family, callbacks, groups = role
+    return (
+        family,
+        tuple(part.callbacks[place].name for place in callbacks),
+        tuple(part.groups[place].name for place in groups),
+    )
+
+
+def _is_open(result: QueryResult) -> bool:
+    return result.verdict is Verdict.UNDECIDED
+
+
+def _weighs_more(new: QueryResult, old: QueryResult) -> bool:
+    """Of slices asked for a dead-lock one that has one decides, then one that may have one."""
+    weights = {Verdict.NOT_SATISFIED: 2, Verdict.UNDECIDED: 1, Verdict.SATISFIED: 0}
+    return weights[new.verdict] > weights[old.verdict]
+
+
+def _joined(found: Found, part: Found) -> Found:
+    """Add what a slice, or the whole unit, has decided."""
+    results = dict(found.results)
+    for key, result in part.results.items():
+        if key not in results or _is_open(results[key]) or _weighs_more(result, results[key]):
+            results[key] = result
+    one, other = found.check, part.check
+    check = replace(
+        one,
+        states=one.states + other.states,
+        transitions=one.transitions + other.transitions,
+        seconds=one.seconds + other.seconds,
+        peak_mb=max(one.peak_mb, other.peak_mb),
+    )
+    return Found(results, check, found.by_slices + part.by_slices)
+
+
+def _derive(found: Found, queries: Iterable[Query], slicer: Slicer) -> Found:
+    """Decide what follows from verdicts on slices; see docs/profile-rclpy.md, *Slices*."""
+    results = dict(found.results)
+    for query in queries:
+        result = results.get(key_of(query))
+        if result is None or _is_open(result):
+            derived = _derived(query, found, slicer)
+            if derived is not None:
+                results[key_of(query)] = replace(derived, family=query.family.value)
+    return replace(found, results=results)
+
+
+def _derived(query: Query, found: Found, slicer: Slicer) -> QueryResult | None:
+    if query.family is Family.SERIAL:
+        return _never_together(found, slicer.closed.spec)
+    if not slicer.has_threads_to_spare:
+        return None
+    if query.family is Family.DEADLOCK:
+        return _all_end(found, slicer.waiting)
+    if query.family is Family.STARVATION:
+        # A run of its own that is suspended keeps a callback from being started again.
+        holders = slicer.holders(query.callbacks[0]) | (slicer.waiting & set(query.callbacks))
+        ends = _all_end(found, holders) if slicer.only_asks(holders) else None
+        return ends if ends is not None and ends.verdict is Verdict.SATISFIED else None
+    if query.family is Family.POOL_EXHAUSTION:
+        return _satisfied(found)
+    return None
+
+
+def _all_end(found: Found, names: Names) -> QueryResult | None:
+    """Whether all of ``names`` come to an end, or one that does not; ``None`` if that is open."""
+    ends = [found.results.get((Family.PROGRESS, (name,), ())) for name in sorted(names)]
+    for result in ends:
+        if result is not None and result.verdict is Verdict.NOT_SATISFIED:
+            return result
+    all_hold = all(r is not None and r.verdict is Verdict.SATISFIED for r in ends)
+    return _satisfied(found) if all_hold else None
+
+
+def _satisfied(found: Found) -> QueryResult:
+    some = next(iter(found.results.values()))
+    return replace(some, verdict=Verdict.SATISFIED, reason=None, run=None)
+
+
+def _never_together(found: Found, spec: Spec) -> QueryResult | None:
+    """No two threads run at once if no two callbacks do, and none overlaps itself."""
+    apart = [r for (family, *_), r in found.results.items() if family in _OF_ONE_THREAD]
+    refuted = next((r for r in apart if r.verdict is Verdict.NOT_SATISFIED), None)
+    size = len(spec.callbacks)
+    all_hold = all(r.verdict is Verdict.SATISFIED for r in apart)
+    if refuted is None and all_hold and len(apart) == size * (size + 1) // 2:
+        return apart[0]
+    return refuted
+
+
+_OF_ONE_THREAD = (Family.NEVER_TOGETHER, Family.SELF_OVERLAP)

@@ -1,0 +1,279 @@
+"""
+Slices of a unit: for a question, the callbacks that can make a difference to its answer.
+
+A slice is a unit of its own, with the same executor. A run of it is a run of the whole unit in
+which the others get no data; and what the whole unit does to the callbacks of a slice, the slice
+does too, as docs/profile-rclpy.md (*Slices*) argues. Where that does not hold there is no slice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property
+
+from ros2cc_extract.generator.build import Family, Query
+from ros2cc_extract.generator.left_out import left_out_of_models
+from ros2cc_extract.generator.serving import (
+    GUARD_RANK,
+    TASK_RANK,
+    ExecutorKind,
+    executor_kind,
+    rank_of,
+)
+from ros2cc_extract.generator.waits import (
+    NamedWait,
+    WaitKind,
+    asks_the_graph,
+    is_absent,
+    waits_of,
+)
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
+from ros2cc_extract.spec.partners import (
+    client_before,
+    is_client,
+    is_done_callback,
+    server_of,
+)
+
+Names = frozenset[str]
+Shape = tuple[object, ...]
+#: Waitables of all nodes are served before anything else of any node (``generator.serving``).
+WAITABLE_RANK = 1
+#: Claims that rest on others coming to an end, and on a free thread.
+OF_ENDS = (Family.STARVATION, Family.PROGRESS)
+#: Claims about all callbacks at once.
+OF_THE_UNIT = (Family.DEADLOCK, Family.POOL_EXHAUSTION, Family.SERIAL)
+
+
+class Rests(Enum):
+    """What a claim about a callback rests on."""
+
+    ON_RUNS = 'what it does when it runs'
+    ON_START = 'that it comes to run'
+    ON_END = 'that it comes to its end'
+
+
+@dataclass(frozen=True)
+class Slicer:
+    """Slices of one unit whose callbacks get at most ``max_cycle`` arrivals each."""
+
+    closed: ClosedSpec
+    max_cycle: int
+
+    def slice_for(self, query: Query) -> Names | None:
+        """Name the callbacks that ``query`` depends on; ``None`` where all of them may matter."""
+        if query.family in OF_THE_UNIT or self._spinning:
+            return None
+        if query.family not in OF_ENDS:
+            return self._cone((*query.callbacks, *self._closers(query)), Rests.ON_RUNS)
+        if not self.has_threads_to_spare:
+            return None
+        rests = Rests.ON_END if query.family is Family.PROGRESS else Rests.ON_START
+        return self._cone(query.callbacks, rests)
+
+    def holders(self, name: str) -> Names:
+        """Members of its exclusive group, itself too, that hold it while they wait."""
+        return frozenset(self._holders(self._by_name[name]))
+
+    def only_asks(self, names: Names) -> bool:
+        """
+        Tell whether all that ``names`` wait for arrives because it was asked for.
+
+        A message or a timer that would set an event may also never come.
+        """
+        return all(
+            self._by_name[wait.needed].type is CallbackType.CLT
+            for name in self._cone(names, Rests.ON_END)
+            for wait in self._waits[name]
+        )
+
+    @cached_property
+    def waiting(self) -> Names:
+        """Whoever waits for another callback of the unit."""
+        return frozenset(name for name, waits in self._waits.items() if waits)
+
+    @cached_property
+    def _spinning(self) -> Names:
+        """Whoever spins an executor: others run inside, and on a pool may be queued twice."""
+        return frozenset(n for n, waits in self._waits.items() if any(w.spin for w in waits))
+
+    @cached_property
+    def has_threads_to_spare(self) -> bool:
+        """
+        True when callbacks that wait can never hold every thread.
+
+        Not known where one spins an executor, or waits for what no callback gives. A member of
+        a reentrant group holds one for each of its arrivals, and a service that others of the
+        unit call is asked by them too: then nothing is certain.
+        """
+        kinds = {wait.kind for waits in self._waits.values() for wait in waits}
+        if not kinds <= {WaitKind.HELD, WaitKind.AWAITED}:
+            return False
+        holders: dict[object, int] = {}
+        for callback in self._spec.callbacks:
+            if all(wait.frees_thread for wait in self._waits[callback.name]):
+                continue
+            if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+                holders[callback.group] = 1
+            elif self._callers[callback.name]:
+                return False
+            else:
+                holders[callback.name, callback.group] = self.max_cycle
+        has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
+        threads = len(self._spec.executor.threads) if has_pool else 1
+        return threads > sum(holders.values())
+
+    def cut(self, names: Names) -> ClosedSpec:
+        """Give the slice as a unit, with no more threads than can ever be at work in it."""
+        spec = self._spec
+        callbacks = tuple(self._unpaired(c) for c in spec.callbacks if c.name in names)
+        groups = {c.group for c in callbacks}
+        threads = spec.executor.threads[: self._at_work(callbacks)]
+        part = replace(
+            spec,
+            callbacks=callbacks,
+            groups=tuple(group for group in spec.groups if group.name in groups),
+            executor=replace(spec.executor, kind=executor_kind(spec).value, threads=threads),
+        )
+        return replace(self.closed, spec=part)
+
+    def _unpaired(self, callback: Callback) -> Callback:
+        """
+        Who has no partner in the unit, since several bear its name, gets none in a slice.
+
+        And a service is not absent in a slice that is there in the unit.
+        """
+        callbacks = self._spec.callbacks
+        blocking = tuple(
+            replace(block, on=None)
+            if asks_the_graph(block) and not is_absent(block, self._spec)
+            else block
+            for block in callback.blocking
+        )
+        callback = replace(callback, blocking=blocking)
+        has_partner = server_of(callback, callbacks) or client_before(callback, callbacks)
+        pairs = is_client(callback) or is_done_callback(callback)
+        return replace(callback, key=None) if pairs and not has_partner else callback
+
+    def _at_work(self, callbacks: Sequence[Callback]) -> int:
+        """One member of each exclusive group; each arrival of any other callback."""
+        most: dict[object, int] = {}
+        for callback in callbacks:
+            if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+                most[callback.group] = 1
+            else:
+                asked = len(self._callers[callback.name]) * len(callbacks)
+                most[callback.name, callback.group] = self.max_cycle + asked
+        return sum(most.values())
+
+    @property
+    def _spec(self) -> Spec:
+        return self.closed.spec
+
+    @cached_property
+    def _by_name(self) -> dict[str, Callback]:
+        return {callback.name: callback for callback in self._spec.callbacks}
+
+    @cached_property
+    def _waits(self) -> dict[str, tuple[NamedWait, ...]]:
+        spec = self._spec
+        return {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
+
+    @cached_property
+    def _callers(self) -> dict[str, Names]:
+        """For each client those that wait for it, for each service its clients in the unit."""
+        found: dict[str, set[str]] = {name: set() for name in self._by_name}
+        for callback in self._spec.callbacks:
+            for wait in self._waits[callback.name]:
+                if self._by_name[wait.needed].type is CallbackType.CLT:
+                    found[wait.needed].add(callback.name)
+            server = server_of(callback, self._spec.callbacks)
+            if server is not None:
+                found[server.name].add(callback.name)
+        return {name: frozenset(callers) for name, callers in found.items()}
+
+    def _closers(self, query: Query) -> Iterator[str]:
+        """Who may close the groups a query is about; a reentrant one never closes."""
+        if query.family is Family.GROUP_CLOSED:
+            return
+        for group in self._spec.groups:
+            members = [c.name for c in self._spec.callbacks if c.group == group.name]
+            if group.name in query.groups:
+                yield from members if group.type is GroupType.EXCLUSIVE else members[:1]
+
+    def _cone(self, names: Iterable[str], rests: Rests) -> Names:
+        """Follow partners; of those that have to run, also who may keep their group closed."""
+        cone: dict[str, bool] = {}
+        waiting = [(name, rests is Rests.ON_START) for name in names]
+        while waiting:
+            name, has_to_run = waiting.pop()
+            if cone.get(name, False) or (name in cone and not has_to_run):
+                continue
+            cone[name] = has_to_run
+            callback = self._by_name[name]
+            follows = rests is not Rests.ON_RUNS
+            waiting.extend((needed, follows) for needed in self._needed(callback))
+            waiting.extend((caller, False) for caller in self._callers[name])
+            if has_to_run:
+                waiting.extend((holder, False) for holder in self._holders(callback))
+        return frozenset(cone)
+
+    def _needed(self, callback: Callback) -> Iterator[str]:
+        """Whom it waits for, and who answers it."""
+        yield from (wait.needed for wait in self._waits[callback.name])
+        server = server_of(callback, self._spec.callbacks)
+        if server is not None:
+            yield server.name
+
+    def _holders(self, callback: Callback) -> Iterator[str]:
+        """Members of its exclusive group that wait; a reentrant group is never held."""
+        if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+            for other in self._spec.callbacks:
+                if other.group == callback.group and self._waits[other.name]:
+                    yield other.name
+
+
+def shape_of(part: Spec) -> Shape:
+    """
+    What the model of a unit depends on: units of one shape have the same verdicts.
+
+    Callbacks and groups are numbered in the order of the unit. Of the order of serving only that
+    counts, but for tasks, waitables and guard conditions, which the executors treat apart.
+    """
+    callbacks, groups = part.callbacks, part.groups
+    places = {callback.name: place for place, callback in enumerate(callbacks)}
+    numbers = {group.name: number for number, group in enumerate(groups)}
+    plain = sorted({rank_of(c) for c in callbacks} - {TASK_RANK, WAITABLE_RANK, GUARD_RANK})
+    nodes = list(dict.fromkeys(callback.node for callback in callbacks))
+
+    def serving(callback: Callback) -> tuple[bool, int]:
+        rank = rank_of(callback)
+        return rank in plain, plain.index(rank) if rank in plain else rank
+
+    def spun(wait: NamedWait) -> Shape | None:
+        if wait.spin is None:
+            return None
+        node = None if wait.spin.node is None else nodes.index(wait.spin.node)
+        return replace(wait.spin, node=None, needed=None), node
+
+    def described(callback: Callback) -> Shape:
+        server = server_of(callback, callbacks)
+        return (
+            callback.type if callback.type in (CallbackType.TMR, CallbackType.CLT) else None,
+            serving(callback),
+            nodes.index(callback.node),
+            numbers[callback.group],
+            tuple((places[w.needed], w.kind, spun(w)) for w in waits_of(callback, part)),
+            None if server is None else places[server.name],
+            bool(left_out_of_models(callback, part)),  # then it is asked for its end
+        )
+
+    return (
+        executor_kind(part),
+        len(part.executor.threads),
+        tuple(group.type for group in groups),
+        tuple(map(described, callbacks)),
+    )

@@ -1,0 +1,458 @@
+"""
+Asks a checker for the verdicts of a unit or of a model file, and ties the answers to words.
+
+Knows neither syntax trees nor output formats; every run it hands on was replayed by the checker.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from functools import cached_property, partial
+from pathlib import Path
+
+from ros2cc_extract.checker.api import (
+    Answer,
+    CheckResult,
+    EngineKind,
+    Fairness,
+    Limits,
+    Model,
+    Progress,
+    Query,
+    check,
+    load_model,
+    read_model,
+    read_queries,
+)
+from ros2cc_extract.checker.api import Verdict as Verdict
+from ros2cc_extract.errors import InputError, ModelFormatError
+from ros2cc_extract.generator import build
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
+from ros2cc_extract.verify.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.load import Load, load_of
+from ros2cc_extract.verify.narrowing import Found, Key, key_of, narrow
+from ros2cc_extract.verify.structural import structural_verdicts
+from ros2cc_extract.verify.uppaal.run import UppaalRun
+from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta
+from ros2cc_extract.verify.uppaal.verifyta import Runs as Runs
+from ros2cc_extract.verify.uppaal.verifyta_check import check_by_verifyta
+
+OnProgress = Callable[[Progress], None]
+
+
+class Checker(Enum):
+    """Who answers."""
+
+    EMBEDDED = 'embedded'
+    VERIFYTA = 'verifyta'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """
+    How to verify; the defaults are those of the command line.
+
+    :param verifyta: the program, where it is not to be looked for.
+    :param jobs: threads that explore one model together; no answer depends on them.
+    :param structural: profile rclpy also asks who starves under unlimited arrivals.
+    """
+
+    checker: Checker = Checker.EMBEDDED
+    verifyta: Path | None = None
+    runs: Runs = Runs.TOGETHER
+    profile: build.Profile = build.Profile.PAPER
+    text: build.Text = build.Text.COMPACT
+    max_cycle: int | None = 1
+    structural: bool = True
+    engine: EngineKind = EngineKind.AUTO
+    fairness: Fairness = Fairness.NONE
+    reduction: bool = True
+    limits: Limits = field(default_factory=Limits)
+    jobs: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class QueryResult:
+    """
+    One verdict with its evidence.
+
+    :param family: value of ``generator.build.Family``; ``None`` for a query we did not write.
+    :param callbacks: names of the callbacks the query is about.
+    :param seconds: when it was decided, counted from the start of the exploration.
+    :param load: what the rates say, beside a verdict of profile rclpy on starvation.
+    :param run: the run behind the verdict, or what gives it; use ``evidence``.
+    """
+
+    family: str | None
+    formula: str
+    words: str
+    callbacks: tuple[str, ...]
+    verdict: Verdict
+    reason: str | None
+    seconds: float
+    run: Evidence | Callable[[], Evidence] | None
+    load: Load | None = None
+
+    @cached_property
+    def evidence(self) -> Evidence | None:
+        """The run behind the verdict, replayed and told when it is first asked for."""
+        return self.run() if callable(self.run) else self.run
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verification:
+    """
+    All verdicts of one model.
+
+    :param peak_mb: largest resident memory of the process, in MB.
+    :param complete: false when a limit ended the exploration.
+    :param assumptions: what was decided about open facts of the unit, in words.
+    :param notes: what else the reader should know, such as a checker that could not be used.
+    """
+
+    model: str
+    profile: str | None
+    text: str | None
+    engine: str
+    states: int
+    transitions: int
+    seconds: float
+    peak_mb: float
+    complete: bool
+    results: tuple[QueryResult, ...]
+    assumptions: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def is_undecided(self) -> bool:
+        """True when a limit left at least one query open."""
+        return any(result.verdict is Verdict.UNDECIDED for result in self.results)
+
+
+def verify_unit(
+    closed: ClosedSpec, options: Options = Options(), progress: OnProgress | None = None
+) -> Verification:
+    """Render, check and tell one unit."""
+    rendered = _render(closed, options)
+    if options.text is build.Text.COMPACT:
+        # It resets its variables itself: looking for dead ones costs time and finds no state less.
+        options = replace(options, reduction=False)
+    search = partial(_search, options=options, progress=progress)
+    if options.max_cycle is not None and _may_be_sliced(options):
+        found = narrow(closed, rendered.queries, options.max_cycle, search, options.limits)
+    else:
+        found = search(closed, [key_of(query) for query in rendered.queries], options.limits)
+    left_out = left_out_of_deadlocks(closed.spec, options.profile)
+    results = tuple(
+        _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
+        for query in rendered.queries
+    )
+    return _verification(
+        rendered.name,
+        found.check,
+        _with_loads((*results, *_structural(closed, options)), closed),
+        profile=options.profile.value,
+        text=options.text.value,
+        assumptions=closed.assumptions,
+        notes=_caveats(closed, options, found),
+    )
+
+
+def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryResult:
+    """A slice has numbers and names of its own; ``left_out`` is said of dead-locks."""
+    words = f'{left_out}{query.words}' if query.family is build.Family.DEADLOCK else query.words
+    return replace(result, formula=query.formula, words=words, callbacks=query.callbacks)
+
+
+def _render(closed: ClosedSpec, options: Options) -> build.RenderedModel:
+    return build.render(
+        closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
+    )
+
+
+def _may_be_sliced(options: Options) -> bool:
+    """Whoever asks for a text of his own, or for so many states, gets the whole unit."""
+    return (
+        options.profile is build.Profile.RCLPY
+        and options.text is build.Text.COMPACT
+        and options.checker is Checker.EMBEDDED
+        and options.fairness is Fairness.NONE
+        and options.limits.states is None
+    )
+
+
+def _search(
+    closed: ClosedSpec,
+    keys: Sequence[Key],
+    limits: Limits,
+    *,
+    options: Options,
+    progress: OnProgress | None,
+) -> Found:
+    """Ask some of the queries of a unit, or of a slice of one."""
+    rendered = _render(closed, options)
+    wanted = set(keys)
+    asked = [query for query in rendered.queries if key_of(query) in wanted]
+    model = read_model(rendered.xml, f'{rendered.name}.xml')
+    xml = rendered.xml.encode()
+    queries = [Query(query.formula, query.words, None) for query in asked]
+    result = _check(model, xml, queries, replace(options, limits=limits), progress)
+    teller = _Teller(model, xml, Names.of(closed.spec))
+    results = {
+        key_of(query): _result(answer, teller, query.family.value, query.words, query.callbacks)
+        for answer, query in zip(result.answers, asked, strict=True)
+    }
+    return Found(results, result)
+
+
+def _structural(closed: ClosedSpec, options: Options) -> Iterator[QueryResult]:
+    """Ask for unlimited arrivals too; the model of the unit itself bounds them."""
+    is_rclpy = options.profile is build.Profile.RCLPY
+    if not (is_rclpy and options.structural and options.max_cycle):
+        return
+    for found in structural_verdicts(closed, options.engine, options.limits):
+        yield QueryResult(
+            family=found.query.family.value,
+            formula=found.query.formula,
+            words=found.query.words,
+            callbacks=found.query.callbacks,
+            verdict=found.verdict,
+            reason=found.reason,
+            seconds=found.seconds,
+            run=found.run,
+        )
+
+
+def _with_loads(results: tuple[QueryResult, ...], closed: ClosedSpec) -> tuple[QueryResult, ...]:
+    """Beside what overload might do, say what the rates at hand do."""
+    callbacks = {callback.name: callback for callback in closed.spec.callbacks}
+    return tuple(
+        replace(result, load=load_of(closed.spec, callbacks[result.callbacks[0]]))
+        if result.family == build.Family.STRUCTURAL_STARVATION.value
+        else result
+        for result in results
+    )
+
+
+def _as_far_as_modelled(result: QueryResult, query: build.Query) -> QueryResult:
+    """A claim that no run refutes is not proven where the model leaves out what might."""
+    unrefuted = Verdict.NOT_SATISFIED if query.formula.startswith('E<>') else Verdict.SATISFIED
+    if not query.left_out or result.verdict is not unrefuted:
+        return result
+    reason = f'the model leaves out {", ".join(query.left_out)}'
+    return replace(result, verdict=Verdict.UNDECIDED, reason=reason, run=None)
+
+
+def _caveats(closed: ClosedSpec, options: Options, found: Found) -> tuple[str, ...]:
+    notes = []
+    if found.by_slices:
+        notes.append(f'{found.by_slices} verdicts are from slices of the unit')
+    if options.max_cycle is None:
+        notes.append(f'arrivals without bound; fairness of a run: {options.fairness.value}')
+    notes.extend(caveats_of(closed.spec, options.profile))
+    return tuple(notes)
+
+
+def ask_unit(
+    closed: ClosedSpec,
+    queries: Sequence[Query],
+    options: Options = Options(),
+    progress: OnProgress | None = None,
+) -> Verification:
+    """
+    Ask other queries than its own of a unit.
+
+    They are asked of the plain text, whatever the options say: the compact text keeps only what
+    its own queries can see.
+    """
+    rendered = build.render(
+        closed, profile=options.profile, text=build.Text.PLAIN, max_cycle=options.max_cycle
+    )
+    model = read_model(rendered.xml, f'{rendered.name}.xml')
+    return replace(
+        _asked(model, rendered.xml.encode(), queries, options, progress, Names.of(closed.spec)),
+        model=rendered.name,
+        profile=options.profile.value,
+        text=build.Text.PLAIN.value,
+        assumptions=closed.assumptions,
+    )
+
+
+def verify_model(
+    path: Path,
+    queries: Sequence[Query] = (),
+    options: Options = Options(),
+    progress: OnProgress | None = None,
+) -> Verification:
+    """
+    Check a model file, by the queries given or by those in the model.
+
+    :raises InputError: when there is no query, or the file cannot be read.
+    :raises ModelFormatError: when it is outside our subset; verifyta takes it all the same.
+    """
+    try:
+        model = load_model(path)
+    except ModelFormatError as error:
+        if options.checker is not Checker.VERIFYTA or not queries:
+            raise
+        return _verify_unread(path, queries, options, error)
+    queries = queries or model.queries
+    if not queries:
+        place = Place(str(path))
+        raise InputError('no query found', place, 'name a .q file after the model, or use --query')
+    return replace(
+        _asked(model, path.read_bytes(), queries, options, progress, Names()), model=path.name
+    )
+
+
+def _verify_unread(
+    path: Path, queries: Sequence[Query], options: Options, error: ModelFormatError
+) -> Verification:
+    """Have verifyta check what only it can read; no run is shown, as none can be replayed."""
+    result = _ask_verifyta(None, path.read_bytes(), queries, options)
+    results = tuple(
+        QueryResult(
+            family=None,
+            formula=answer.query.formula,
+            words=answer.query.comment or answer.query.formula,
+            callbacks=(),
+            verdict=answer.verdict,
+            reason=answer.reason,
+            seconds=answer.seconds,
+            run=None,
+        )
+        for answer in result.answers
+    )
+    note = f'{error}; so no run could be replayed'
+    return _verification(path.name, result, results, notes=(note,))
+
+
+def _asked(
+    model: Model,
+    xml: bytes,
+    queries: Sequence[Query],
+    options: Options,
+    progress: OnProgress | None,
+    names: Names,
+) -> Verification:
+    result = _check(model, xml, queries, options, progress)
+    teller = _Teller(model, xml, names)
+    results = tuple(
+        _result(answer, teller, None, answer.query.comment or answer.query.formula, ())
+        for answer in result.answers
+    )
+    return _verification(model.name, result, results)
+
+
+def _check(
+    model: Model,
+    xml: bytes,
+    queries: Sequence[Query],
+    options: Options,
+    progress: OnProgress | None,
+) -> CheckResult:
+    note = ''
+    if options.checker is Checker.VERIFYTA:
+        try:
+            return _ask_verifyta(model, xml, queries, options)
+        except LicenceError as error:
+            note = f'{error}; the embedded checker was used'
+    result = check(
+        model,
+        queries,
+        limits=options.limits,
+        engine=options.engine,
+        fairness=options.fairness,
+        reduction=options.reduction,
+        progress=progress,
+        jobs=options.jobs,
+    )
+    return replace(result, note='; '.join(filter(None, (note, result.note))))
+
+
+def _ask_verifyta(
+    model: Model | None, xml: bytes, queries: Sequence[Query], options: Options
+) -> CheckResult:
+    return check_by_verifyta(
+        model,
+        xml,
+        queries,
+        program=find_verifyta(options.verifyta),
+        runs=options.runs,
+        fairness=options.fairness,
+        seconds=options.limits.seconds,
+    )
+
+
+def load_queries(path: Path) -> tuple[Query, ...]:
+    """
+    Read a query file.
+
+    :raises InputError: when it cannot be read or holds no query.
+    """
+    try:
+        text = path.read_text(encoding='utf-8')
+    except UnicodeDecodeError:
+        raise InputError('no UTF-8 text', Place(str(path)), 'is this a .q file?') from None
+    except OSError as error:
+        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from None
+    return read_queries(text, str(path))
+
+
+@dataclass(frozen=True)
+class _Teller:
+    """Tells the runs of one model."""
+
+    model: Model
+    xml: bytes
+    names: Names
+
+    def tell(self, answer: Answer) -> Evidence:
+        run = answer.path
+        assert run is not None, 'only asked of answers that have a run'
+        return replace(tell(run, self.names), origin=UppaalRun(self.model, self.xml, run))
+
+
+def _result(
+    answer: Answer, teller: _Teller, family: str | None, words: str, callbacks: tuple[str, ...]
+) -> QueryResult:
+    return QueryResult(
+        family=family,
+        formula=answer.query.formula,
+        words=words,
+        callbacks=callbacks,
+        verdict=answer.verdict,
+        reason=answer.reason,
+        seconds=answer.seconds,
+        run=partial(teller.tell, answer) if answer.replay else None,
+    )
+
+
+def _verification(
+    model: str,
+    result: CheckResult,
+    results: tuple[QueryResult, ...],
+    *,
+    profile: str | None = None,
+    text: str | None = None,
+    assumptions: tuple[str, ...] = (),
+    notes: tuple[str, ...] = (),
+) -> Verification:
+    return Verification(
+        model=model,
+        profile=profile,
+        text=text,
+        engine=result.engine,
+        states=result.states,
+        transitions=result.transitions,
+        seconds=result.seconds,
+        peak_mb=result.peak_mb,
+        complete=result.complete,
+        results=results,
+        assumptions=assumptions,
+        notes=(*([result.note] if result.note else []), *notes),
+    )

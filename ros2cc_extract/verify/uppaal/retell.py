@@ -1,0 +1,66 @@
+"""Tells a run that UPPAAL saved or printed: found again in the model, replayed, put into words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from ros2cc_extract.checker.api import Model, Query, load_model, read_model
+from ros2cc_extract.checker.named import NamedState, replay_named
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.generator import build
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.verify.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.unit import Options
+from ros2cc_extract.verify.uppaal.run import UppaalRun
+from ros2cc_extract.verify.uppaal.trace_xml import read_xml
+from ros2cc_extract.verify.uppaal.trace_xtr import read_xtr
+from ros2cc_extract.verify.uppaal.verifyta_trace import read_runs
+
+_SOME = Query('E<> true', '', None)
+_ENDLESS = Query('E[] true', '', None)
+
+
+def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
+    """
+    Tell a run of a unit's model, of the profile and text that the options name.
+
+    :raises InputError: when it cannot be read or is no run of that model.
+    """
+    rendered = build.render(
+        closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
+    )
+    model = read_model(rendered.xml, f'{rendered.name}.xml')
+    return _retold(model, rendered.xml.encode(), run, Names.of(closed.spec))
+
+
+def retell_model(path: Path, run: Path) -> Evidence:
+    """
+    Tell a run of a model file.
+
+    :raises InputError: when one cannot be read, or the run is not of the model.
+    """
+    return _retold(load_model(path), path.read_bytes(), run, Names())
+
+
+def _retold(model: Model, xml: bytes, path: Path, names: Names) -> Evidence:
+    source = Place(path.as_posix())
+    states = _read(path, model, source)
+    query = _ENDLESS if states[-1:] and states[-1] in states[:-1] else _SOME
+    found = replay_named(model, query, states, source)
+    return replace(tell(found, names), origin=UppaalRun(model, xml, found))
+
+
+def _read(path: Path, model: Model, source: Place) -> tuple[NamedState, ...]:
+    """Read any of the three layouts; of several printed runs the first."""
+    try:
+        text = path.read_text(encoding='utf-8')
+    except UnicodeDecodeError:
+        raise InputError('no UTF-8 text', source, 'give a run that UPPAAL saved') from None
+    except OSError as error:
+        raise InputError(f'cannot be read: {error.strerror}', source) from None
+    if text.lstrip().startswith('<'):
+        return read_xml(text, source)
+    printed = read_runs(text)
+    return printed[0] if printed else read_xtr(text, model, source)
