@@ -7,20 +7,20 @@ from collections.abc import Sequence
 from typing import Any
 
 from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.containers import Mapping
+from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
     Choice,
     Function,
     Instance,
-    Mapping,
     Module,
     Mystery,
     Scope,
     Value,
     choice,
 )
-from ros2cc_extract.extract.static.values import Sequence as Items
 from ros2cc_extract.extract.static.world import (
     AccessKind,
     ExecutorState,
@@ -75,6 +75,7 @@ class Assignments(Machine):
                 self._note_same_unknown(old, value)
                 new = value if len(options) == 1 or old is None else choice([old, value])
                 self.store.write(option, name, new)  # type: ignore[arg-type]
+                self.world.stored.setdefault((option, name), {})[place] = value
             if old is None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)
 
@@ -99,7 +100,9 @@ class Assignments(Machine):
                 _hint(value, loops.key_text(key))
                 self.store.write(owner, 'entries', {**owner.entries, key: value})
             else:
-                self.store.write(owner, 'entries', {**owner.entries, key: value})
+                # What was put in last is found again under its key, see ``subscripts.py``.
+                others = {known: held for known, held in owner.entries.items() if known is not key}
+                self.store.write(owner, 'entries', {**others, key: value})
                 self.store.write(owner, 'many', {**owner.many, key: self.why_many()})
         elif isinstance(owner, Items):
             index = loops.index_of(key, len(owner.items))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static import builtin_methods
+from ros2cc_extract.extract.static import builtin_methods, changing, subclasses
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.relevance import MAKING, reassigned_attributes
 from ros2cc_extract.extract.static.values import (
@@ -17,17 +18,16 @@ from ros2cc_extract.extract.static.values import (
     Function,
     Instance,
     Library,
-    Mapping,
     Module,
     Mystery,
     Native,
     Partial,
-    Sequence,
     Super,
     Value,
     choice,
-    options_of,
+    present,
 )
+from ros2cc_extract.extract.static.world import Cut, note_once
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import When
 
@@ -44,15 +44,17 @@ class Attributes(Machine):
         """``value.name``."""
         found = self._find(value, name, place, text)
         if isinstance(found, Choice):
-            return choice(list(options_of(found)))
+            return present(found)
         if found is not None:
             return found
         if isinstance(value, Mystery):
             label = text or (f'{value.text}.{name}' if value.text else name)
             return Mystery(value.unknown, label)
         reason = f'attribute {name!r} could not be followed'
-        if name.startswith(MAKING) and (reason, place) not in self.world.cut:
-            self.world.cut.append((reason, place))
+        if name.startswith(MAKING):
+            note_once(self.world.cut, Cut(reason, place, self.running_classes()))
+        if isinstance(value, Instance) and self.world.deeds is not None:
+            self.world.lacking.append((value, name))
         return self.mystery(reason, place, text or name)
 
     def has_attribute(self, value: Value, name: str) -> bool | None:
@@ -94,7 +96,11 @@ class Attributes(Machine):
             return self._as_of_now(value, name, value.slots[name], place)
         if name == '__class__':
             return value.cls
+        if name == '__setattr__':
+            return Native(name, builtin_methods.set_attribute, value)
         found = self._in_order(value.mro, value, name, place)
+        if not isinstance(found, (Bound, Native)):
+            changing.note_attribute(self, value, name, found)
         return found or self._handed_on(value, name, place)
 
     def _handed_on(self, owner: Instance, name: str, place: Place) -> Value | None:
@@ -121,11 +127,16 @@ class Attributes(Machine):
 
         A plain constant that other methods assign anew may be anything by then.
         """
+        changing.note_attribute(self, owner, name, held)
         if self.world.when is When.START or not isinstance(held, Const):
             return held
         for cls in owner.mro:
             if isinstance(cls, Class) and name in reassigned_attributes(cls.node):
+                self.world.unset += held == NONE
                 changed = Unknown(f'attribute {name!r} is assigned anew by other methods', place)
+                known = changing.ever_held(self, owner, name) if held == NONE else None
+                if known is not None:
+                    return choice([held, *known])
                 return choice([held, Mystery(changed, f'self.{name}')])
         return held
 
@@ -160,6 +171,8 @@ class Attributes(Machine):
     def _of_class(self, value: Class, name: str, place: Place) -> Value | None:
         if name in ('__name__', '__qualname__'):
             return Const(value.name)
+        if name == '__subclasses__':
+            return Native(name, subclasses.subclasses_of, value)
         for cls in value.mro:
             if isinstance(cls, Class) and name in cls.slots:
                 return self._bind(cls.slots[name], value, place)
@@ -172,6 +185,7 @@ class Attributes(Machine):
     def _of_module(self, value: Module, name: str, place: Place) -> Value | None:
         if name in value.slots:
             found: Value = value.slots[name]
+            changing.note_global(self, value, name, found)
             return found
         if name == '__name__':
             return Const(value.name)

@@ -5,17 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cc_extract.extract.static import folding, loops
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
+    Class,
     Const,
     Handler,
-    Mapping,
+    Instance,
     Mystery,
     Native,
-    Sequence,
     Value,
+    choice,
     options_of,
 )
 from ros2cc_extract.places import Unknown
@@ -50,6 +52,15 @@ def method(value: Sequence | Mapping | Const, name: str) -> Value | None:
     table = _SEQUENCE if isinstance(value, Sequence) else _MAPPING
     handler = table.get(name)
     return Native(name, handler, value) if handler else None
+
+
+def set_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``owner.__setattr__(name, value)``; a name that is not known changes nothing here."""
+    name, value = (*call.args, NONE, NONE)[:2]
+    if isinstance(receiver, (Instance, Class)) and isinstance(name, Const):
+        machine.name_value(value, str(name.value))
+        machine.store.write(receiver, str(name.value), value)
+    return NONE
 
 
 def _text_method(name: str) -> Handler:
@@ -179,6 +190,9 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
         return receiver.entries[key]
     if receiver.rest is None and loops.is_key(key):
         return call.argument(1, 'default') or NONE
+    one_of_all = None if loops.is_key(key) else loops.any_of(receiver)
+    if one_of_all is not None:
+        return choice([one_of_all, call.argument(1, 'default') or NONE])
     reason = receiver.rest.reason if receiver.rest else 'key that could not be followed'
     label = f'get({key.value!r})' if isinstance(key, Const) else 'get(…)'
     return Mystery(Unknown(reason, call.place), label)

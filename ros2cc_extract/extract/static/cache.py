@@ -1,85 +1,52 @@
-"""
-Results of earlier scans, by the content of every file they depend on.
-
-The folder belongs to the user and is written by this tool alone; a damaged or foreign entry
-counts as none.
-"""
+"""Results of earlier scans, by the content of every file they depend on."""
 
 from __future__ import annotations
 
 import hashlib
-import os
-import pickle
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from ros2cc_extract.cachefile import code_version, load_value, store_value, tidy
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.project import Project
+from ros2cc_extract.extract.static.project import FollowedFile, Project
+from ros2cc_extract.extract.static.source import digest_of
 from ros2cc_extract.version import __version__
 
 _SCRIPT_FILES = ('setup.py', 'setup.cfg', 'pyproject.toml')
-_UNREADABLE = (OSError, pickle.UnpicklingError, EOFError, AttributeError, ImportError, ValueError)
-
-
-def default_cache_folder() -> Path:
-    """The tool's folder in the user's cache (XDG base directory specification)."""
-    base = os.environ.get('XDG_CACHE_HOME')
-    return (Path(base) if base else Path.home() / '.cache') / 'ros2cc-extract'
 
 
 class ScanCache:
-    """The cached results in one folder."""
+    """The cached result of one scan."""
 
     def __init__(self, folder: Path, project: Project) -> None:
         self._path = folder / f'{_key(project)}.scan'
 
     def load(self) -> Extraction | None:
         """The result of a scan of exactly these contents, if there is one."""
-        try:
-            followed, extraction = pickle.loads(self._path.read_bytes())
-        except _UNREADABLE:
+        value = load_value(self._path)
+        if not isinstance(value, tuple) or len(value) != 2:
             return None
+        followed, extraction = value
         if not isinstance(extraction, Extraction):
             return None
         return extraction if _is_current(followed) else None
 
-    def store(self, project: Project, extraction: Extraction) -> None:
-        """Keep a result; a folder that cannot be written is no error."""
-        given = {id(source) for source in project.given}
-        followed = [
-            (str(source.path), _digest(source.data))
-            for source in project.files
-            if id(source) not in given
-        ]
-        try:
-            self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            handle, name = tempfile.mkstemp(dir=self._path.parent)
-            with os.fdopen(handle, 'wb') as stream:
-                pickle.dump((followed, extraction), stream)
-            Path(name).replace(self._path)
-        except OSError:
-            return
+    def store(self, extraction: Extraction, followed: Iterable[FollowedFile]) -> None:
+        """Keep a result."""
+        store_value(self._path, (tuple(followed), extraction))
+        tidy(self._path.parent)
 
 
 def _key(project: Project) -> str:
+    here = Path(__file__).resolve().parent
     digest = hashlib.sha256(__version__.encode())
-    for line in _own_files():
+    for line in code_version([here, here.parent, here.parents[1] / 'spec']):
         digest.update(line.encode())
     for source in project.given:
-        digest.update(f'{source.shown}\0{source.path}\0{_digest(source.data)}\n'.encode())
+        digest.update(f'{source.shown}\0{source.path}\0{source.digest}\n'.encode())
     for path in _script_files(project.script_folders()):
-        digest.update(f'{path}\0{_digest(path.read_bytes())}\n'.encode())
+        digest.update(f'{path}\0{digest_of(path.read_bytes())}\n'.encode())
     return digest.hexdigest()
-
-
-def _own_files() -> Iterable[str]:
-    """The scanner's own files and those of its values: another version may say something else."""
-    here = Path(__file__).resolve().parent
-    for folder in (here, here.parent, here.parents[1] / 'spec'):
-        for path in sorted(folder.glob('*.py')):
-            status = path.stat()
-            yield f'{folder.name}/{path.name} {status.st_size} {status.st_mtime_ns}'
 
 
 def _script_files(folders: Iterable[Path]) -> Iterable[Path]:
@@ -89,12 +56,8 @@ def _script_files(folders: Iterable[Path]) -> Iterable[Path]:
                 yield folder / name
 
 
-def _is_current(followed: list[tuple[str, str]]) -> bool:
+def _is_current(followed: Iterable[FollowedFile]) -> bool:
     try:
-        return all(_digest(Path(name).read_bytes()) == digest for name, digest in followed)
+        return all(digest_of(Path(name).read_bytes()) == digest for name, digest in followed)
     except OSError:
         return False
-
-
-def _digest(data: bytes) -> str:
-    return hashlib.blake2b(data, digest_size=16).hexdigest()

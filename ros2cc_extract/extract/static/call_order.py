@@ -6,11 +6,9 @@ import ast
 from collections.abc import Sequence
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.relevance import creates_entities, walk
+from ros2cc_extract.extract.static.relevance import creates_entities, noted_on, walk
 
 Item = TypeVar('Item')
-
-_MENTIONS: dict[int, tuple[ast.AST, frozenset[str]]] = {}
 
 
 def callers_first(
@@ -63,11 +61,11 @@ def leading_to_entities(
 
 def mentions(node: ast.AST) -> frozenset[str]:
     """Every name below ``node`` that stands alone, or behind ``self.`` or ``cls.``."""
-    known = _MENTIONS.get(id(node))
-    if known is None or known[0] is not node:
-        known = (node, frozenset(name for part in walk(node) if (name := _name(part))))
-        _MENTIONS[id(node)] = known
-    return known[1]
+    return noted_on(node, 'mentions', _mentions)
+
+
+def _mentions(node: ast.AST) -> frozenset[str]:
+    return frozenset(name for part in walk(node) if (name := _name(part)))
 
 
 def _name(part: ast.AST) -> str | None:

@@ -6,8 +6,11 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
+from ros2cc_extract.extract.static import again, subclasses
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import mangled
+from ros2cc_extract.extract.static.same_node import made_before, remember
 from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -20,18 +23,16 @@ from ros2cc_extract.extract.static.values import (
     Function,
     Instance,
     Library,
-    Mapping,
     Mystery,
     Native,
     Partial,
     Scope,
-    Sequence,
     Super,
     Value,
     choice,
     options_of,
 )
-from ros2cc_extract.extract.static.world import PlainState
+from ros2cc_extract.extract.static.world import Cut, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
 
 _CALL_DEPTH = 40
@@ -72,11 +73,12 @@ class Calls(Machine):
 
     def run_function(self, function: Function, call: Call) -> Value:
         """Run the body of a scanned function with the arguments of ``call``."""
-        self.world.called.add(id(function.node))
+        self.world.called[id(function.node)] = function
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
             return self.mystery(f'recursion in {function.name}', call.place)
         scope = Scope(function.module, function.scope)
-        frame = Frame(scope, function, qualname=f'{function.qualname}.<locals>')
+        qualname = f'{function.qualname}.<locals>'
+        frame = Frame(scope, function, qualname=qualname, path=self.world.path)
         for name, value in self.bind(function, call).items():
             scope.slots[name] = value
         chain, count = self.world.chain, self.world.count
@@ -89,16 +91,28 @@ class Calls(Machine):
             self.stack.pop()
             self.world.chain, self.world.count, self.world.path = chain, count, path
 
+    def running_classes(self) -> frozenset[Class]:
+        """The classes whose methods are running."""
+        return frozenset(f.owner for f in self.stack if f.owner is not None)
+
     def _run_body(self, function: Function, frame: Frame, call: Call) -> Value:
         if isinstance(function.node, ast.Lambda):
             return self.evaluate(function.node.body, frame)
         flow = self.execute_block(function.node.body, frame)
         if frame.yields:
-            return Sequence(tuple(frame.yields), 'generator', Unknown('a generator', call.place))
+            return Sequence(tuple(frame.yields), 'generator', None, dict(frame.many))
         if not flow & (NEXT | RETURN) and flow & DEAD:
-            return self.mystery(f'{function.name} only raises', call.place, function.name)
+            self._note_dead_end(function)
+            reason = f'{function.name} only raises, as far as it can be followed'
+            return self.mystery(reason, call.place, function.name)
         results = [*frame.results, NONE] if flow & NEXT else frame.results
         return choice(results) if results else NONE
+
+    def _note_dead_end(self, function: Function) -> None:
+        """A constructor that raises on every path was not followed well enough."""
+        if function.name == '__init__' and not self.world.stopped:
+            reason = 'its constructor only raises, as far as it can be followed'
+            note_once(self.world.cut, Cut(reason, function.place, self.running_classes()))
 
     def bind(self, function: Function, call: Call) -> dict[str, Value]:
         """The parameters of ``function`` as ``call`` fills them."""
@@ -139,17 +153,21 @@ class Calls(Machine):
 
     def instantiate(self, cls: Class, call: Call) -> Value:
         """Make an instance of a scanned class and run its ``__init__``."""
-        made_before = self._made_by_looking(cls, call.place)
-        if made_before is not None:
-            return made_before
-        instance = Instance(cls, call.place)
+        known = again.made_then(self.world, cls, call.place)
+        known = known or self._made_by_looking(cls, call.place) or made_before(self, cls, call)
+        instance = known or Instance(cls, call.place)
+        again.remember(self.world, cls, call.place, instance)
+        if known is not None:
+            return known
         if self.world.looking:
             self.world.made_by_looking[(self.world.looking[-1:], cls, call.place)] = instance
             self.store.write(instance, _MADE, NONE)
         instance.path = self.world.path
         instance.born = self.world.deeds
-        instance.number += sum(other.cls is cls for other in self.world.instances)
+        instance.number += self.world.made_of[cls]
+        self.world.made_of[cls] += 1
         self.prepare(instance)
+        remember(self, instance, call)
         self.world.instances.append(instance)
         init = self.attribute(instance, '__init__', call.place)
         if isinstance(init, (Bound, Native)):
@@ -266,6 +284,7 @@ class Calls(Machine):
             choice(list(options_of(base))) if isinstance(base, Choice) else base for base in bases
         )
         cls.mro = resolution_order(cls)
+        subclasses.register(self.world, cls)
         scope = Scope(frame.module, frame.scope if frame.qualname else None)
         scope.slots['__class_body__'] = cls
         body = Frame(scope, None, qualname=qualname)

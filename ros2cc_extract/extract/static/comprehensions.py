@@ -6,9 +6,10 @@ import ast
 from collections.abc import Callable
 from collections.abc import Sequence as Items
 
-from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static import changing, loops
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.values import Mapping, Mystery, Scope, Sequence, Value
+from ros2cc_extract.extract.static.values import Mystery, Scope, Value
 from ros2cc_extract.places import Unknown
 
 _NEXT = 1
@@ -36,8 +37,10 @@ class Comprehensions(Machine):
         self._generate(node.generators, inner, collect, None)
         if isinstance(node, ast.DictComp):
             return Mapping(dict(collected), None, many)
-        kind = 'set' if isinstance(node, ast.SetComp) else 'list'
-        return Sequence(tuple(value for _, value in collected), kind, None, many)
+        values = tuple(value for _, value in collected)
+        if isinstance(node, ast.SetComp):
+            return loops.set_of(loops.Items(values, None, many), frame.place(node))
+        return Sequence(values, 'list', None, many)
 
     def _generate(
         self,
@@ -53,6 +56,7 @@ class Comprehensions(Machine):
         generator, deeper = generators[0], generators[1:]
         place = frame.place(generator.iter)
         items = loops.items_in(self, self.evaluate(generator.iter, frame), place)
+        self.note_iteration(generator.iter, frame)
         is_long = len(items.known) > loops.UNROLL_LIMIT
         here = Unknown('a long comprehension', place) if is_long else why
 
@@ -69,7 +73,7 @@ class Comprehensions(Machine):
         """Whether an item may pass the conditions, and why that is not certain."""
         unsure: Unknown | None = None
         for condition in generator.ifs:
-            holds = self.truth(self.evaluate(condition, frame))
+            holds = changing.decide(self, condition, frame)
             if holds is False:
                 return False, None
             if holds is None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
+from dataclasses import replace
 
+from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static.containers import Collection, collection_class
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -35,19 +39,15 @@ from ros2cc_extract.extract.static.world import (
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Access, Act, Blocking
+from ros2cc_extract.spec.model import SHARED, Access, Act, Blocking
 
 _CODE = (Module, Library, Class, Function)
 _SETTABLE = frozenset({'event', 'future'})
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
-class SharedLock(str):
-    """Name of a lock that readers hold together; it guards what they read, not what they write."""
-
-
 def _shared(lock: str) -> bool:
-    return isinstance(lock, SharedLock)
+    return lock.endswith(SHARED)
 
 
 class Effects(Machine):
@@ -78,13 +78,32 @@ class Effects(Machine):
         access = Access(
             name=name,
             source=place,
-            locks=tuple(str(lock) for lock in self.world.held if is_read or not _shared(lock)),
+            locks=self.world.held,
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=kind is AccessKind.UPDATE_IN_PLACE,
+            iterates=self.world.iterating,
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if is_read else deeds.writes
+        if access.iterates is not None:
+            plain = replace(access, iterates=None)
+            if plain in accesses[-RECENT:]:
+                accesses.remove(plain)
         note_once(accesses, access)
+
+    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
+        """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
+        if self.world.deeds is None:
+            return
+        for target in _iterated(node):
+            noted, self.world.deeds = self.world.deeds, None
+            values = options_of(self.evaluate(target, frame))
+            self.world.deeds = noted
+            kinds = [collection_class(v) for v in values if isinstance(v, Collection)]
+            self.world.iterating = kinds[0] if kinds else None
+            if kinds:
+                self.note_update(target, frame, AccessKind.READ)
+            self.world.iterating = None
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
         """The object in a name or attribute gets a new content or value from its old one."""
@@ -141,7 +160,7 @@ class Effects(Machine):
     def note_loop(self, node: ast.While, frame: Frame) -> None:
         """A ``while`` loop begins; one that only waits for a future is a busy wait."""
         deeds = self.world.deeds
-        if deeds is None:
+        if deeds is None and not outside_waits.is_idle(node):
             return
         for part in ast.walk(node.test):
             if (
@@ -159,6 +178,7 @@ class Effects(Machine):
         """A call that can hold its thread."""
         deeds = self.world.deeds
         if deeds is None:
+            self.note_outside_wait(name, on, seconds, place)
             return
         block = Blocking(
             call=name,
@@ -169,6 +189,18 @@ class Effects(Machine):
         )
         if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
             deeds.blocking.append(block)
+
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+        if isinstance(on, Instance) and seconds in (None, NONE):
+            outside_waits.note(self.world, name, on, place, spun)
 
     def _waited_for(self, value: Value | None) -> str | Unknown | None:
         if value is None or value == NONE:
@@ -192,43 +224,70 @@ class Effects(Machine):
         if not isinstance(value, Coroutine):
             self.note_blocking('await', value, None, place)
 
-    def note_acquire(self, lock: Value, place: Place) -> None:
-        """A lock is taken."""
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A lock is taken; with a time-out it may not be."""
         for option in options_of(lock):
             if (
                 isinstance(option, Instance)
                 and isinstance(option.state, PlainState)
                 and option.state.kind in _LOCKS
             ):
-                name = option.hint or option.state.kind
+                name = self._lock_name(option, option.state.kind)
+                act = Act(
+                    name=name,
+                    source=place,
+                    chain=self.world.chain[1:],
+                    held=() if may_fail else self._held_meanwhile(name, option.state.kind),
+                )
                 self.world.held = (*self.world.held, name)
                 if self.world.deeds is not None:
-                    act = Act(name=name, source=place, chain=self.world.chain[1:])
                     note_once(self.world.deeds.locks, act)
+
+    def _lock_name(self, lock: Instance, kind: str) -> str:
+        """The name it is stored under; a second lock of that name gets a number."""
+        hint = lock.hint or kind
+        known = self.world.locks.setdefault(hint, [])
+        if lock not in known:
+            known.append(lock)
+        number = known.index(lock)
+        return hint if number == 0 else f'{hint}#{number + 1}'
+
+    def _held_meanwhile(self, name: str, kind: str) -> tuple[str, ...]:
+        """
+        The locks that are kept while this one is waited for.
+
+        Source: ``threading.py``; only ``Lock`` waits for its own holder, and a ``Condition``
+        holds an ``RLock``.
+        """
+        held = (lock for lock in self.world.held if not _shared(lock))
+        return tuple(dict.fromkeys(lock for lock in held if lock != name or kind == 'lock'))
 
     def note_release(self, lock: Value) -> None:
         """A lock is given back."""
         for option in options_of(lock):
-            if isinstance(option, Instance):
-                held = [name for name in self.world.held if name != option.hint]
+            if isinstance(option, Instance) and isinstance(option.state, PlainState):
+                given_back = self._lock_name(option, option.state.kind)
+                held = [name for name in self.world.held if name != given_back]
                 self.world.held = tuple(held)
 
     def note_lock_method(self, owner: Value, name: str) -> None:
         """``owner.acquire…`` or ``release…`` of a class of the program that holds a lock."""
         if not isinstance(owner, Instance) or not _holds_lock(owner):
             return
-        lock = owner.hint or owner.class_name
+        lock = self._lock_name(owner, owner.class_name)
         if name.startswith(('acquire', '__enter__')):
             is_shared = 'read' in name or 'shared' in name
-            self.world.held = (*self.world.held, SharedLock(lock) if is_shared else lock)
+            self.world.held = (*self.world.held, lock + SHARED if is_shared else lock)
         elif name.startswith('release'):
-            self.world.held = tuple(held for held in self.world.held if held != lock)
+            given_back = (lock, lock + SHARED)
+            self.world.held = tuple(held for held in self.world.held if held not in given_back)
 
     def note_set(self, thing: Value) -> None:
         """An event or future is set, by the callback that is followed or by something else."""
         setter = self.world.current if self.world.deeds is not None else None
         for option in options_of(thing):
             self.world.setters.setdefault(id(option), []).append(setter)
+            self.world.set_in_threads[id(option)] += setter is None and self.world.in_thread
 
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""
@@ -254,8 +313,9 @@ class Effects(Machine):
         """Whether a spin stands in a callback; then it is noted there and is no set-up."""
         if self.world.deeds is None:
             return False
-        self.note_blocking(how, executor if node is None else node, None, place)
         awaited, timeout = future
+        spun = executor if node is None else node
+        self.note_blocking(how, spun, timeout if awaited is None else None, place)
         if awaited is not None:
             self.note_blocking('spin for future', awaited, timeout, place)
         if node is not None:
@@ -281,6 +341,23 @@ class Effects(Machine):
                 return entered
             return value
         return value
+
+
+_VIEWS = frozenset({'items', 'keys', 'values'})
+_PASSING_ON = frozenset({'enumerate', 'zip', 'reversed', 'iter', 'map', 'filter'})
+
+
+def _iterated(node: ast.expr) -> Iterator[ast.expr]:
+    """What a loop over ``node`` goes over, by the names it is known under."""
+    if isinstance(node, (ast.Attribute, ast.Name)):
+        yield node
+    elif isinstance(node, ast.Call):
+        function = node.func
+        if isinstance(function, ast.Attribute) and function.attr in _VIEWS:
+            yield from _iterated(function.value)
+        elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
+            for argument in node.args:
+                yield from _iterated(argument)
 
 
 def _holds_lock(owner: Instance) -> bool:

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.source import SourceFile
 
 _SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
@@ -33,10 +34,11 @@ def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[
     if tree is None:
         return []
     functions = {node.name: node for node in tree.body if isinstance(node, _FUNCTIONS)}
+    callables = functions.keys() | _assigned_names(tree)
     found = [
         Entry(source, name, f'{source.shown}:{name}')
         for module, name in sorted(scripts)
-        if module == source.module_name and name in functions
+        if module == source.module_name and name in callables
     ]
     if _is_script(tree):
         script = Entry(source, None, f'{source.shown}:{_script_label(tree)}')
@@ -54,6 +56,14 @@ def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[
 
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+def _assigned_names(tree: ast.Module) -> set[str]:
+    """What the module assigns, which may be functions that others made."""
+    targets = (
+        target for node in tree.body if isinstance(node, ast.Assign) for target in node.targets
+    )
+    return {target.id for target in targets if isinstance(target, ast.Name)}
 
 
 def _wants_arguments(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
@@ -76,7 +86,9 @@ def _is_guard(node: ast.stmt) -> bool:
 def _runs(node: ast.stmt) -> bool:
     if isinstance(node, (*_FUNCTIONS, ast.ClassDef, ast.Import, ast.ImportFrom)):
         return False
-    return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in ast.walk(node))
+    if isinstance(node, ast.Expr) and _only_call(node) == 'main':
+        return True
+    return _spins(node)
 
 
 def _script_label(tree: ast.Module) -> str:
@@ -102,7 +114,7 @@ def _only_call(node: ast.stmt) -> str | None:
 
 
 def _spins(node: ast.AST) -> bool:
-    return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in ast.walk(node))
+    return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in walk(node))
 
 
 def console_scripts(folders: set[Path]) -> frozenset[tuple[str, str]]:

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static import folding, loops
+from ros2cc_extract.extract.static import changing, folding, loops
+from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import CHANGING_METHODS
 from ros2cc_extract.extract.static.subscripts import slice_alone, subscript
@@ -20,14 +21,13 @@ from ros2cc_extract.extract.static.values import (
     Const,
     Instance,
     Library,
-    Mapping,
     Mystery,
     Native,
     Scope,
-    Sequence,
     Value,
     choice,
     options_of,
+    present,
 )
 from ros2cc_extract.extract.static.world import AccessKind
 from ros2cc_extract.places import Unknown
@@ -87,9 +87,9 @@ class Expressions(Machine):
             return bool(value.value)
         if isinstance(value, (Sequence, Mapping)):
             known = value.items if isinstance(value, Sequence) else tuple(value.entries)
-            if any(item is not ABSENT and not _may_be_absent(item) for item in known):
+            if any(item is not ABSENT and not _may_be_absent(value, item) for item in known):
                 return True
-            is_open = bool(value.rest or known) or self._may_be_filled(value)
+            is_open = bool(value.rest or known) or loops.may_be_filled(self, value)
             return None if is_open else False
         if isinstance(value, Choice):
             truths = {self.truth(option) for option in options_of(value)}
@@ -119,11 +119,6 @@ class Expressions(Machine):
                 return Mystery(side.unknown, text)
         return self.mystery('an expression that could not be folded', frame.place(node))
 
-    def _may_be_filled(self, value: Sequence | Mapping) -> bool:
-        """A callback finds in it what others, followed later, have put there."""
-        is_mutable = isinstance(value, Mapping) or value.kind != 'tuple'
-        return is_mutable and self.world.deeds is not None
-
     def _has_truth_method(self, value: Instance) -> bool:
         return isinstance(value.cls, Class) and any(
             name in cls.slots
@@ -133,8 +128,10 @@ class Expressions(Machine):
         )
 
 
-def _may_be_absent(value: Value) -> bool:
-    return isinstance(value, Choice) and ABSENT in value.options
+def _may_be_absent(owner: Collection, item: Value) -> bool:
+    """An item of one branch, or one that stands for any number of items."""
+    is_of_a_branch = isinstance(item, Choice) and ABSENT in item.options
+    return is_of_a_branch or owner.many.get(item, NONE) != NONE
 
 
 def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
@@ -142,8 +139,9 @@ def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
     if value == NONE and machine.world.when is not When.START:
         value = _global_as_of_now(machine, node, frame)
     if value is not None:
+        changing.note_name(machine, node.id, value, frame)
         if isinstance(value, Choice):
-            return choice(list(options_of(value)))
+            return present(value)
         if machine.world.deeds is not None and node.id not in frame.scope.slots:
             _note_free_name(machine, node, frame)
         return value
@@ -297,7 +295,7 @@ def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
 
 
 def _if_expression(machine: Expressions, node: ast.IfExp, frame: Frame) -> Value:
-    holds = machine.truth(machine.evaluate(node.test, frame))
+    holds = changing.decide(machine, node.test, frame)
     if holds is not None:
         return machine.evaluate(node.body if holds else node.orelse, frame)
     arms = (node.body, node.orelse)
@@ -310,13 +308,15 @@ def _boolean(machine: Expressions, node: ast.BoolOp, frame: Frame) -> Value:
     stops_on = isinstance(node.op, ast.Or)
     found: list[Value] = []
     for index, part in enumerate(node.values):
+        before = machine.world.changing
         value = machine.evaluate(part, frame)
+        is_open = machine.world.changing != before
         last = index == len(node.values) - 1
         for option in options_of(value):
-            truth = machine.truth(option)
+            truth = None if is_open else machine.truth(option)
             if truth is None or truth is stops_on or last:
                 found.append(option)
-        if machine.truth(value) is stops_on:
+        if not is_open and machine.truth(value) is stops_on:
             break
     return choice(found) if found else machine.mystery('condition', frame.place(node))
 
@@ -345,6 +345,7 @@ def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.AST) -> Valu
 
 
 def _compare(machine: Expressions, node: ast.Compare, frame: Frame) -> Value:
+    before = machine.world.changing
     left = machine.evaluate(node.left, frame)
     verdict: bool | None = True
     for operator, right_node in zip(node.ops, node.comparators, strict=True):
@@ -354,7 +355,7 @@ def _compare(machine: Expressions, node: ast.Compare, frame: Frame) -> Value:
         if verdict is False:
             break
         left = right
-    if verdict is None:
+    if verdict is None or machine.world.changing != before:
         return machine.mystery('a condition', frame.place(node))
     return Const(verdict)
 
@@ -395,7 +396,7 @@ def _lambda(machine: Expressions, node: ast.Lambda, frame: Frame) -> Value:
 
 
 def _named(machine: Expressions, node: ast.NamedExpr, frame: Frame) -> Value:
-    value = machine.evaluate(node.value, frame)
+    value = changing.evaluate_copied(machine, node.value, [node.target], frame)
     machine.assign(node.target, value, frame)
     return value
 
@@ -406,13 +407,23 @@ def _await(machine: Expressions, node: ast.Await, frame: Frame) -> Value:
 
 
 def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:
-    frame.yields.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    value = machine.evaluate(node.value, frame) if node.value else NONE
+    frame.yields.append(value)
+    if isinstance(machine.world.count, Unknown):
+        frame.many[value] = machine.why_many()
+    elif machine.world.path != frame.path:
+        frame.many[value] = machine.mystery('yielded under a condition', frame.place(node))
     return machine.mystery('value sent to a generator', frame.place(node))
 
 
 def _yield_from(machine: Expressions, node: ast.YieldFrom, frame: Frame) -> Value:
-    value = machine.evaluate(node.value, frame)
-    frame.yields.extend(machine.items_of(value, frame.place(node))[0])
+    items = loops.items_in(machine, machine.evaluate(node.value, frame), frame.place(node))
+    frame.yields.extend(items.known)
+    frame.many.update(items.many)
+    if items.others is not None:
+        other = Mystery(items.others, node.value)
+        frame.yields.append(other)
+        frame.many[other] = other
     return machine.mystery('result of a generator', frame.place(node))
 
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     Choice,
@@ -16,10 +17,8 @@ from ros2cc_extract.extract.static.values import (
     Const,
     Function,
     Instance,
-    Mapping,
     Module,
     Mystery,
-    Sequence,
     Value,
 )
 

@@ -36,6 +36,7 @@ class Imports(Machine):
         module.slots['__name__'] = Const(run_name)
         tree = source.tree
         if tree is not None:
+            self.world.trees.append(tree)
             self._run_top_level(tree, module)
         return module
 
@@ -47,7 +48,8 @@ class Imports(Machine):
         try:
             scope = Scope(module, None)
             scope.slots = module.slots
-            self.execute_block(tree.body, Frame(scope))
+            with self.store.outside_branches():
+                self.execute_block(tree.body, Frame(scope))
         finally:
             world.path, world.count, world.deeds, world.held, world.chain, world.when = saved
 

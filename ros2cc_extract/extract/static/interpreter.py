@@ -15,6 +15,9 @@ from ros2cc_extract.extract.static.statements import Statements
 from ros2cc_extract.extract.static.store import Store
 from ros2cc_extract.extract.static.world import World
 
+RUN_LIMIT = 800_000
+"""Statements and expressions of a whole run: some seconds."""
+
 
 class Interpreter(
     Statements,
@@ -31,8 +34,9 @@ class Interpreter(
 
     def __init__(self, project: Project) -> None:
         self.store = Store()
-        self.world = World()
-        self.steps = 0
+        self.world = World(lists_builtin=project.lists_builtin)
+        self.steps = self.step_limit = 0
+        self.steps_left = RUN_LIMIT
         self.stack = []
         self.project = project
         self.modules = {}

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 
-from ros2cc_extract.extract.static import rclpy_api
+from ros2cc_extract.extract.static import again, rclpy_api
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, result_of
+from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, UNKNOWN_CLIENT, result_of
 from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
+from ros2cc_extract.extract.static.same_node import made_before, remember
+from ros2cc_extract.extract.static.threads_library import run_in_thread
 from ros2cc_extract.extract.static.values import (
     Bound,
     Call,
@@ -27,6 +29,10 @@ from ros2cc_extract.places import Place, Unknown
 
 _ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
 _NODE_ONLY = _ENTITY_ONLY | {'create_publisher'}
+
+_SPINS = frozenset(
+    {'spin', 'spin_until_future_complete', 'rclpy.spin', 'rclpy.spin_until_future_complete'}
+)
 
 # Helpers of the ROS libraries that take a node and add nothing its executor would serve.
 _HARMLESS = (
@@ -65,9 +71,15 @@ class Libraries(Machine):
         rows = _with_bases(function.name)
         if not rows:
             return self.unknown_result(function, call)
-        instance = Instance(function, call.place)
+        known = again.made_then(self.world, function, call.place)
+        known = known or made_before(self, function, call)
+        instance = known or Instance(function, call.place)
+        again.remember(self.world, function, call.place, instance)
+        if known is not None:
+            return known
         instance.path = self.world.path
         self.prepare(instance)
+        remember(self, instance, call)
         init = next((row.init for row in rows if row.init is not None), None)
         if init is not None:
             init(self, instance, call)
@@ -100,10 +112,13 @@ class Libraries(Machine):
 
     def _keep_escaped(self, call: Call) -> None:
         """Functions that are handed to unknown code may be called by it, later."""
-        for argument in (*call.args, *call.keywords.values()):
+        for index, argument in enumerate((*call.args, *call.keywords.values())):
             for option in options_of(argument):
                 if isinstance(option, (Function, Bound, Partial)):
                     self.world.escaped.append((option, call.place))
+                elif isinstance(option, Native) and option.name in _SPINS:
+                    # Whoever is given a spin runs it, with what is handed along.
+                    run_in_thread(self, option, Call(call.place, call.args[index + 1 :]))
 
     def _is_standard(self, name: str) -> bool:
         return name.partition('.')[0] in sys.stdlib_module_names
@@ -182,7 +197,9 @@ class Libraries(Machine):
         return None
 
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
-        """Attribute ``name`` of a value that must be a node."""
+        """Attribute ``name`` of a value that must be a node, or a client."""
+        if name in UNKNOWN_CLIENT and not _is_no_node(value):
+            return Native(name, UNKNOWN_CLIENT[name], value)
         if name in _ENTITY_ONLY and value.text and not _is_no_node(value):
             return self.library_member(Library(NODE), ghost_node(self, value), name, place)
         return None
@@ -209,7 +226,7 @@ def _is_of(value: Value, cls: Library) -> bool:
 def _is_no_node(value: Mystery) -> bool:
     """Mocks of tests and clients of other frameworks have methods of the same names."""
     text = f'{value.text} {value.unknown.reason}'.lower()
-    return any(word in text for word in ('mock', 'boto', 'session', 'requests'))
+    return any(word in text for word in ('mock', 'simplenamespace', 'boto', 'session', 'requests'))
 
 
 def _with_bases(name: str) -> list[LibraryClass]:

@@ -6,20 +6,26 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
+    Bound,
     Choice,
-    Collection,
+    Class,
     Const,
+    Function,
     Instance,
     Mystery,
+    Partial,
     Value,
     options_of,
 )
 from ros2cc_extract.extract.static.values import choice as join
+from ros2cc_extract.extract.static.world import EntityState
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import When
 
 UNROLL_LIMIT = 64
 
@@ -50,10 +56,61 @@ class Items:
 
 def items_in(machine: Machine, value: Value, place: Place) -> Items:
     """What a loop over ``value`` goes over."""
+    options = options_of(value)
+    if len(options) > 1 and all(isinstance(option, Collection) for option in options):
+        return _one_of([items_in(machine, option, place) for option in options])
     known, rest = machine.items_of(value, place)
-    if isinstance(value, Collection):
-        return Items(known, value.others, value.many)
-    return Items(known, rest, {})
+    if not isinstance(value, Collection):
+        return Items(known, rest, {})
+    others = value.others
+    if not known and others is None and may_be_filled(machine, value):
+        others = Unknown('it is filled when the program runs', place)
+    return Items(known, others, value.many)
+
+
+def _one_of(items: list[Items]) -> Items:
+    """What a loop over one of several collections goes over."""
+    each_present = [{_present(item): item for item in each.known} for each in items]
+    known = dict.fromkeys(item for each in each_present for item in each)
+    return Items(
+        tuple(
+            item
+            if all(item in each and each[item] is _present(each[item]) for each in each_present)
+            else join([item, ABSENT])
+            for item in known
+        ),
+        next((each.others for each in items if each.others is not None), None),
+        {item: why for each in items for item, why in each.many.items()},
+    )
+
+
+def _present(item: Value) -> Value:
+    """The one value that ``item`` is where it is there at all."""
+    options = options_of(item)
+    return options[0] if len(options) == 1 else item
+
+
+def set_of(items: Items, place: Place) -> Sequence:
+    """
+    The set of ``items``, in which equal ones are one.
+
+    Those that could not be followed may be equal: one stands for any number of them.
+    """
+    known = tuple(dict.fromkeys(items.known))
+    unknown = [item for item in known if any(isinstance(o, Mystery) for o in options_of(item))]
+    if len(known) < 2 or not unknown:
+        return Sequence(known, 'set', items.others, items.many)
+    why = Unknown('items of a set, which may be equal', place)
+    any_of_them = Mystery(why, 'item')
+    rest = tuple(item for item in known if item not in unknown)
+    many = {**items.many, any_of_them: Mystery(why)}
+    return Sequence((*rest, any_of_them), 'set', items.others, many)
+
+
+def may_be_filled(machine: Machine, value: Collection) -> bool:
+    """Whether callbacks or methods that are followed later may have put something into it."""
+    is_fixed = isinstance(value, Sequence) and value.kind in ('tuple', 'range')
+    return not is_fixed and machine.world.when is not When.START
 
 
 @contextmanager
@@ -129,6 +186,24 @@ def after_loop(flow: int) -> int:
     if flow & _RETURN and not flow & (_NEXT | _BREAK | _CONTINUE):
         return flow
     return (flow & ~(_BREAK | _CONTINUE)) | _NEXT if flow & ~16 else flow
+
+
+def any_of(owner: Collection) -> Value | None:
+    """One of what a registry holds: nothing but classes and functions, or but entities."""
+    held = owner.items if isinstance(owner, Sequence) else ()
+    values = owner.entries.values() if isinstance(owner, Mapping) else held
+    found = [option for value in values for option in options_of(value) if option is not ABSENT]
+    if found and all(_is_entity(value) for value in found):
+        return join(found)
+    is_registry = isinstance(owner, Mapping) and all(isinstance(v, _CALLABLE) for v in found)
+    return join(found) if found and is_registry and owner.others is None else None
+
+
+_CALLABLE = (Class, Function, Bound, Partial)
+
+
+def _is_entity(value: Value) -> bool:
+    return isinstance(value, Instance) and isinstance(value.state, EntityState)
 
 
 def is_key(value: Value) -> bool:

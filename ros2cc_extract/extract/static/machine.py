@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.values import (
     Library,
     Module,
     Mystery,
+    Path,
     Scope,
     Value,
     choice,
@@ -43,7 +44,10 @@ class Frame:
     """
     One running function, class body or module.
 
+    :param path: the undecided branches under which it began.
+    :param many: what it yields any number of times, or perhaps not at all.
     :param breaks: what the branches that leave the running loop had written to own names.
+    :param copies: own names that hold what other functions may have changed.
     :param continues: the same of the branches that go on with its next round.
     """
 
@@ -51,9 +55,12 @@ class Frame:
     function: Function | None = None
     results: list[Value] = field(default_factory=list)
     yields: list[Value] = field(default_factory=list)
+    many: dict[Value, Value] = field(default_factory=dict)
     qualname: str = ''
+    path: Path = ()
     breaks: list[Writes] = field(default_factory=list)
     continues: list[Writes] = field(default_factory=list)
+    copies: frozenset[str] = frozenset()
 
     @property
     def module(self) -> Module:
@@ -61,10 +68,13 @@ class Frame:
         return self.scope.module
 
     def place(self, node: ast.AST) -> Place:
-        """Where ``node`` stands."""
-        return Place(
-            self.scope.module.file, getattr(node, 'lineno', 0), getattr(node, 'col_offset', -1) + 1
-        )
+        """Where ``node`` stands, kept on the node: a tree belongs to one file."""
+        notes = node.__dict__
+        known: Place | None = notes.get('place')
+        if known is None:
+            line, column = notes.get('lineno', 0), notes.get('col_offset', -1) + 1
+            known = notes['place'] = Place(self.scope.module.file, line, column)
+        return known
 
     def attribute_name(self, name: str) -> str:
         """The attribute that ``name`` means in the text that is running."""
@@ -87,6 +97,7 @@ class Machine(ABC):
     store: Store
     world: World
     steps: int
+    step_limit: int
 
     @abstractmethod
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
@@ -167,6 +178,10 @@ class Machine(ABC):
         """The object in a name or attribute gets a new content or value from its old one."""
 
     @abstractmethod
+    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
+        """A loop goes over a collection, which nobody may change in size meanwhile."""
+
+    @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:
         """Names of globals that some function of the module rebinds or changes in place."""
 
@@ -177,6 +192,10 @@ class Machine(ABC):
     @abstractmethod
     def run_function(self, function: Function, call: Call) -> Value:
         """Run the body of a scanned function, also of a coroutine function."""
+
+    @abstractmethod
+    def running_classes(self) -> frozenset[Class]:
+        """The classes whose methods are running."""
 
     @abstractmethod
     def prepare(self, instance: Instance) -> None:
@@ -268,12 +287,23 @@ class Machine(ABC):
         """A call that can hold its thread."""
 
     @abstractmethod
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+
+    @abstractmethod
     def note_await(self, value: Value, place: Place) -> None:
         """A callback awaits ``value``."""
 
     @abstractmethod
-    def note_acquire(self, lock: Value, place: Place) -> None:
-        """A lock is taken."""
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A lock is taken; with a time-out it may not be."""
 
     @abstractmethod
     def note_release(self, lock: Value) -> None:

@@ -9,11 +9,15 @@ from pathlib import Path
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.extract.static.workspace import home_of
 from ros2cc_extract.places import Place
 
 _SKIPPED = frozenset(
     {'__pycache__', 'build', 'install', 'log', 'node_modules', 'venv', '.venv', 'site-packages'}
 )
+FollowedFile = tuple[str, str]
+"""Path and digest of a file."""
+
 _MANIFESTS = ('package.xml', 'setup.py', 'pyproject.toml')
 _LEVELS = 5
 _NOT_OF_WORKSPACES = sys.stdlib_module_names | {'diagnostic_updater', 'message_filters', 'tf2_ros'}
@@ -24,7 +28,9 @@ class Project:
     """
     All files that belong together.
 
-    :param given: the files that the user asked for, in order; others are only followed.
+    :param given: the files that the user asked for, by path; others are only followed, and
+        found by where they stand alone, so that nothing depends on what was read before.
+    :param lists_builtin: whether what rclpy makes for every node is wanted too.
     """
 
     def __init__(self, root: Path) -> None:
@@ -32,8 +38,11 @@ class Project:
         self._files: dict[Path, SourceFile] = {}
         self._by_name: dict[str, list[SourceFile]] = {}
         self._by_shown: dict[str, SourceFile] = {}
+        self._looked_for: dict[tuple[object, ...], SourceFile | None] = {}
+        self._packages: dict[Path, str] = {}
         self._roots: dict[tuple[Path, str], Path | None] = {}
         self.given: list[SourceFile] = []
+        self.lists_builtin = False
 
     @staticmethod
     def of_paths(paths: Sequence[Path], root: Path | None) -> Project:
@@ -45,6 +54,9 @@ class Project:
         project = Project((root or Path.cwd()).resolve())
         for path in paths:
             project._add_path(path)
+        project.given = sorted(dict.fromkeys(project.given), key=lambda source: source.path)
+        for source in project.given:
+            project._by_name.setdefault(source.module_name, []).append(source)
         return project
 
     @staticmethod
@@ -87,7 +99,16 @@ class Project:
         candidates = self._by_name.get(name, [])
         if candidates:
             return candidates[0]
-        return self._in_workspace(parts, importer)
+        return self._in_own_package(parts, importer) or self._in_workspace(parts, importer)
+
+    def _in_own_package(self, parts: list[str], importer: str) -> SourceFile | None:
+        """A module of the importing file's package, below which folders lack ``__init__.py``."""
+        source = self._by_shown.get(importer)
+        if parts[0] in _NOT_OF_WORKSPACES or source is None or source.given_text is not None:
+            return None
+        above = list(source.path.parents)[:_LEVELS]
+        top = next((folder for folder in above if folder.name == parts[0]), None)
+        return self._in_folder(top.parent, parts) if top is not None else None
 
     def _in_workspace(self, parts: list[str], importer: str) -> SourceFile | None:
         """A module of another package that stands beside the importing file or above it."""
@@ -96,7 +117,7 @@ class Project:
             return None
         key = (source.path.parent, parts[0])
         if key not in self._roots:
-            self._roots[key] = _package_root(*key)
+            self._roots[key] = _package_root(*key) or _root_in_repository(*key)
         root = self._roots[key]
         return self._in_folder(root, parts) if root is not None else None
 
@@ -113,6 +134,13 @@ class Project:
             yield folder
 
     def _in_folder(self, folder: Path, parts: list[str]) -> SourceFile | None:
+        """The file of a module under ``folder``; looked for once."""
+        key = (folder, *parts)
+        if key not in self._looked_for:
+            self._looked_for[key] = self._look_for(folder, parts)
+        return self._looked_for[key]
+
+    def _look_for(self, folder: Path, parts: list[str]) -> SourceFile | None:
         stem = folder.joinpath(*parts)
         for candidate in (stem.with_name(f'{stem.name}.py'), stem / '__init__.py'):
             known = self._files.get(candidate)
@@ -121,6 +149,15 @@ class Project:
             if candidate.is_file():
                 return self._add_file(candidate)
         return None
+
+    def followed(self) -> list[FollowedFile]:
+        """The files that nobody gave, as they were read."""
+        given = {id(source) for source in self.given}
+        return [
+            (str(source.path), source.digest)
+            for source in self._files.values()
+            if id(source) not in given
+        ]
 
     def _add_path(self, path: Path) -> None:
         if path.is_dir():
@@ -140,12 +177,14 @@ class Project:
         known = self._files.get(full)
         if known is not None:
             return known
-        package = _package_of(full)
+        folder = full.parent
+        if folder not in self._packages:
+            self._packages[folder] = _package_of(folder)
+        package = self._packages[folder]
         stem = full.stem
         name = package if stem == '__init__' and package else f'{package}.{stem}'.lstrip('.')
         source = SourceFile(full, self._shown(path, full), name, package)
         self._files[full] = source
-        self._by_name.setdefault(name, []).append(source)
         self._by_shown[source.shown] = source
         return source
 
@@ -171,9 +210,15 @@ def _package_root(folder: Path, package: str) -> Path | None:
     return None
 
 
-def _package_of(path: Path) -> str:
+def _root_in_repository(folder: Path, package: str) -> Path | None:
+    """The folder that holds ``package``, somewhere else in the same repository."""
+    home = home_of(folder, package)
+    roots = (home, home / 'src') if home is not None else ()
+    return next((r for r in roots if (r / package / '__init__.py').is_file()), None)
+
+
+def _package_of(folder: Path) -> str:
     names: list[str] = []
-    folder = path.parent
     while (folder / '__init__.py').is_file() and folder.name.isidentifier():
         names.append(folder.name)
         folder = folder.parent

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static import folding, loops
+from ros2cc_extract.extract.static import builtin_methods, folding, loops
+from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.threads_library import run_in_executor
 from ros2cc_extract.extract.static.values import (
+    ABSENT,
     NONE,
     Bound,
     Call,
@@ -18,11 +20,9 @@ from ros2cc_extract.extract.static.values import (
     Function,
     Handler,
     Instance,
-    Mapping,
     Mystery,
     Native,
     Partial,
-    Sequence,
     Super,
     Value,
     choice,
@@ -67,10 +67,36 @@ def _enumerate(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _zip(machine: Machine, receiver: Value, call: Call) -> Value:
-    columns = [machine.items_of(arg, call.place) for arg in call.args]
-    rest = next((rest for _, rest in columns if rest is not None), call.more)
-    rows = zip(*(items for items, _ in columns), strict=False)
-    return Sequence(tuple(Sequence(row, 'tuple') for row in rows), 'list', rest)
+    columns = [loops.items_in(machine, arg, call.place) for arg in call.args]
+    rows: list[Value] = []
+    for parts in zip(*(column.known for column in columns), strict=False):
+        if any(c.why_many(part) is not None for c, part in zip(columns, parts, strict=True)):
+            break
+        rows.append(Sequence(parts, 'tuple'))
+    why = call.more or _why_more(columns, len(rows))
+    if why is None:
+        return Sequence(tuple(rows), 'list')
+    parts = tuple(_from_there_on(column, len(rows), why) for column in columns)
+    if all(isinstance(part, Mystery) for part in parts):
+        return Sequence(tuple(rows), 'list', why)
+    rows.append(Sequence(parts, 'tuple'))
+    return Sequence(tuple(rows), 'list', None, {rows[-1]: Mystery(why)})
+
+
+def _why_more(columns: list[loops.Items], length: int) -> Unknown | None:
+    """Why there may be more rows than ``length``; a column that surely ends there ends all."""
+    if any(len(column.known) == length and column.others is None for column in columns):
+        return None
+    whys = [why for c in columns for why in (c.others, *map(c.why_many, c.known)) if why]
+    return whys[0] if whys else None
+
+
+def _from_there_on(column: loops.Items, index: int, why: Unknown) -> Value:
+    """What stands for every item of a column from ``index`` on."""
+    left = column.known[index:]
+    if len(left) == 1 and column.others is None and column.why_many(left[0]) is not None:
+        return left[0]
+    return Mystery(column.others or why, 'item')
 
 
 def _converted(kind: str) -> Handler:
@@ -81,6 +107,12 @@ def _converted(kind: str) -> Handler:
         return Sequence(items.known, kind, items.others, items.many)
 
     return handler
+
+
+def _set(machine: Machine, receiver: Value, call: Call) -> Value:
+    if not call.args:
+        return Sequence((), 'set')
+    return loops.set_of(loops.items_in(machine, call.args[0], call.place), call.place)
 
 
 def _reversed(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -97,17 +129,34 @@ def _dict(machine: Machine, receiver: Value, call: Call) -> Value:
         many.update(call.args[0].many)
         rest = rest or call.args[0].others
     elif call.args:
-        pairs, unknown = machine.items_of(call.args[0], call.place)
-        rest = rest or unknown
-        for pair in pairs:
-            if isinstance(pair, Sequence) and len(pair.items) == 2:
-                entries[pair.items[0]] = pair.items[1]
+        rest = rest or _fill_with_pairs(machine, call, entries, many)
     entries.update({Const(name): value for name, value in call.keywords.items()})
     return Mapping(entries, rest, many)
 
 
+def _fill_with_pairs(
+    machine: Machine, call: Call, entries: dict[Value, Value], many: dict[Value, Value]
+) -> Unknown | None:
+    """The entries of ``dict(pairs)``; returns why there may be others."""
+    pairs = loops.items_in(machine, call.args[0], call.place)
+    rest = pairs.others
+    for pair in pairs.known:
+        why = pairs.why_many(pair)
+        for option in options_of(pair):
+            if not isinstance(option, Sequence) or len(option.items) != 2:
+                rest = rest or Unknown('a pair that could not be followed', call.place)
+                continue
+            key, value = option.items
+            entries[key] = choice([value, ABSENT]) if isinstance(pair, Choice) else value
+            if why is not None or not loops.is_key(key):
+                many[key] = Mystery(why) if why is not None else NONE
+    return rest
+
+
 def _len(machine: Machine, receiver: Value, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
+    if isinstance(value, Collection) and loops.may_be_filled(machine, value):
+        return machine.mystery('length when the program runs', call.place, 'len(…)')
     if (
         isinstance(value, Sequence)
         and value.rest is None
@@ -176,13 +225,8 @@ def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _setattr(machine: Machine, receiver: Value, call: Call) -> Value:
-    if len(call.args) == 3 and isinstance(call.args[1], Const):
-        owner, name, value = call.args[0], str(call.args[1].value), call.args[2]
-        if isinstance(owner, (Instance, Class)):
-            if isinstance(value, Instance) and value.hint is None:
-                value.hint = name
-            machine.store.write(owner, name, value)
-    return NONE
+    owner = call.args[0] if call.args else NONE
+    return builtin_methods.set_attribute(machine, owner, Call(call.place, call.args[1:]))
 
 
 def _hasattr(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -274,8 +318,22 @@ def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
     return results[0] if results else NONE
 
 
+def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    """The event loop runs it later: the callback that hands it over does none of it."""
+    world = machine.world
+    deeds, held = world.deeds, world.held
+    if deeds is None:
+        return _run_coroutine(machine, receiver, call)
+    world.deeds, world.held = None, ()
+    try:
+        _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
+    finally:
+        world.deeds, world.held = deeds, held
+    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+
+
 def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
-    return _converted('list')(machine, receiver, Call(call.place, call.args[:1]))
+    return _converted('deque')(machine, receiver, Call(call.place, call.args[:1]))
 
 
 def _defaultdict(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -300,8 +358,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.zip': _zip,
     'builtins.list': _converted('list'),
     'builtins.tuple': _converted('tuple'),
-    'builtins.set': _converted('set'),
-    'builtins.frozenset': _converted('set'),
+    'builtins.set': _set,
+    'builtins.frozenset': _set,
     'builtins.sorted': _converted('list'),
     'builtins.iter': _converted('list'),
     'builtins.reversed': _reversed,
@@ -336,8 +394,9 @@ _FUNCTIONS: dict[str, Handler] = {
     'asyncio.run': _run_coroutine,
     'asyncio.gather': _run_coroutine,
     'asyncio.wait': _run_coroutine,
-    'asyncio.create_task': _run_coroutine,
-    'asyncio.ensure_future': _run_coroutine,
+    'asyncio.create_task': _make_task,
+    'asyncio.ensure_future': _make_task,
+    'asyncio.run_coroutine_threadsafe': _make_task,
     'collections.deque': _deque,
     'queue.Queue': _deque,
     'collections.OrderedDict': _dict,
@@ -354,7 +413,7 @@ def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
 
 _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_coroutine,
-    'create_task': _run_coroutine,
+    'create_task': _make_task,
     'run_forever': _print,
     'run_in_executor': run_in_executor,
 }

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static import (
     ros_events,
     ros_executors,
     ros_groups,
+    ros_helpers,
     ros_libraries,
     ros_nodes,
     threads_library,
@@ -51,6 +52,7 @@ def table() -> Library:
             ros_clients.TABLE,
             ros_actions.TABLE,
             ros_libraries.TABLE,
+            ros_helpers.TABLE,
             ros_events.TABLE,
         ]
     )

@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
 )
 from ros2cc_extract.extract.static.values import Library as Name
-from ros2cc_extract.extract.static.world import EntityState, PlainState
+from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
 
@@ -35,6 +35,21 @@ def _call_async(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'client', receiver)
 
 
+def _goal_of_unknown(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Its feedback callback runs in the group of a client that is not known."""
+    if call.argument(1, 'feedback_callback') is not None:
+        reason = 'feedback callback of an action client that could not be followed'
+        note_once(machine.world.cut, Cut(reason, call.place, machine.running_classes()))
+    return machine.future(call.place, 'goal', receiver)
+
+
+UNKNOWN_CLIENT: dict[str, Handler] = {
+    'call_async': _call_async,
+    'send_goal_async': _goal_of_unknown,
+}
+"""Methods by which a value that could not be followed is known to be a client."""
+
+
 def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
     """Done-callbacks run as tasks of the executor, in no group (measured)."""
     assert isinstance(receiver, Instance)
@@ -44,7 +59,8 @@ def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
     source = state.of.state if isinstance(state.of, Instance) else None
     node = source.node if isinstance(source, EntityState) else None
     callback = call.argument(0, 'callback')
-    task = add_task(machine, node, callback, call.place, EntityKind.DONE_CALLBACK)
+    key = source.key if isinstance(source, EntityState) else None
+    task = add_task(machine, node, callback, call.place, EntityKind.DONE_CALLBACK, key)
     if task is not None:
         task.argument = receiver
     return NONE

@@ -9,20 +9,14 @@ default group), ``parameter_event_handler.py`` (one subscription).
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_builtins import without_default_events
 from ros2cc_extract.extract.static.ros_executors import as_node
 from ros2cc_extract.extract.static.ros_groups import group_of
 from ros2cc_extract.extract.static.ros_nodes import NODE, NODE_METHODS, add_entity
-from ros2cc_extract.extract.static.values import (
-    NONE,
-    Call,
-    Const,
-    Handler,
-    Instance,
-    Mapping,
-    Value,
-)
+from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
 from ros2cc_extract.extract.static.world import EntityState, PlainState
 from ros2cc_extract.spec.model import EntityKind
 
@@ -36,7 +30,8 @@ def _keep_callbacks(machine: Machine, receiver: Value, call: Call) -> Value:
     given: dict[Value, Value] = {
         Const(name): value for name, value in call.keywords.items() if name not in _NO_CALLBACKS
     }
-    receiver.state = PlainState('event callbacks', of=Mapping(given), place=call.place)
+    default = call.argument(None, 'use_default_callbacks')
+    receiver.state = PlainState('event callbacks', default, Mapping(given), call.place)
     return NONE
 
 
@@ -44,9 +39,11 @@ def with_events(original: Handler, key_index: int) -> Handler:
     """A create call whose ``event_callbacks`` make entities of their own."""
 
     def create(machine: Machine, receiver: Value, call: Call) -> Value:
+        before = len(machine.world.builtins)
         made = original(machine, receiver, call)
         events = call.argument(None, 'event_callbacks')
         if isinstance(receiver, Instance) and isinstance(events, Instance):
+            without_default_events(machine, before, events)
             _add_events(machine, receiver, events, call, call.argument(key_index, 'topic'))
         return made
 

@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
     Call,
+    Choice,
     Class,
     Const,
     Coroutine,
@@ -133,7 +134,10 @@ def as_executor(machine: Machine, value: Value, place: Place) -> Instance:
 
 
 def as_node(machine: Machine, value: Value | None) -> Instance | None:
-    """The node that ``value`` is; a ghost for a mystery; ``None`` for anything else."""
+    """The node that ``value`` is or may be; a ghost for a mystery; ``None`` for anything else."""
+    if isinstance(value, Choice):
+        nodes = [as_node(machine, option) for option in options_of(value) if option != NONE]
+        return nodes[0] if nodes and all(node is nodes[0] for node in nodes) else None
     if isinstance(value, Instance) and isinstance(value.state, NodeState):
         return value
     if isinstance(value, Instance):
@@ -200,15 +204,25 @@ def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ev
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
     spin.repeated = isinstance(world.count, Unknown)
-    world.spins.setdefault(spin.key, spin)
+    if not any(_is_the_same(spin, other) for other in world.spins.values()):
+        world.spins.setdefault(spin.key, spin)
     for node in nodes:
         node.state.spun = True
     if ever and not world.in_thread:
         world.after_spin = True
 
 
+def _is_the_same(spin: Spin, other: Spin) -> bool:
+    """Whether one text is met again that makes an executor for a node that is there already."""
+    made_anew = spin.executor is not other.executor
+    same_text = (spin.place, spin.executor.place) == (other.place, other.executor.place)
+    return made_anew and same_text and bool(spin.nodes) and spin.nodes == other.nodes
+
+
 def _future_of(call: Call, position: int, how: str) -> Awaited:
-    """The future a nested spin waits for, with its time-out."""
+    """The future a nested spin waits for, if it waits for one, and its time-out."""
+    if how == 'spin_once':
+        return None, call.argument(None if position else 0, 'timeout_sec')
     if how != 'spin_until_future_complete':
         return None, None
     timeout = call.argument(position + 2 if position else 1, 'timeout_sec')
@@ -237,6 +251,18 @@ def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
     return spin
 
 
+def _is_apart(machine: Machine, node: Instance, given: Value) -> bool:
+    """
+    Whether a callback spins a node of no executor on an executor that it names.
+
+    Then nothing moves that was served before, and it is as if that executor were spun.
+    """
+    current = machine.world.current
+    is_named = isinstance(given, Instance) and isinstance(given.state, ExecutorState)
+    is_own = current is not None and current.node is node
+    return is_named and not is_own and node.slots.get('__executor__') in (None, NONE, given)
+
+
 def _spin_node(
     machine: Machine,
     node_value: Value,
@@ -249,14 +275,22 @@ def _spin_node(
     node = as_node(machine, node_value)
     if node is None:
         return
-    if machine.note_nested_spin(f'rclpy.{how}', node, given, future, place):
+    is_apart = _is_apart(machine, node, given)
+    call, moved = (f'executor.{how}', None) if is_apart else (f'rclpy.{how}', node)
+    if machine.note_nested_spin(call, moved, given, future, place):
         _note_served_inside((node,), f'rclpy.{how}', place)
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
     _warn_of_theft(machine, node, executor, how, place)
     add_node(machine, executor, node)
     record_spin(machine, executor, f'rclpy.{how}', place, ever)
+    machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))
     remove_node(machine, executor, node)
+
+
+def spin_in_passing(machine: Machine, node: Value, how: str, place: Place) -> None:
+    """A library spins ``node`` by the global executor until something has come."""
+    _spin_node(machine, node, NONE, how, place, False, (None, None))
 
 
 def _note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> None:
@@ -297,6 +331,7 @@ def _method_spin(how: str, ever: bool) -> Handler:
             _note_served_inside(nodes_of(receiver), how, call.place)
         else:
             record_spin(machine, receiver, how, call.place, ever)
+            machine.note_outside_wait(how, *future, call.place, nodes_of(receiver))
         return machine.mystery(f'result of {how}', call.place)
 
     return spin
@@ -342,8 +377,14 @@ def add_task(
     callback: Value | None,
     place: Place,
     kind: EntityKind = EntityKind.TASK,
+    key: Value | None = None,
 ) -> EntityState | None:
-    """Record group-less work; it runs on the executor of ``node``."""
+    """
+    Record group-less work; it runs on the executor of ``node``.
+
+    :param key: the name of the client whose answer it is for.
+    :return: ``None`` when it is known already: one function, at one place, for one client.
+    """
     world = machine.world
     if node is None:
         node = world.current.node if world.current else next(iter(world.nodes), None)
@@ -352,12 +393,20 @@ def add_task(
     run = callback.function if isinstance(callback, Coroutine) else callback
     for known in world.by_node.get(id(node), ()):
         is_here = known.place == place and known.kind is kind
-        if is_here and _code_of(known.callback) == _code_of(run):
+        is_same = is_here and _name_of(known.key) == _name_of(key)
+        if is_same and _code_of(known.callback) == _code_of(run):
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
-    entity.callback = run
+    entity.callback, entity.key = run, key
     entity.count = 1
     return entity
+
+
+def _name_of(key: Value | None) -> object:
+    """Equal for names that are one, as far as they are known."""
+    if isinstance(key, Mystery):
+        return key.unknown, key.text
+    return key.value if isinstance(key, Const) else type(key)
 
 
 def _code_of(value: Value | None) -> object:

@@ -7,6 +7,8 @@ node's default group, which is mutually exclusive).
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
@@ -29,6 +31,7 @@ EXCLUSIVE = 'rclpy.callback_groups.MutuallyExclusiveCallbackGroup'
 REENTRANT = 'rclpy.callback_groups.ReentrantCallbackGroup'
 
 DEFAULT_GROUP = '_default_callback_group'
+_PROPERTY = 'default_callback_group'
 _DECISIVE = frozenset({'can_execute', 'beginning_execution', 'ending_execution', '__new__'})
 
 
@@ -76,7 +79,7 @@ def new_group(machine: Machine, state: GroupState, place: Place, hint: str | Non
 
 def group_of(machine: Machine, node: Instance, value: Value | None, place: Place) -> Instance:
     """The group that ``callback_group=value`` means for an entity of ``node``."""
-    default = default_group_of(node)
+    default = _default_meant(machine, node, place)
     if value is None or value == NONE:
         value = default
     options = options_of(value)
@@ -86,6 +89,25 @@ def group_of(machine: Machine, node: Instance, value: Value | None, place: Place
             return next(iter(groups.values()))
     known = _known_group(default, value)
     return known or _unknown_group(machine, value, place)
+
+
+def _default_meant(machine: Machine, node: Instance, place: Place) -> Value:
+    """What the ``create_…`` methods get by the property, which a class may override."""
+    if any(isinstance(cls, Class) and _PROPERTY in cls.slots for cls in node.mro):
+        return machine.attribute(node, _PROPERTY, place)
+    ghost = node.state.ghost
+    if ghost is not None and any(map(_overrides_the_default, machine.world.trees)):
+        reason = (
+            f'a class of the program overrides {_PROPERTY}; it is not known whether of this node'
+        )
+        return machine.mystery(reason, ghost.at or node.place)
+    return default_group_of(node)
+
+
+def _overrides_the_default(tree: ast.Module) -> bool:
+    classes = (each for each in tree.body if isinstance(each, ast.ClassDef))
+    parts = (part for cls in classes for part in cls.body)
+    return any(isinstance(part, ast.FunctionDef) and part.name == _PROPERTY for part in parts)
 
 
 def default_group_of(node: Instance) -> Value:

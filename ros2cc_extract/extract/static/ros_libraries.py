@@ -9,6 +9,7 @@ its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__i
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.containers import Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_executors import (
@@ -26,7 +27,6 @@ from ros2cc_extract.extract.static.values import (
     Handler,
     Instance,
     Mystery,
-    Sequence,
     Value,
 )
 from ros2cc_extract.extract.static.values import Library as Name
@@ -36,7 +36,7 @@ from ros2cc_extract.extract.static.world import (
     GroupState,
     PlainState,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 _TF = 'tf2_ros.TransformListener'
@@ -55,9 +55,18 @@ def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
     for topic, label in (('/tf', 'tf_callback'), ('/tf_static', 'tf_static_callback')):
         entity = add_entity(machine, node, EntityKind.SUBSCRIPTION, group, call.place)
         entity.key, entity.label, entity.library = Const(topic), label, _TF
+        if topic == '/tf' and isinstance(receiver, Instance):
+            receiver.state = entity
+    _fill(call.argument(0, 'buffer'), receiver)
     if machine.truth(call.argument(2, 'spin_thread') or Const(False)):
         _spin_thread(machine, node, call)
     return NONE
+
+
+def _fill(buffer: Value | None, listener: Value) -> None:
+    """What a look-up waits for: the messages that the listener of its buffer takes."""
+    if isinstance(buffer, Instance) and isinstance(buffer.state, PlainState):
+        buffer.state.of = listener
 
 
 def _spin_thread(machine: Machine, node: Instance, call: Call) -> None:
@@ -85,6 +94,13 @@ def _subscribe(machine: Machine, receiver: Value, call: Call) -> Value:
     entity.label = 'filter_input'
     receiver.state = entity
     return NONE
+
+
+def _subscription(machine: Machine, receiver: Instance, place: Place) -> Value:
+    """``Subscriber.sub``: what ``create_subscription`` gave it."""
+    made = Instance(Name('rclpy.subscription.Subscription'), receiver.place)
+    made.state = receiver.state
+    return made
 
 
 def _filter_state(machine: Machine, instance: Instance) -> PlainState:
@@ -185,7 +201,9 @@ TABLE = Library(
         ),
         'rclpy.duration.Duration': LibraryClass(state=_duration, init=_set_duration),
         'message_filters.Subscriber': LibraryClass(
-            init=_subscribe, methods={'registerCallback': _register}
+            init=_subscribe,
+            methods={'registerCallback': _register},
+            properties={'sub': _subscription},
         ),
         'message_filters.TimeSynchronizer': _SYNCHRONIZER,
         'message_filters.ApproximateTimeSynchronizer': _SYNCHRONIZER,

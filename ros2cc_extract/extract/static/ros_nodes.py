@@ -11,12 +11,14 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_builtins import add_builtins_of_node, add_events_of
 from ros2cc_extract.extract.static.ros_groups import (
     DEFAULT_GROUP,
     default_group_of,
     group_of,
     new_group,
 )
+from ros2cc_extract.extract.static.same_node import made_before, made_while_missing, remember
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -112,19 +114,22 @@ def add_entity(
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.when = world.when
-    entity.number = len(world.entities)
+    entity.number = len(world.entities) + len(world.builtins)
     world.entities.append(entity)
     world.by_node.setdefault(id(node), []).append(entity)
+    if kind is EntityKind.SUBSCRIPTION:
+        add_events_of(machine, node, group, place, entity)
     if world.deeds is not None:
         note_once(world.deeds.changes, Act(name=kind.value, source=place, chain=world.chain[1:]))
     return entity
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if isinstance(receiver.state, NodeState):
         receiver.state.name = call.argument(0, 'node_name') or NONE
         machine.store.remove(receiver, DEFAULT_GROUP)
+        add_builtins_of_node(machine, receiver, call)
     return NONE
 
 
@@ -135,12 +140,13 @@ def _creator(row: CreateCall) -> Handler:
             machine, receiver, call.argument(row.group_position, 'callback_group'), call.place
         )
         key = call.argument(*row.key) if row.key else None
-        known = _made_before(machine, receiver, row.kind, key, call.place)
+        callback = call.argument(*row.callback) if row.callback else None
+        known = _made_before(machine, receiver, row.kind, key, call.place, callback)
         if known is not None:
             return known
         entity = add_entity(machine, receiver, row.kind, group, call.place)
         entity.key = key
-        entity.callback = call.argument(*row.callback) if row.callback else None
+        entity.callback = callback
         entity.period = call.argument(*row.period) if row.period else None
         made = Instance(Name(row.cls), call.place)
         made.state = entity
@@ -156,13 +162,20 @@ def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> 
 
 
 def _made_before(
-    machine: Machine, node: Instance, kind: EntityKind, key: Value | None, place: Place
+    machine: Machine,
+    node: Instance,
+    kind: EntityKind,
+    key: Value | None,
+    place: Place,
+    callback: Value | None = None,
 ) -> Instance | None:
     """What a callback makes at one place is one entity, made again and again."""
-    if machine.world.when is not When.CALLBACK:
+    world = machine.world
+    known = world.made_in_callbacks.get(_site(node, kind, key, place))
+    if known is None:
         return None
-    known = machine.world.made_in_callbacks.get(_site(node, kind, key, place))
-    if known is None or known.state.when is not When.CALLBACK:
+    is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
+    if not is_again and not made_while_missing(world, known.state, key, callback):
         return None
     if machine.world.deeds is not None:
         act = Act(name=kind.value, source=place, chain=machine.world.chain[1:])
@@ -174,6 +187,9 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     """A timer in a private reentrant group of the node (``node.py``, ``_rate_group``)."""
     assert isinstance(receiver, Instance)
     state = receiver.state
+    known = _made_before(machine, receiver, EntityKind.TIMER, None, call.place)
+    if known is not None:
+        return known
     if state.rate_group is None:
         group = GroupState(type=GroupType.REENTRANT, library='rclpy.create_rate', node=receiver)
         state.rate_group = new_group(machine, group, call.place, 'rate_group')
@@ -186,20 +202,31 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
         entity.period = frequency
     made = Instance(Name('rclpy.timer.Rate'), call.place)
     made.state = entity
+    machine.world.made_in_callbacks[_site(receiver, entity.kind, None, call.place)] = made
     return made
 
 
 def _create_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        given = call.argument(None, 'callback_group')
+        group = group_of(machine, receiver, given, call.place)
+        add_events_of(machine, receiver, group, call.place, None)
     made = Instance(Name('rclpy.publisher.Publisher'), call.place)
     made.state = PlainState('publisher', call.argument(1, 'topic'), receiver, call.place)
     return made
 
 
 def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
-    node = Instance(Name(NODE), call.place)
+    cls = Name(NODE)
+    known = made_before(machine, cls, call)
+    if known is not None:
+        return known
+    node = Instance(cls, call.place)
     node.path = machine.world.path
     node.state = make_node(machine, node)
+    remember(machine, node, call)
     node.state.name = call.argument(0, 'node_name')
+    add_builtins_of_node(machine, node, call)
     machine.world.instances.append(node)
     return node
 
@@ -232,6 +259,14 @@ def _parameter(machine: Machine, receiver: Value, call: Call) -> Value:
     made = Instance(Name('rclpy.parameter.Parameter'), call.place)
     made.state = PlainState('parameter', Mystery(Unknown(f'value of {text}', call.place), text))
     return made
+
+
+def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``Parameter(name, type, value)``."""
+    assert isinstance(receiver, Instance)
+    value = call.argument(2, 'value') or machine.mystery('value of a parameter', call.place)
+    receiver.state = PlainState('parameter', value, call.argument(0, 'name'), call.place)
+    return NONE
 
 
 def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -306,12 +341,13 @@ TABLE = Library(
     classes={
         NODE: LibraryClass(
             state=make_node,
-            init=_init,
+            init=init_node,
             methods=NODE_METHODS,
             properties={'default_callback_group': _default_group, DEFAULT_GROUP: _default_group},
         ),
-        LIFECYCLE_NODE: LibraryClass(init=_init, bases=(NODE,)),
+        LIFECYCLE_NODE: LibraryClass(init=init_node, bases=(NODE,)),
         'rclpy.parameter.Parameter': LibraryClass(
+            init=_keep_parameter,
             properties={'value': _parameter_value},
             methods={'get_parameter_value': _get_parameter_value},
         ),

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import ast
+from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.call_order import callers_first, leading_to_entities
+from ros2cc_extract.extract.static.again import both
+from ros2cc_extract.extract.static.alternatives import IN_A_CALLBACK
+from ros2cc_extract.extract.static.call_order import (
+    callers_first,
+    leading_to_entities,
+)
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.interpreter import Interpreter
+from ros2cc_extract.extract.static.lock_paths import note_kept_locks
 from ros2cc_extract.extract.static.machine import BudgetError
+from ros2cc_extract.extract.static.outside_waits import note_unanswered
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import creates_entities
-from ros2cc_extract.extract.static.source import SourceFile
 from ros2cc_extract.extract.static.values import (
     NO_CALLER,
     Bound,
@@ -19,13 +25,12 @@ from ros2cc_extract.extract.static.values import (
     Class,
     Function,
     Instance,
-    Module,
     Mystery,
     Partial,
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import Deeds, EntityState, NodeState, World
+from ros2cc_extract.extract.static.world import Cut, Deeds, EntityState, NodeState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 
@@ -39,13 +44,23 @@ _PARAMETERS = {
 }
 
 _CONFIGURING = ('on_configure', 'on_activate', 'on_deactivate', 'on_cleanup', 'on_shutdown')
+_DESTROYING = 'on_deactivate'
+UNCALLED = -3
+"""Step of a path that somebody who is not in sight takes."""
+
+_PREPARING = ('setUp', 'asyncSetUp', 'setup_method')
 _CLOSING = ('destroy', 'shutdown', 'cleanup', 'close', 'stop', '__del__', '__exit__', 'on_error')
+TOO_LONG = 'set-up is too long to be followed to its end'
 _CALLBACK_LIMIT = 2_000
+_ROUNDS = 2
+STEP_LIMIT = 600_000
+"""Statements and expressions of one set-up, callback or method; ``RUN_LIMIT`` holds for all."""
 
 
 def run_entry(project: Project, entry: Entry) -> Interpreter:
     """Follow a program from one of its entries, then its callbacks."""
     machine = Interpreter(project)
+    machine.world.is_program = True
     place = Place(entry.source.shown, 1, 1)
 
     def follow() -> None:
@@ -60,6 +75,8 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
+    note_kept_locks(machine.world)
+    note_unanswered(machine.world)
     return machine
 
 
@@ -78,7 +95,7 @@ def _run_escaped(machine: Interpreter) -> None:
 
 def _run_escaped_one(machine: Interpreter, value: Value, function: Function, place: Place) -> None:
     def follow() -> None:
-        machine.world.path = ((place, -3),)
+        machine.world.path = ((place, UNCALLED),)
         machine.world.when = When.LATER
         machine.world.after_spin = False
         skip = 1 if isinstance(value, Bound) else 0
@@ -88,101 +105,6 @@ def _run_escaped_one(machine: Interpreter, value: Value, function: Function, pla
         machine.run_if_coroutine(machine.call(value, call), place)
 
     guarded(machine, follow, place)
-
-
-def run_library(
-    project: Project, source: SourceFile, covered: frozenset[int]
-) -> Interpreter | None:
-    """
-    Follow what no entry reaches in a file: its node classes, and functions given a node.
-
-    :param covered: identities of the class and function statements that were followed already.
-    """
-    if source.tree is None or not _has_uncovered(source.tree, covered):
-        return None
-    machine = Interpreter(project)
-    place = Place(source.shown, 1, 1)
-    guarded(machine, lambda: machine.run_module(source, source.module_name) and None, place)
-    module = machine.modules[source.shown]
-    values = _definitions(machine, module)
-    bases = _bases_in_use(values)
-    in_text = sorted(values, key=_classes_and_setters_first)
-    names, nodes = [v.name for v in in_text], [v.node for v in in_text]
-    wanted = leading_to_entities(names, nodes, frozenset())
-    for value in callers_first(in_text, names, nodes):
-        if id(value.node) in covered or value.module is not module:
-            continue
-        if _is_followed(machine, value) or value.name not in wanted:
-            continue
-        if id(value) in bases:
-            continue
-        _use_without_caller(machine, value)
-        run_callbacks(machine)
-        run_rest_of_instances(machine)
-    return machine
-
-
-def _classes_and_setters_first(value: Class | Function) -> tuple[bool, bool, int]:
-    """Functions that set globals come before others, which may need them."""
-    sets = any(isinstance(part, ast.Global) for part in ast.walk(value.node))
-    return isinstance(value, Function), not sets, value.node.lineno
-
-
-def _is_followed(machine: Interpreter, value: Class | Function) -> bool:
-    if isinstance(value, Function):
-        return id(value.node) in machine.world.called
-    return any(instance.cls is value for instance in machine.world.instances)
-
-
-def _has_uncovered(tree: ast.Module, covered: frozenset[int]) -> bool:
-    return any(
-        id(node) not in covered and creates_entities(node)
-        for node in tree.body
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef))
-    )
-
-
-def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]:
-    """Classes and functions of a module, also those that a decorator hides."""
-    found = [
-        option
-        for value in module.slots.values()
-        if isinstance(value, Value)
-        for option in options_of(value)
-        if isinstance(option, (Class, Function))
-    ]
-    hidden = [f for f in machine.world.decorated if f.owner is None and f.module is module]
-    return [*found, *(f for f in hidden if '<locals>' not in f.qualname and f not in found)]
-
-
-def _bases_in_use(values: list[Class | Function]) -> set[int]:
-    """A base class of another class of the file is followed with that one."""
-    return {
-        id(base)
-        for cls in values
-        if isinstance(cls, Class) and creates_entities(cls.node)
-        for base in cls.mro[1:]
-    }
-
-
-def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
-    machine.world.after_spin = False
-    if isinstance(value, Class):
-        init = next(
-            (
-                c.slots['__init__']
-                for c in value.mro
-                if isinstance(c, Class) and '__init__' in c.slots
-            ),
-            None,
-        )
-        call = Call(value.place)
-        if isinstance(init, Function):
-            call = unknown_arguments(init, value.place, skip=1)
-        guarded(machine, lambda: machine.instantiate(value, call), value.place)
-    else:
-        call = unknown_arguments(value, value.place, skip=0)
-        guarded(machine, lambda: machine.run_function(value, call), value.place)
 
 
 def unknown_arguments(function: Function, place: Place, skip: int) -> Call:
@@ -213,14 +135,18 @@ def _unknown_argument(function: Function, name: str, default: Value | None) -> M
 def guarded(machine: Interpreter, act: object, place: Place) -> None:
     """Do ``act``; a program too large to be followed ends in a diagnostic."""
     world = machine.world
-    machine.steps = 0
+    if not machine.steps_left:
+        world.cut.append(Cut(TOO_LONG, place))
+        return
+    machine.steps, machine.step_limit = 0, min(STEP_LIMIT, machine.steps_left)
     try:
         act()  # type: ignore[operator]
     except BudgetError:
-        _complain(world, place, 'set-up is too long to be followed to its end')
+        _complain(world, place, TOO_LONG)
     except RecursionError:
         _complain(world, place, 'set-up is nested too deeply to be followed')
     finally:
+        machine.steps_left -= min(machine.steps, machine.steps_left)
         machine.stack.clear()
         machine.depth = 0
         world.path, world.count, world.chain, world.held = (), 1, (), ()
@@ -239,21 +165,56 @@ def _complain(world: World, place: Place, message: str) -> None:
             help='what it would make is missing from the units',
         )
     )
-    world.cut.append((message, place))
+    world.cut.append(Cut(message, place))
+
+
+@dataclass(frozen=True)
+class _TooEarly:
+    """A callback that was followed before others had set what it asked for."""
+
+    entity: EntityState
+    met_none: bool
+    lacking: tuple[tuple[Instance, str], ...]
+
+    def may_go_on(self) -> bool:
+        """True when it met ``None``, or lacked what somebody has set since."""
+        return self.met_none or any(name in owner.slots for owner, name in self.lacking)
 
 
 def run_callbacks(machine: Interpreter) -> None:
-    """Follow every callback once, also of entities that callbacks make."""
-    entities = machine.world.entities
-    index = machine.world.followed
-    while index < min(len(entities), _CALLBACK_LIMIT):
-        entity = entities[index]
-        index += 1
-        machine.world.followed = index
-        entity.deeds = Deeds()
-        for callback in (entity.callback, *entity.extra_callbacks):
-            if callback is not None:
-                _run_callback(machine, entity, callback, entity.deeds)
+    """
+    Follow every callback, also of entities that callbacks make.
+
+    Those that met ``None``, or nothing, where others put something are followed again after
+    them, and once more for what they hand on to each other.
+    """
+    world, too_early = machine.world, list[_TooEarly]()
+    while world.followed < min(len(world.entities), _CALLBACK_LIMIT):
+        entity = world.entities[world.followed]
+        world.followed += 1
+        unset, world.lacking = world.unset, []
+        _run_callbacks_of(machine, entity)
+        if world.unset != unset or world.lacking:
+            too_early.append(_TooEarly(entity, world.unset != unset, tuple(world.lacking)))
+        if world.followed == len(world.entities):
+            again, too_early = [one.entity for one in too_early if one.may_go_on()], []
+            for entity in again * _ROUNDS:
+                _run_again(machine, entity)
+
+
+def _run_again(machine: Interpreter, entity: EntityState) -> None:
+    before = entity.deeds or Deeds()
+    machine.world.again = True
+    entity.deeds = both(before, _run_callbacks_of(machine, entity))
+    machine.world.again = False
+
+
+def _run_callbacks_of(machine: Interpreter, entity: EntityState) -> Deeds:
+    entity.deeds = Deeds()
+    for callback in (entity.callback, *entity.extra_callbacks):
+        if callback is not None:
+            _run_callback(machine, entity, callback, entity.deeds)
+    return entity.deeds
 
 
 def _run_callback(
@@ -263,7 +224,7 @@ def _run_callback(
         world = machine.world
         world.deeds, world.current, world.when = deeds, entity, When.CALLBACK
         world.count = Unknown('made each time the callback runs', entity.place)
-        world.path = world.callback_path = ((entity.place, -2),)
+        world.path = world.callback_path = ((entity.place, IN_A_CALLBACK),)
         world.after_spin = False
         mark = machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
@@ -291,26 +252,70 @@ def run_rest_of_instances(machine: Interpreter) -> None:
     while seen < min(len(machine.world.instances), _CALLBACK_LIMIT):
         instance = machine.world.instances[seen]
         seen += 1
-        for name, method in _methods_without_caller(machine, instance):
-            if id(method.node) not in machine.world.called:
-                _run_later(machine, instance, name, method)
+        if machine.world.settled.get(id(instance)) == _stamp(machine.world, instance):
+            continue
+        for method in _methods_without_caller(machine, instance):
+            if _lacks_caller(machine.world, method, instance):
+                number = id(method.text.node)
+                machine.world.without_caller.setdefault(number, set()).add(id(instance))
+                _run_later(machine, instance, method.name, method.function)
+                machine.world.followed_later.update(instance.mro)
                 run_callbacks(machine)
+        machine.world.settled[id(instance)] = _stamp(machine.world, instance)
 
 
-def _methods_without_caller(
-    machine: Interpreter, instance: Instance
-) -> list[tuple[str, Function]]:
+def _stamp(world: World, instance: Instance) -> int:
+    """Grows whenever there may be something new to follow in ``instance``."""
+    return sum(
+        world.followed_later[cls] + len(cls.slots)
+        for cls in instance.mro
+        if isinstance(cls, Class)
+    )
+
+
+@dataclass(frozen=True)
+class _Method:
+    """
+    A method as it is called.
+
+    :param function: what a decorator has made of it.
+    :param text: the function that stands under that name in the class.
+    :param is_hidden: it is only called if its decorator does so.
+    """
+
+    name: str
+    function: Function
+    text: Function
+    is_hidden: bool = False
+
+
+def _lacks_caller(world: World, method: _Method, instance: Instance) -> bool:
+    """
+    Whether nobody in sight calls it.
+
+    It is followed for each object that the set-up makes, and once for others of its class; one
+    that only the class itself is to call once as well, whatever keeps the class from it.
+    """
+    number = id(method.text.node)
+    is_of_set_up = all(step != UNCALLED for _, step in instance.path)
+    followed = world.without_caller.get(number, set())
+    is_other = bool(followed) and id(instance) not in followed and is_of_set_up
+    is_private = method.is_hidden or method.name.startswith('_')
+    return number not in world.called or (is_other and not is_private)
+
+
+def _methods_without_caller(machine: Interpreter, instance: Instance) -> list[_Method]:
     """
     Methods not followed yet that lead to entities, callers before what they call.
 
     Using a scanned class or function that makes some leads to entities too.
     """
     left = [
-        (name, method)
-        for name, method in _methods_of(machine, instance)
-        if id(method.node) not in machine.world.called
+        method
+        for method in _methods_of(machine, instance)
+        if _lacks_caller(machine.world, method, instance)
     ]
-    modules = {id(method.module): method.module for _, method in left}
+    modules = {id(method.text.module): method.text.module for method in left}
     makers = frozenset(
         name
         for module in modules.values()
@@ -319,25 +324,54 @@ def _methods_without_caller(
         and value not in instance.mro
         and creates_entities(value.node)
     )
-    names, nodes = [method.name for _, method in left], [method.node for _, method in left]
+    names, nodes = [method.name for method in left], [method.function.node for method in left]
     wanted = leading_to_entities(names, nodes, makers)
-    ordered = callers_first(left, names, nodes)
-    return [(name, method) for name, method in ordered if method.name in wanted]
+    if isinstance(instance.state, NodeState) and instance.state.lifecycle:
+        wanted |= {_DESTROYING}
+    return [method for method in callers_first(left, names, nodes) if method.name in wanted]
 
 
-def _methods_of(machine: Interpreter, instance: Instance) -> list[tuple[str, Function]]:
-    found: dict[str, Function] = {}
-    for function in machine.world.decorated:
-        if function.owner is not None and function.owner in instance.mro:
-            found.setdefault(function.name, function)
+def _methods_of(machine: Interpreter, instance: Instance) -> list[_Method]:
+    """Its methods with their decorators, and then those that a decorator has not called."""
+    behind = {
+        (function.owner, function.name): function
+        for function in machine.world.decorated
+        if function.owner is not None and function.owner in instance.mro
+    }
+    found: dict[str, _Method] = {}
     for cls in instance.mro:
         if isinstance(cls, Class):
             for name, value in cls.slots.items():
                 if isinstance(value, Function) and name not in found:
-                    found[name] = value
+                    found[name] = _Method(name, value, behind.get((cls, name), value))
+    hidden = (_Method(text.name, text, text, is_hidden=True) for text in behind.values())
+    methods = [*found.values(), *hidden]
     lifecycle = isinstance(instance.state, NodeState) and instance.state.lifecycle
-    first = _CONFIGURING if lifecycle else ()
-    return sorted(found.items(), key=lambda item: (item[0] not in first, item[1].node.lineno))
+    return sorted(methods, key=lambda each: (_turn(each.name, lifecycle), each.text.node.lineno))
+
+
+def _turn(name: str, lifecycle: bool) -> int:
+    """What others build on comes first, what each test calls for itself last."""
+    is_first = name in (_CONFIGURING if lifecycle else ('setUpClass', 'setup_class'))
+    return 0 if is_first else 2 if name in _PREPARING else 1
+
+
+def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:
+    """The object of its own that each test has, prepared (``unittest/case.py``)."""
+    found = (
+        cls.slots[name]
+        for name in _PREPARING
+        for cls in instance.mro
+        if isinstance(cls, Class) and name in cls.slots
+    )
+    prepare = next((each for each in found if isinstance(each, Function)), None)
+    if prepare is None:
+        return instance
+    fresh = Instance(instance.cls, instance.place)
+    machine.prepare(fresh)
+    call = unknown_arguments(prepare, prepare.place, skip=1)
+    machine.run_if_coroutine(machine.call(Bound(fresh, prepare), call), prepare.place)
+    return fresh
 
 
 def _run_later(machine: Interpreter, instance: Instance, name: str, method: Function) -> None:
@@ -350,13 +384,15 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
         world.shutting_down = any(word in name for word in _CLOSING)
         world.after_spin = False
         if world.when is When.LATER:
-            world.path = ((place, -3),)
+            world.path = (*instance.path, (place, UNCALLED))
         static = method.binding == 'static'
         call = unknown_arguments(method, place, skip=0 if static else 1)
-        target: Value = method if static else Bound(instance, method)
+        owner = _set_up_for_test(machine, instance) if name.startswith('test') else instance
+        receiver = owner.cls if method.binding == 'class' else owner
+        target: Value = method if static else Bound(receiver, method)
         result = machine.call(target, call)
         machine.run_if_coroutine(result, place)
         world.shutting_down = False
 
     guarded(machine, follow, place)
-    machine.world.called.add(id(method.node))
+    machine.world.called[id(method.node)] = method

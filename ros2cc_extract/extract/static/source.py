@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import hashlib
 import io
 import re
 import tokenize
@@ -10,12 +11,16 @@ import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from sys import version_info
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.places import Place
 
-# A syntax tree takes some four hundred times the size of its text.
-SIZE_LIMIT_BYTES = 1_000_000
+SIZE_LIMIT_BYTES = 8_000_000
+TOKEN_LIMIT = 900_000
+"""A syntax tree takes 300 to 1,100 bytes for each token, and all of it should fit into 1 GB."""
+
+_TOKEN = re.compile(rb'\w+|[^\s\w]')
 
 _CREATES = re.compile(rb'\.create_(?:subscription|timer|service|client)\(')
 
@@ -46,12 +51,23 @@ class SourceFile:
             return self.given_text.encode('utf-8', 'surrogatepass')
         try:
             if self.path.stat().st_size > SIZE_LIMIT_BYTES:
-                self._complain('file-too-large', 0, 0, 'file is too large to be scanned')
-                return b''
-            return self.path.read_bytes()
+                return self._too_large(f'larger than {SIZE_LIMIT_BYTES // 1_000_000} MB')
+            data = self.path.read_bytes()
         except OSError as error:
             self._complain('unreadable-file', 0, 0, f'cannot be read: {error.strerror or error}')
             return b''
+        if len(data) > TOKEN_LIMIT and sum(1 for _ in _TOKEN.finditer(data)) > TOKEN_LIMIT:
+            return self._too_large(f'more than {TOKEN_LIMIT} words and signs')
+        return data
+
+    def _too_large(self, why: str) -> bytes:
+        self._complain('file-too-large', 0, 0, f'file is too large to be scanned: {why}')
+        return b''
+
+    @property
+    def digest(self) -> str:
+        """Tells contents apart."""
+        return digest_of(self.data)
 
     @property
     def mentions_ros(self) -> bool:
@@ -115,8 +131,15 @@ class SourceFile:
         )
 
 
+def digest_of(data: bytes) -> str:
+    """A short text that differs where ``data`` does."""
+    return hashlib.blake2b(data, digest_size=16).hexdigest()
+
+
 _HELP = {
-    'syntax-error': 'the rest of the program is scanned without this file',
+    'file-too-large': 'leave it out, or move the nodes out of it',
+    'syntax-error': 'the rest of the program is scanned without this file; where the node needs a '
+    f'newer Python than {version_info[0]}.{version_info[1]}, run ros2cc-extract by that one',
     'python-2': 'rclpy needs Python 3',
     'undecodable-file': 'save it as UTF-8 or declare its encoding in the first line',
 }

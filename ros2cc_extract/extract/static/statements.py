@@ -14,16 +14,24 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static import changing, loops
+from ros2cc_extract.extract.static.containers import Sequence as Items
+from ros2cc_extract.extract.static.lock_paths import locks_given_back
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
+from ros2cc_extract.extract.static.same_node import note_open_test
 from ros2cc_extract.extract.static.store import Writes
 from ros2cc_extract.extract.static.values import (
     NONE,
+    Bound,
+    Call,
+    Function,
     Module,
+    Mystery,
+    Native,
+    Partial,
     Scope,
     Value,
 )
-from ros2cc_extract.extract.static.values import Sequence as Items
 from ros2cc_extract.extract.static.world import (
     AccessKind,
 )
@@ -31,8 +39,6 @@ from ros2cc_extract.places import Place, Unknown
 
 NEXT, RETURN, BREAK, CONTINUE, DEAD = 1, 2, 4, 8, 16
 _LEAVING = RETURN | BREAK | CONTINUE
-
-STEP_LIMIT = 600_000
 
 
 class Statements(Machine):
@@ -56,7 +62,7 @@ class Statements(Machine):
     def execute(self, statement: ast.stmt, frame: Frame) -> int:
         """Run one statement."""
         self.steps += 1
-        if self.steps > STEP_LIMIT:
+        if self.steps > self.step_limit:
             raise BudgetError
         handler = _STATEMENTS.get(type(statement))
         flow = handler(self, statement, frame) if handler else NEXT
@@ -72,13 +78,18 @@ class Statements(Machine):
     ) -> int:
         """Run alternatives from one state; joins what may hold after them."""
         ends: list[tuple[int, Writes]] = []
+        held, kept = self.world.held, []
         for index, body in enumerate(bodies):
+            self.world.held = held
             with self.on_path(place, index):
                 mark = self.store.open_branch()
                 flow = body()
                 if self.world.stopped:
                     flow, self.world.stopped = DEAD, False
                 ends.append((flow, self.store.close_branch(mark)))
+                if flow & NEXT:
+                    kept.append(self.world.held)
+        self.world.held = _held_by_all(kept or [held])
         live = [end for end in ends if end[0] & ~DEAD]
         if not live:
             self.store.join([writes for _, writes in ends])
@@ -101,6 +112,11 @@ def _keep_loop_exits(ends: Sequence[tuple[int, Writes]], frame: Frame) -> None:
             frame.breaks.append(own)
         if own and flow & CONTINUE:
             frame.continues.append(own)
+
+
+def _held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """Locks that are held however the branches were left."""
+    return tuple(lock for lock in ends[0] if all(lock in others for others in ends[1:]))
 
 
 @contextmanager
@@ -134,7 +150,7 @@ def _expression(machine: Statements, node: ast.Expr, frame: Frame) -> int:
 
 
 def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
-    value = machine.evaluate(node.value, frame)
+    value = changing.evaluate_copied(machine, node.value, node.targets, frame)
     for target in node.targets:
         machine.assign(target, value, frame)
     return NEXT
@@ -142,7 +158,8 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 
 def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) -> int:
     if node.value is not None:
-        machine.assign(node.target, machine.evaluate(node.value, frame), frame)
+        value = changing.evaluate_copied(machine, node.value, [node.target], frame)
+        machine.assign(node.target, value, frame)
     return NEXT
 
 
@@ -185,9 +202,10 @@ def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
 
 
 def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
-    holds = machine.truth(machine.evaluate(node.test, frame))
+    holds = changing.decide(machine, node.test, frame)
     if holds is not None:
         return machine.execute_block(node.body if holds else node.orelse, frame)
+    note_open_test(machine.world, node.test, frame.place(node))
     bodies = _arms(machine, node, frame)
     return machine.branches(bodies, frame.place(node), frame)
 
@@ -198,7 +216,7 @@ def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], 
     rest = node.orelse
     while len(rest) == 1 and isinstance(rest[0], ast.If):
         inner = rest[0]
-        holds = machine.truth(machine.evaluate(inner.test, frame))
+        holds = changing.decide(machine, inner.test, frame)
         if holds is not False:
             arms.append(lambda body=inner.body: machine.execute_block(body, frame))  # type: ignore[misc]
         if holds is True:
@@ -244,6 +262,8 @@ def _handle(machine: Statements, node: ast.Try, frame: Frame, place: Place, flow
                 machine.mystery('a caught exception', frame.place(handler), text),
                 frame,
             )
+        held = locks_given_back(handler.body, machine.world)
+        machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
         return machine.execute_block(handler.body, frame)
 
     for handler in node.handlers:
@@ -293,6 +313,7 @@ def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
 def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     place = frame.place(node.iter)
     values = machine.evaluate(node.iter, frame)
+    machine.note_iteration(node.iter, frame)
     items = loops.items_in(machine, values, place)
 
     def once(item: Value) -> int:
@@ -318,7 +339,7 @@ def _or_else(machine: Statements, node: ast.For | ast.AsyncFor, flow: int, frame
 
 
 def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
-    holds = machine.truth(machine.evaluate(node.test, frame))
+    holds = changing.decide(machine, node.test, frame)
     if holds is False:
         return machine.execute_block(node.orelse, frame)
     machine.note_loop(node, frame)
@@ -337,6 +358,11 @@ def _function(
 
 def _class(machine: Statements, node: ast.ClassDef, frame: Frame) -> int:
     value: Value = machine.make_class(node, frame)
+    for decorator in reversed(node.decorator_list):
+        wrapper = machine.evaluate(decorator, frame)
+        if isinstance(wrapper, (Function, Bound, Partial, Native)):
+            result = machine.call(wrapper, Call(frame.place(decorator), [value]))
+            value = value if isinstance(result, Mystery) else result
     machine.assign(ast.Name(node.name, ast.Store()), value, frame)
     return NEXT
 

@@ -7,13 +7,15 @@ changed in place, so that a write can be undone by putting the old value back.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
-from ros2cc_extract.extract.static.values import ABSENT, Heaped, Value, choice
+from ros2cc_extract.extract.static.values import ABSENT, SERIALS, Heaped, Value, choice
 
 Slot = tuple[Heaped, Any]
-Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any]]
+Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any, bool]]
+"""By owner and slot: both, what the slot holds then, and whether its branch made the owner."""
 
 
 class Store:
@@ -22,10 +24,12 @@ class Store:
     def __init__(self) -> None:
         self._trail: list[tuple[Heaped, Any, Any]] = []
         self._depth = 0
+        self._opened: list[int] = []
 
     def reset(self) -> None:
         """Forget every open branch after a run that was cut off; writes stay as they are."""
         self._trail.clear()
+        self._opened.clear()
         self._depth = 0
 
     def write(self, owner: Heaped, slot: Any, value: Any) -> None:
@@ -41,19 +45,32 @@ class Store:
                 self._trail.append((owner, slot, owner.slots[slot]))
             del owner.slots[slot]
 
+    @contextmanager
+    def outside_branches(self) -> Iterator[None]:
+        """What is written inside stays, on whatever branch it happens first."""
+        branches = self._trail, self._opened, self._depth
+        self._trail, self._opened, self._depth = [], [], 0
+        try:
+            yield
+        finally:
+            self._trail, self._opened, self._depth = branches
+
     def open_branch(self) -> int:
         """Start a branch; returns the mark that ``close_branch`` wants."""
         self._depth += 1
+        self._opened.append(next(SERIALS))
         return len(self._trail)
 
     def close_branch(self, mark: int) -> Writes:
         """Undo every write since ``mark`` and return what the branch had written."""
         written: Writes = {}
+        opened = self._opened.pop()
         while len(self._trail) > mark:
             owner, slot, old = self._trail.pop()
             key = (id(owner), slot)
             if key not in written:
-                written[key] = (owner, slot, owner.slots.get(slot, ABSENT))
+                is_new = owner.serial > opened
+                written[key] = (owner, slot, owner.slots.get(slot, ABSENT), is_new)
             if old is ABSENT:
                 owner.slots.pop(slot, None)
             else:
@@ -72,9 +89,14 @@ class Store:
             for writes in (*branches, *leaving)
             for key, entry in writes.items()
         }
+        made_here = {key for writes in (*branches, *leaving) for key in writes if writes[key][3]}
         for key, (owner, slot) in slots.items():
             now = owner.slots.get(slot, ABSENT)
-            ends = [writes[key][2] if key in writes else now for writes in branches]
+            ends = [
+                writes[key][2] if key in writes else now
+                for writes in branches
+                if key in writes or key not in made_here
+            ]
             ends.extend(writes[key][2] for writes in leaving if key in writes)
             joined = join_contents(ends)
             if joined is ABSENT:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static import folding, loops
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -15,9 +16,7 @@ from ros2cc_extract.extract.static.values import (
     Const,
     Instance,
     Library,
-    Mapping,
     Mystery,
-    Sequence,
     Value,
     choice,
     options_of,
@@ -42,15 +41,19 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
     if isinstance(owner, Mapping):
         if key in owner.entries if loops.is_key(key) else False:
             return owner.entries[key]
+        if isinstance(key, Mystery) and next(reversed(owner.entries), None) is key:
+            return owner.entries[key]
+        one_of_all = None if loops.is_key(key) else loops.any_of(owner)
         reason = owner.rest.reason if owner.rest else 'key that could not be followed'
-        return machine.mystery(reason, place, node)
+        return one_of_all or machine.mystery(reason, place, node)
     if isinstance(owner, Sequence):
         if isinstance(node.slice, ast.Slice):
             return _slice(machine, owner, node.slice, frame)
         index = loops.index_of(key, len(owner.items))
         if index is not None and owner.rest is None:
             return owner.items[index]
-        return machine.mystery('index that could not be followed', place, node)
+        one_of_all = loops.any_of(owner) if index is None else None
+        return one_of_all or machine.mystery('index that could not be followed', place, node)
     if isinstance(owner, Const) and isinstance(key, Const):
         return folding.subscript(owner, key) or machine.mystery('bad subscript', place)
     if isinstance(owner, (Class, Library)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
@@ -11,11 +12,14 @@ from ros2cc_extract.extract.static.values import (
     Const,
     Handler,
     Instance,
-    Mapping,
     Value,
+    choice,
     options_of,
 )
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
+from ros2cc_extract.spec.model import When
+
+_IS_SET = '__set__'
 
 
 def _thread_state(machine: Machine, instance: Instance) -> ThreadState:
@@ -106,7 +110,7 @@ def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
 def _plain(kind: str) -> LibraryClass:
     return LibraryClass(
         state=lambda machine, instance: PlainState(kind, place=instance.place),
-        init=lambda machine, receiver, call: NONE,
+        init=_event_init if kind == 'event' else lambda machine, receiver, call: NONE,
         methods=_PLAIN_METHODS.get(kind, {}),
     )
 
@@ -121,7 +125,7 @@ def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
 
 
 def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_acquire(receiver, call.place)
+    machine.note_acquire(receiver, call.place, may_fail=bool(call.args or call.keywords))
     return machine.mystery('result of acquire', call.place)
 
 
@@ -130,9 +134,39 @@ def _release(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _set(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_set(receiver)
+def _event_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, _IS_SET, Const(False))
     return NONE
+
+
+def _set(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.note_set(receiver)
+    _keep_flag(machine, receiver, Const(True))
+    return NONE
+
+
+def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    _keep_flag(machine, receiver, Const(False))
+    return NONE
+
+
+def _keep_flag(machine: Machine, event: Instance, flag: Const) -> None:
+    """A thread may set or clear the event at any time after its start."""
+    old = event.slots.get(_IS_SET, Const(False))
+    machine.store.write(event, _IS_SET, choice([old, flag]) if machine.world.in_thread else flag)
+
+
+def _is_set(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Known in the set-up alone, before anything else of the program runs."""
+    assert isinstance(receiver, Instance)
+    world, flag = machine.world, receiver.slots.get(_IS_SET)
+    is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
+    if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
+        return flag
+    return machine.mystery('whether an event is set', call.place, 'is_set()')
 
 
 def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -151,7 +185,12 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         'wait_for': _blocking('Condition.wait_for', 1, 'timeout'),
     },
     'semaphore': _LOCK_METHODS,
-    'event': {'wait': _blocking('Event.wait', 0, 'timeout'), 'set': _set},
+    'event': {
+        'wait': _blocking('Event.wait', 0, 'timeout'),
+        'set': _set,
+        'clear': _clear,
+        'is_set': _is_set,
+    },
     'barrier': {'wait': _blocking('Barrier.wait', 0, 'timeout')},
     'pool': {
         'submit': _submit,

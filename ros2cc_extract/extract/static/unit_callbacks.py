@@ -2,36 +2,37 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
+from ros2cc_extract.extract.static.alternatives import Branches, beyond, shared
+from ros2cc_extract.extract.static.likeness import same_on_a_ghost
 from ros2cc_extract.extract.static.naming import (
     FunctionFacts,
     constant_text,
     describe,
     snake_case,
 )
+from ros2cc_extract.extract.static.setters import the_setter
+from ros2cc_extract.extract.static.unit_executor import Unit, executor_of
 from ros2cc_extract.extract.static.values import (
     Class,
     Const,
     Instance,
     Mystery,
-    Path,
     Value,
 )
 from ros2cc_extract.extract.static.world import (
     EntityRef,
     EntityState,
-    ExecutorState,
     SettableRef,
-    Spin,
     World,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
+    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,
@@ -42,9 +43,6 @@ from ros2cc_extract.spec.model import (
     When,
 )
 
-NO_EXECUTOR = 'no executor or spin found for this node'
-ASSUMED_THREADS = 2
-
 _ORDER = {
     EntityKind.TIMER: 0,
     EntityKind.SUBSCRIPTION: 1,
@@ -53,9 +51,13 @@ _ORDER = {
     EntityKind.CLIENT: 4,
     EntityKind.ACTION_SERVER: 5,
     EntityKind.ACTION_CLIENT: 6,
-    EntityKind.ACTION_EXECUTE: 7,
-    EntityKind.DONE_CALLBACK: 8,
-    EntityKind.TASK: 9,
+    EntityKind.WAITABLE: 7,
+    EntityKind.PARAMETER_SERVICE: 8,
+    EntityKind.LIFECYCLE_SERVICE: 9,
+    EntityKind.QOS_EVENT: 10,
+    EntityKind.ACTION_EXECUTE: 11,
+    EntityKind.DONE_CALLBACK: 12,
+    EntityKind.TASK: 13,
 }
 _GROUPLESS = (EntityKind.ACTION_EXECUTE, EntityKind.DONE_CALLBACK, EntityKind.TASK)
 
@@ -63,24 +65,25 @@ _GROUPLESS = (EntityKind.ACTION_EXECUTE, EntityKind.DONE_CALLBACK, EntityKind.TA
 class UnitBuilder:
     """Builds the specification of one executor with its nodes."""
 
-    def __init__(
-        self, world: World, executor: Instance | None, nodes: list[Instance], spin: Spin | None
-    ) -> None:
+    def __init__(self, world: World, unit: Unit) -> None:
         self._world = world
-        self._executor = executor
-        self._nodes = nodes
-        self._spin = spin
+        self._unit = unit
+        self._nodes = unit.nodes
         self._taken = Names()
         self._facts: list[Unresolved] = []
         self._node_names: dict[int, str] = {}
         self._group_names: dict[int, str] = {}
-        self._branches_of: dict[int, dict[Place, set[int]]] = {}
+        self._same: dict[int, EntityState] = {}
+        made = [entity for node in self._nodes for entity in world.by_node.get(id(node), ())]
+        self._branches = Branches(entity.path for entity in made)
+        self._shared_path = shared([node.path for node in self._nodes])
 
     def build(self, entry: str | None) -> Spec:
         """The specification."""
         names = self._name_nodes()
         name = self._taken.take(names[0] if len(names) == 1 else _unit_label(names))
-        threads = self._thread_names()
+        numbers = range(self._unit.number_of_threads)
+        threads = tuple(self._taken.take(f'thread_{number}') for number in numbers)
         entities = self._entities()
         facts = [self._facts_of(entity) for entity in entities]
         labels = unique_names(
@@ -92,7 +95,8 @@ class UnitBuilder:
             for entity, fact, label in zip(entities, facts, labels, strict=True)
         ]
         self._note_open_ends()
-        executor = self._executor_value(threads, entry)
+        executor_name = self._taken.take(self._unit.executor_label)
+        executor = executor_of(self._unit, executor_name, threads, entry)
         return Spec(
             name=name,
             callbacks=tuple(self._with_waits(callbacks, entities, executor)),
@@ -134,29 +138,31 @@ class UnitBuilder:
         )
         return label
 
-    def _thread_names(self) -> tuple[str, ...]:
-        state = self._state()
-        number = state.threads if state else 1
-        number = ASSUMED_THREADS if number is None else number
-        return tuple(self._taken.take(f'thread_{index}') for index in range(number))
-
-    def _state(self) -> ExecutorState | None:
-        state = self._executor.state if self._executor else None
-        return state if isinstance(state, ExecutorState) else None
-
     def _entities(self) -> list[EntityState]:
         """Node by node, timers first, group-less work last; creation order within a kind."""
         position = {id(node): index for index, node in enumerate(self._nodes)}
         mine = [entity for node in self._nodes for entity in self._world.by_node.get(id(node), ())]
+        mine += [entity for entity in self._world.builtins if id(entity.node) in position]
         return sorted(
-            mine,
+            self._each_once(mine),
             key=lambda e: (
                 e.kind in _GROUPLESS,
                 position[id(e.node)],
-                _ORDER.get(e.kind, 10),
+                _ORDER[e.kind],
                 e.number,
             ),
         )
+
+    def _each_once(self, entities: Sequence[EntityState]) -> list[EntityState]:
+        """What objects in the same position make on a node nobody knows is one entity."""
+        kept: dict[object, EntityState] = {}
+        for entity in entities:
+            key = same_on_a_ghost(entity)
+            first = kept.setdefault(key or id(entity), entity)
+            if first is not entity:
+                self._same[id(entity)] = first
+                first.count = Unknown('made once by each object of its kind', entity.place)
+        return list(kept.values())
 
     def _facts_of(self, entity: EntityState) -> FunctionFacts:
         if entity.kind in (EntityKind.CLIENT, EntityKind.ACTION_CLIENT, EntityKind.ACTION_SERVER):
@@ -164,7 +170,8 @@ class UnitBuilder:
         if entity.library is not None and entity.callback is None:
             label = entity.label or 'rate_timer'
             return FunctionFacts(label)
-        return describe(entity.callback, entity.place)
+        facts = describe(entity.callback, entity.place)
+        return replace(facts, label=entity.label) if entity.builtin and entity.label else facts
 
     def _server_or_client_facts(self, entity: EntityState) -> FunctionFacts:
         key = self._key_text(entity) or 'unnamed'
@@ -192,9 +199,10 @@ class UnitBuilder:
 
     def _groups(self, entities: Sequence[EntityState], labels: list[str]) -> list[CallbackGroup]:
         """The groups in use, in order of first use by creation."""
+        unwritten = {id(entity) for entity in self._world.builtins}
         pairs = sorted(
             zip(entities, labels, strict=True),
-            key=lambda pair: (pair[0].kind in _GROUPLESS, pair[0].number),
+            key=lambda p: (p[0].kind in _GROUPLESS, id(p[0]) in unwritten, p[0].number),
         )
         groups: list[CallbackGroup] = []
         for entity, label in pairs:
@@ -229,9 +237,10 @@ class UnitBuilder:
 
     def _callback(self, entity: EntityState, facts: FunctionFacts, name: str) -> Callback:
         node = entity.node
-        path = _beyond(entity.path, node.path)
+        path = beyond(entity.path, self._shared_path)
+        alternative, branch = self._branches.mark_of(path)
         deeds = entity.deeds
-        key, assumed = _key(entity.key)
+        key, assumed = _key_of(entity)
         period, period_assumed = _period(entity.period)
         return Callback(
             name=name,
@@ -246,10 +255,11 @@ class UnitBuilder:
             count=entity.count,
             when=entity.when,
             conditional=bool(path) or entity.when is When.CALLBACK,
-            alternative=self._alternative(entity, path),
+            alternative=alternative,
+            branch=branch,
             coroutine=facts.coroutine,
             one_shot=entity.one_shot,
-            destroyed=entity.destroyed,
+            destroyed=entity.destroyed or bool(entity.part_of and entity.part_of.destroyed),
             groupless=entity.kind in _GROUPLESS,
             library=entity.library,
             builtin=entity.builtin,
@@ -265,74 +275,6 @@ class UnitBuilder:
             changes=tuple(deeds.changes) if deeds else (),
         )
 
-    def _alternative(self, entity: EntityState, path: Path) -> str | None:
-        """A mark shared by entities on exclusive branches of one statement."""
-        for place, index in path:
-            if index < 0:
-                continue
-            branches = self._branches(entity.node)
-            if len(branches[place]) > 1:
-                return f'{place.file}:{place.line}'
-        return None
-
-    def _branches(self, node: Instance) -> dict[Place, set[int]]:
-        """By branching statement, the branches on which ``node`` gets entities."""
-        known = self._branches_of.get(id(node))
-        if known is None:
-            known = defaultdict(set)
-            for entity in self._world.by_node.get(id(node), ()):
-                for place, branch in entity.path:
-                    if branch >= 0:
-                        known[place].add(branch)
-            self._branches_of[id(node)] = known
-        return known
-
-    def _executor_value(self, threads: tuple[str, ...], entry: str | None) -> Executor:
-        state = self._state()
-        if state is None or self._executor is None:
-            name = self._taken.take('executor')
-            at = self._nodes[0].place
-            nested = self._nested_spin()
-            return Executor(name=name, threads=threads, kind=nested or Unknown(NO_EXECUTOR, at))
-        name = self._taken.take(self._executor.hint or 'executor')
-        unresolved = state.unknown or state.unresolved or state.threads_unresolved
-        elsewhere = self._spun_elsewhere() if entry is None else None
-        if self._spin is None and unresolved is None:
-            reason = 'no call that spins this executor is in sight'
-            unresolved = self._nested_spin() or Unknown(reason, self._executor.place)
-        return Executor(
-            name=name,
-            threads=threads,
-            kind=state.unknown or elsewhere or state.kind,
-            threads_source=_threads_source(state),
-            in_thread=self._spin.in_thread if self._spin else False,
-            spun=self._spin.how if self._spin else None,
-            unresolved=unresolved,
-            assumed=_assumed_threads(state),
-            source=self._spin.place if state.is_global and self._spin else self._executor.place,
-        )
-
-    def _nested_spin(self) -> Unknown | None:
-        """Why the executor is not followed where only callbacks spin the nodes."""
-        for node in self._nodes:
-            if node.state.nested is not None:
-                how, place = node.state.nested
-                return Unknown(f'only {how} inside a callback serves this node', place)
-        return None
-
-    def _spun_elsewhere(self) -> Unknown | None:
-        """Why somebody who is not in sight may serve the nodes by another executor."""
-        spin = self._spin
-        if spin is None:
-            return None
-        if not spin.for_ever and any(is_handed_over(node) for node in self._nodes):
-            reason = f'{spin.how} serves this node in passing; who else does is not in sight'
-            return Unknown(reason, spin.place)
-        if spin.for_ever and any(i >= 0 for _, i in _beyond(spin.path, self._nodes[0].path)):
-            reason = f'{spin.how} stands under a condition; who else serves it is not in sight'
-            return Unknown(reason, spin.place)
-        return None
-
     def _note_open_ends(self) -> None:
         for node in self._nodes:
             for reason, at in dict.fromkeys(node.state.more):
@@ -344,14 +286,18 @@ class UnitBuilder:
                         source=at,
                     )
                 )
-        for reason, at in self._world.cut:
-            self._facts.append(
+        for cut in self._world.cut:
+            nodes = self._world.nodes
+            concerned = [node for node in nodes if not cut.classes.isdisjoint(node.mro)]
+            mine = [node for node in self._nodes if node in concerned or not concerned][:1]
+            self._facts.extend(
                 Unresolved(
-                    subject=self._node_names[id(self._nodes[0])],
+                    subject=self._node_names[id(node)],
                     fact='entities',
-                    reason=reason,
-                    source=at,
+                    reason=cut.reason,
+                    source=cut.place,
                 )
+                for node in mine
             )
 
     def _with_waits(
@@ -359,34 +305,39 @@ class UnitBuilder:
     ) -> list[Callback]:
         """What is waited for, by the name it has in this unit."""
         names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
+        names |= {number: names[id(first)] for number, first in self._same.items()}
         names |= self._node_names
         for number, setters in self._world.setters.items():
-            if len({id(setter) for setter in setters}) == 1 and id(setters[0]) in names:
-                names[number] = names[id(setters[0])]
-        if self._executor is not None:
-            names[id(self._executor)] = executor.name
+            setter = the_setter(setters)
+            if setter is not None and id(setter) in names:
+                names[number] = names[id(setter)]
+        if self._unit.executor is not None:
+            names[id(self._unit.executor)] = executor.name
         return [
-            replace(
-                callback,
-                blocking=tuple(
-                    replace(block, on=_waited_name(block.on, names)) for block in callback.blocking
-                ),
-            )
+            replace(callback, blocking=tuple(dict.fromkeys(self._with_names(callback, names))))
             for callback in callbacks
         ]
+
+    def _with_names(self, callback: Callback, names: dict[int, str]) -> Iterator[Blocking]:
+        """Waits for one of several that have no name here are alike."""
+        for block in callback.blocking:
+            yield replace(
+                block, on=_waited_name(block.on, names), foreign=self._is_foreign(block.on)
+            )
+
+    def _is_foreign(self, on: object) -> bool:
+        """Whether nothing but threads of the user's own sets what is waited for."""
+        if not isinstance(on, SettableRef):
+            return False
+        setters = self._world.setters.get(on.number, ())
+        return bool(setters) and len(setters) == self._world.set_in_threads[on.number]
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
         places = [entity.place.file for entity in entities]
         places.extend(node.place.file for node in self._nodes)
-        if self._spin is not None:
-            places.append(self._spin.place.file)
+        if self._unit.spin is not None:
+            places.append(self._unit.spin.place.file)
         return tuple(dict.fromkeys(file for file in places if file))
-
-
-def is_handed_over(node: Instance) -> bool:
-    """Whether the node comes from, or goes to, somebody who is not in sight."""
-    made_for_nobody = isinstance(node.cls, Class) and node.place == node.cls.place
-    return node.state.ghost is not None or made_for_nobody
 
 
 def _plain_label(node: Instance) -> str:
@@ -394,26 +345,11 @@ def _plain_label(node: Instance) -> str:
     return constant_text(node.state.name) or snake_case(node.class_name)
 
 
-def _threads_source(state: ExecutorState) -> str | None:
-    if state.threads_unresolved is not None:
-        return 'unresolved'
-    if state.threads is None:
-        return 'default_cpu_count'
-    return str(state.threads_at) if state.threads_at else None
-
-
-def _assumed_threads(state: ExecutorState) -> str | None:
-    if state.threads is None:
-        return (
-            f'{ASSUMED_THREADS} threads: rclpy takes the number of CPUs at run time, and '
-            f'{ASSUMED_THREADS} where it cannot be had'
-        )
-    return state.assumed
-
-
-def _beyond(path: Path, prefix: Path) -> Path:
-    """The part of ``path`` that its node does not share."""
-    return tuple(step for step in path if step not in prefix)
+def _key_of(entity: EntityState) -> tuple[str | Unknown | None, str | None]:
+    """Its name, and the rule by which that was assumed; a client's unknown name is told once."""
+    key, assumed = _key(entity.key)
+    is_told = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
+    return (None, None) if is_told else (key, assumed)
 
 
 def _key(value: Value | None) -> tuple[str | Unknown | None, str | None]:

@@ -2,30 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.alternatives import Branches, exclusive
 from ros2cc_extract.extract.static.ros_executors import nodes_of
-from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder, is_handed_over
-from ros2cc_extract.extract.static.values import Class, Instance, Path, options_of
+from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
+from ros2cc_extract.extract.static.unit_executor import Unit, is_handed_over
+from ros2cc_extract.extract.static.values import Class, Instance, options_of
 from ros2cc_extract.extract.static.values import Value as AnyValue
-from ros2cc_extract.extract.static.world import Spin, World
+from ros2cc_extract.extract.static.world import Cut, Spin, World
 from ros2cc_extract.spec.model import Spec, collect_unresolved
-
-NO_EXECUTOR = 'no executor or spin found for this node'
-
-
-@dataclass(eq=False)
-class Unit:
-    """
-    An executor and the nodes it serves in the end.
-
-    :param spin: the call that spins it, ``None`` when there is none in sight.
-    """
-
-    executor: Instance | None
-    nodes: list[Instance]
-    spin: Spin | None
 
 
 def specs_of(world: World, entry: str | None) -> list[Spec]:
@@ -35,9 +22,24 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
         is_lost = unit.spin is None and not any(node.state.nested for node in unit.nodes)
         if entry is not None and unit.executor is not None and is_lost:
             world.diagnostics.append(_not_spun(unit.executor))
-        spec = UnitBuilder(world, unit.executor, unit.nodes, unit.spin).build(entry)
+        spec = UnitBuilder(world, unit).build(entry)
         found.append(_with_unresolved(spec))
+    told = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
+    told |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
+    lost = [cut for cut in world.cut if (cut.reason, cut.place) not in told]
+    world.diagnostics.extend(_not_told(cut) for cut in lost)
     return found
+
+
+def _not_told(cut: Cut) -> Diagnostic:
+    """What no unit can carry: there may be no node at all."""
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='not-followed',
+        place=cut.place,
+        message=f'{cut.reason}: its object is no node that is known',
+        help='what it would make is missing from the units',
+    )
 
 
 def _not_spun(executor: Instance) -> Diagnostic:
@@ -80,7 +82,16 @@ def units_of(world: World) -> list[Unit]:
             continue
         seen.add(key)
         units.append(Unit(None, [node], None))
+    _mark_alternatives(units)
     return units
+
+
+def _mark_alternatives(units: list[Unit]) -> None:
+    """Spins on branches of one statement: the program has only one of these units."""
+    branches = Branches(unit.spin.path for unit in units if unit.spin is not None)
+    for unit in units:
+        if unit.spin is not None:
+            unit.mark = branches.mark_of(unit.spin.path)
 
 
 def _spin_in_thread(executor: Instance, world: World) -> Spin | None:
@@ -154,9 +165,3 @@ def _is_final(spin: Spin, node: Instance, spins: list[Spin]) -> bool:
         if rival.for_ever == best_of_mine and spins.index(rival) > mine:
             return False
     return True
-
-
-def exclusive(one: Path, other: Path) -> bool:
-    """Whether two paths cannot both be taken: different branches of one statement."""
-    branches = {place: index for place, index in one if index >= 0}
-    return any(index >= 0 and branches.get(place, index) != index for place, index in other)

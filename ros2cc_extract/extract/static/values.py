@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.places import Place, Unknown
@@ -106,109 +107,38 @@ def source_text(node: ast.expr) -> str:
 
 
 class Choice(Value):
-    """One of several values, depending on a branch; never nested, never of one option."""
+    """
+    One of several values, depending on a branch; never nested, never of one option.
 
-    __slots__ = ('options',)
+    :ivar present: the options but "no value".
+    """
+
+    __slots__ = ('options', 'present')
 
     def __init__(self, options: tuple[Value, ...]) -> None:
         self.options = options
+        is_partial = any(option is ABSENT for option in options)
+        self.present = tuple(o for o in options if o is not ABSENT) if is_partial else options
 
     def __repr__(self) -> str:
         return f'Choice{self.options!r}'
 
 
-class Heaped(Value):
-    """A value with state; ``slots`` is written by ``store.py`` alone."""
+SERIALS = count()
 
-    __slots__ = ('slots',)
+
+class Heaped(Value):
+    """
+    A value with state; ``slots`` is written by ``store.py`` alone.
+
+    :param serial: grows with every value that is made.
+    """
+
+    __slots__ = ('serial', 'slots')
 
     def __init__(self) -> None:
         self.slots: dict[Any, Any] = {}
-
-
-class Collection(Heaped):
-    """
-    What lists and dictionaries share.
-
-    Slots: ``open`` (``Unknown`` when there may be items that are not known at all) and ``many``
-    (a known item -> why it stands for any number of items, or ``NONE`` where there is one and
-    only its key is unknown).
-    """
-
-    __slots__ = ()
-
-    def __init__(self, others: Unknown | None, many: dict[Value, Value] | None) -> None:
-        super().__init__()
-        self.slots['open'] = others
-        self.slots['many'] = many or {}
-
-    @property
-    def others(self) -> Unknown | None:
-        """Why there may be items that no known one stands for."""
-        others = self.slots['open']
-        return others if isinstance(others, Unknown) else None
-
-    @property
-    def many(self) -> dict[Value, Value]:
-        """Items that stand for others too; never to be changed in place."""
-        many: dict[Value, Value] = self.slots['many']
-        return many
-
-    @property
-    def rest(self) -> Unknown | None:
-        """Why there may be more items than the known ones, or others."""
-        if self.others is not None or not self.many:
-            return self.others
-        whys = [option for why in self.many.values() for option in options_of(why)]
-        known = next((why.unknown for why in whys if isinstance(why, Mystery)), None)
-        return known or Unknown('a key could not be followed')
-
-
-class Sequence(Collection):
-    """
-    A list, tuple, set or other ordered collection.
-
-    Slots: ``items`` (tuple of values), and those of a collection.
-    """
-
-    __slots__ = ('kind',)
-
-    def __init__(
-        self,
-        items: tuple[Value, ...],
-        kind: str = 'list',
-        others: Unknown | None = None,
-        many: dict[Value, Value] | None = None,
-    ) -> None:
-        super().__init__(others, many)
-        self.kind = kind
-        self.slots['items'] = items
-
-    @property
-    def items(self) -> tuple[Value, ...]:
-        """The known items, in order."""
-        return tuple(self.slots['items'])
-
-
-class Mapping(Collection):
-    """A dictionary; slots: ``entries`` (key -> value), and those of a collection, by key."""
-
-    __slots__ = ()
-
-    def __init__(
-        self,
-        entries: dict[Value, Value],
-        others: Unknown | None = None,
-        many: dict[Value, Value] | None = None,
-    ) -> None:
-        super().__init__(others, many)
-        self.slots['entries'] = entries
-
-    @property
-    def entries(self) -> dict[Value, Value]:
-        """The known entries, in order; never to be changed in place."""
-        entries: dict[Value, Value] = self.slots['entries']
-        return entries
+        self.serial = next(SERIALS)
 
 
 class Module(Heaped):
@@ -490,9 +420,14 @@ class Native(Value):
 
 def options_of(value: Value) -> tuple[Value, ...]:
     """All the values ``value`` may stand for; "no value" is left out."""
-    if isinstance(value, Choice):
-        return tuple(option for option in value.options if option is not ABSENT)
+    if value.__class__ is Choice:
+        return value.present
     return () if value is ABSENT else (value,)
+
+
+def present(value: Choice) -> Value:
+    """The same choice without "no value"."""
+    return value if value.present is value.options else choice(list(value.present))
 
 
 _MAX_OPTIONS = 16

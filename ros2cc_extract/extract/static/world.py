@@ -7,12 +7,22 @@ into the frozen values of the specification.
 
 from __future__ import annotations
 
+import ast
+from collections import Counter
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.extract.static.values import Call, Function, Instance, Mystery, Path, Value
+from ros2cc_extract.extract.static.values import (
+    Call,
+    Class,
+    Function,
+    Instance,
+    Mystery,
+    Path,
+    Value,
+)
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
 
@@ -80,7 +90,11 @@ class ExecutorState:
 
 @dataclass(eq=False)
 class EntityState:
-    """A ROS entity or a piece of group-less work; one record for each that is made."""
+    """
+    A ROS entity or a piece of group-less work; one record for each that is made.
+
+    :param part_of: the subscription whose event it handles.
+    """
 
     kind: EntityKind
     node: Instance
@@ -101,6 +115,7 @@ class EntityState:
     deeds: Deeds | None = None
     argument: Value | None = None
     number: int = 0
+    part_of: EntityState | None = None
 
 
 class AccessKind(Enum):
@@ -164,6 +179,21 @@ class Spin:
         return (id(self.executor), nodes, self.place, self.path, self.in_thread)
 
 
+@dataclass(frozen=True, eq=False)
+class OutsideWait:
+    """
+    Code that is no callback waits for the answer that ``client`` takes.
+
+    :param spun: the nodes that it spins meanwhile.
+    """
+
+    call: str
+    client: EntityState
+    place: Place
+    in_thread: bool
+    spun: tuple[Instance, ...] = ()
+
+
 @dataclass(eq=False)
 class ThreadState:
     """A ``threading.Thread`` or timer: what it runs when started."""
@@ -195,15 +225,30 @@ class Deeds:
     changes: list[Act] = field(default_factory=list)
 
 
+@dataclass(frozen=True)
+class Cut:
+    """
+    Why something may be missing from the units.
+
+    :param classes: those whose methods were running then.
+    """
+
+    reason: str
+    place: Place
+    classes: frozenset[Class] = frozenset()
+
+
 # A loop that is unrolled meets the same deed again and again.
 RECENT = 40
 
-Deed = TypeVar('Deed', Access, Act)
+Deed = TypeVar('Deed', Access, Act, Cut)
 
 
 def note_once(noted: list[Deed], deed: Deed) -> None:
     """Note ``deed`` unless it has just been noted."""
-    if deed not in noted[-RECENT:]:
+    # Ten times as fast as the comparison of dataclasses, which makes tuples first.
+    fields = deed.__dict__
+    if not any(fields == other.__dict__ for other in noted[-RECENT:]):
         noted.append(deed)
 
 
@@ -214,23 +259,45 @@ class World:
 
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
+    :param is_program: it is run from an entry, so that nothing happens before its set-up.
     :param setters: what sets an event or future; ``None`` for what is no callback.
-    :param called: every function that was followed, to find those that were not.
+    :param set_in_threads: how many of them are threads of the user's own.
+    :param called: every function that was followed, by the identity of its statement.
+    :param subclasses: the direct ones of each class, in the order of their definition.
+    :param made_of: how many instances there are of each class.
+    :param followed_later: how many methods of each class were followed without a caller.
+    :param settled: instances in which nothing was left to follow, with a stamp of that time.
+    :param without_caller: the objects on which those were followed that nobody in sight calls.
+    :param locks: the locks that were taken, by the name they are stored under.
+    :param outside: what code waits for that is no callback.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
+    :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
+    :param iterating: class of the collection that a loop begins to go over.
     :param stopped: this branch of the program has ended.
+    :param trees: the text of every module that was run.
+    :param changing: how often a callback has read what other functions may change.
+    :param unset: how often one has read ``None`` where other functions put something.
+    :param lacking: attributes that callbacks asked for before anybody had set them.
+    :param missing: open tests on whether something is there yet.
+    :param again: the running callback is followed once more; what it makes, it has made then.
+    :param stored: what each attribute was ever assigned, by the place of that.
     """
 
     path: Path = ()
     count: int | Unknown = 1
     when: When = When.START
+    is_program: bool = False
     in_thread: bool = False
     stopped: bool = False
     deeds: Deeds | None = None
     current: EntityState | None = None
     setters: dict[int, list[EntityState | None]] = field(default_factory=dict)
+    set_in_threads: Counter[int] = field(default_factory=Counter)
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
+    locks: dict[str, list[Instance]] = field(default_factory=dict)
+    outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False
     awaiting: bool = False
     nodes: list[Instance] = field(default_factory=list)
@@ -238,11 +305,17 @@ class World:
     spins: dict[object, Spin] = field(default_factory=dict)
     executors: list[Instance] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
-    called: set[int] = field(default_factory=set)
+    called: dict[int, Function] = field(default_factory=dict)
+    without_caller: dict[int, set[int]] = field(default_factory=dict)
     decorated: list[Function] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
+    subclasses: dict[Class, list[Class]] = field(default_factory=dict)
+    made_of: Counter[Class] = field(default_factory=Counter)
+    followed_later: Counter[Value] = field(default_factory=Counter)
+    settled: dict[int, int] = field(default_factory=dict)
     ghosts: dict[str, Instance] = field(default_factory=dict)
+    iterating: str | None = None
     looking: tuple[tuple[int, str], ...] = ()
     made_by_looking: dict[object, Instance] = field(default_factory=dict)
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
@@ -251,8 +324,18 @@ class World:
     callback_path: Path = ()
     shutting_down: bool = False
     followed: int = 0
-    cut: list[tuple[str, Place]] = field(default_factory=list)
+    cut: list[Cut] = field(default_factory=list)
     made_in_callbacks: dict[object, Instance] = field(default_factory=dict)
     by_node: dict[int, list[EntityState]] = field(default_factory=dict)
+    lists_builtin: bool = False
+    builtins: list[EntityState] = field(default_factory=list)
     global_executor: Instance | None = None
     groupless: Instance | None = None
+    trees: list[ast.Module] = field(default_factory=list)
+    changing: int = 0
+    unset: int = 0
+    lacking: list[tuple[Instance, str]] = field(default_factory=list)
+    missing: set[Place] = field(default_factory=set)
+    again: bool = False
+    made_then: dict[object, Instance] = field(default_factory=dict)
+    stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)

@@ -1,0 +1,142 @@
+"""
+What a test in a callback reads may have changed since the set-up.
+
+Callbacks are followed one after the other from the state that the set-up leaves behind, but run
+in any order: a test on what some other function changes is open, whatever is stored there now.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+
+from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.relevance import (
+    assignments_of_attributes,
+    noted_on,
+    reassigned_attributes,
+    walk,
+)
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Class,
+    Instance,
+    Module,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import When
+
+
+def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
+    """``bool(test)``; ``None`` when that depends, also on when it is asked."""
+    before = machine.world.changing
+    holds = machine.truth(machine.evaluate(test, frame))
+    return holds if machine.world.changing == before else None
+
+
+def evaluate_copied(
+    machine: Machine, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
+) -> Value:
+    """The value of an assignment; a name that gets it is as open as what was read for it."""
+    before = machine.world.changing
+    held = machine.evaluate(value, frame)
+    is_open = machine.world.changing != before
+    if is_open or frame.copies:
+        names = {target.id for target in targets if isinstance(target, ast.Name)}
+        frame.copies = frame.copies | names if is_open else frame.copies - names
+    return held
+
+
+def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:
+    """``owner.name`` is read and gives ``held``."""
+    if machine.world.when is not When.CALLBACK:
+        return
+    if _may_be_filled(machine, held) or is_assigned_later(machine, owner, name):
+        machine.world.changing += 1
+
+
+def is_assigned_later(machine: Machine, owner: Instance, name: str) -> bool:
+    """Whether a method of ``owner`` or code outside of its class assigns the attribute anew."""
+    own = any(
+        isinstance(cls, Class) and name in reassigned_attributes(cls.node) for cls in owner.mro
+    )
+    return own or any(name in _handed_in(tree) for tree in machine.world.trees)
+
+
+def ever_held(machine: Machine, owner: Instance, name: str) -> list[Value] | None:
+    """The objects that the attribute ever holds, if every assignment was followed."""
+    stored = machine.world.stored.get((owner, name), {})
+    options = [option for value in stored.values() for option in options_of(value)]
+    values = [option for option in options if option != NONE]
+    if not values or not all(isinstance(value, Instance) for value in values):
+        return None
+    sites = [
+        Place(cls.module.file, line, column)
+        for cls in owner.mro
+        if isinstance(cls, Class)
+        for line, column in assignments_of_attributes(cls.node).get(name, ())
+    ]
+    if any(site not in stored for site in sites):
+        return None
+    return None if any(name in _handed_in(tree) for tree in machine.world.trees) else values
+
+
+def note_global(machine: Machine, module: Module, name: str, held: Value) -> None:
+    """``module.name`` is read and gives ``held``."""
+    if machine.world.when is not When.CALLBACK:
+        return
+    if _may_be_filled(machine, held) or name in machine.changed_globals(module):
+        machine.world.changing += 1
+
+
+def note_name(machine: Machine, name: str, held: Value, frame: Frame) -> None:
+    """A name is read and gives ``held``."""
+    if machine.world.when is not When.CALLBACK:
+        return
+    if name in frame.scope.slots:
+        machine.world.changing += name in frame.copies
+        return
+    if _may_be_filled(machine, held) or _is_rebound(machine, name, frame):
+        machine.world.changing += 1
+
+
+def _is_rebound(machine: Machine, name: str, frame: Frame) -> bool:
+    scope = frame.scope.parent
+    while scope is not None:
+        if name in scope.slots:
+            return any(name in _nonlocals(tree) for tree in machine.world.trees)
+        scope = scope.parent
+    return name in machine.changed_globals(frame.module)
+
+
+def _may_be_filled(machine: Machine, held: Value | None) -> bool:
+    return isinstance(held, Collection) and loops.may_be_filled(machine, held)
+
+
+def _handed_in(tree: ast.Module) -> frozenset[str]:
+    return noted_on(tree, 'handed_in', _attributes_of_others)
+
+
+def _attributes_of_others(tree: ast.Module) -> frozenset[str]:
+    """Attributes that functions assign on something else than ``self``."""
+    return frozenset(
+        part.attr
+        for part in walk(tree)
+        if isinstance(part, ast.Attribute)
+        and isinstance(part.ctx, ast.Store)
+        and not (isinstance(part.value, ast.Name) and part.value.id == 'self')
+    )
+
+
+def _nonlocals(tree: ast.Module) -> frozenset[str]:
+    return noted_on(tree, 'nonlocals', _nonlocal_names)
+
+
+def _nonlocal_names(tree: ast.Module) -> frozenset[str]:
+    return frozenset(
+        name for part in walk(tree) if isinstance(part, ast.Nonlocal) for name in part.names
+    )

@@ -1,0 +1,136 @@
+"""
+Waits of code that is no callback, and whether anybody spins meanwhile.
+
+Source: rclpy 7.1.6, ``client.py`` (``call`` waits for an event), ``__init__.py``
+(``spin_until_future_complete`` spins the given node alone), ``task.py`` (``__await__``),
+``timer.py`` (``Rate.sleep`` waits for an event that a timer of the node sets).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
+from ros2cc_extract.extract.static.world import (
+    EntityState,
+    NodeState,
+    OutsideWait,
+    PlainState,
+    World,
+)
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.partners import SERVER_KINDS
+
+_ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
+_RATE = 'Rate.sleep'
+_FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
+_PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+
+
+def is_idle(loop: ast.While) -> bool:
+    """True for a loop that only sleeps and logs while it waits."""
+    return all(
+        _called_name(part) in _PASTIMES
+        for statement in loop.body
+        for part in ast.walk(statement)
+        if isinstance(part, (ast.Call, ast.Await))
+    )
+
+
+def _called_name(call: ast.Call | ast.Await) -> str:
+    function = call.func if isinstance(call, ast.Call) else None
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ''
+
+
+def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instance, ...]) -> None:
+    """Remember a wait of the program's set-up."""
+    if world.when is not When.START or world.after_spin:
+        return
+    state = on.state
+    if name == 'await' and isinstance(state, PlainState) and state.kind in _FUTURES:
+        world.diagnostics.append(_awaited_by_asyncio(place))
+    source = state.of if isinstance(state, PlainState) and state.of is not None else on
+    client = source.state if isinstance(source, Instance) else None
+    if not isinstance(client, EntityState):
+        return
+    if name == _RATE and not client.node.state.spun:
+        world.outside.append(OutsideWait(name, client, place, world.in_thread))
+    if client.kind not in SERVER_KINDS:
+        return
+    if name in _ANSWERS or name.endswith('spin_until_future_complete'):
+        world.outside.append(OutsideWait(name, client, place, world.in_thread, spun))
+
+
+def _awaited_by_asyncio(place: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='asyncio-await',
+        place=place,
+        message='asyncio awaits an rclpy future: from rclpy 7.1.9 on this raises RuntimeError '
+        'unless the future is done already',
+        help='await it in a callback or an executor task, or spin until it is done',
+    )
+
+
+def note_unanswered(world: World) -> None:
+    """Tell of waits whose answer nobody can take, or nobody can give, when all was followed."""
+    if any(_may_be_spun_elsewhere(node) for node in world.nodes):
+        return
+    for wait in world.outside:
+        for node, what in _needed(wait, world):
+            if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
+                world.diagnostics.append(_unanswered(wait, what))
+                break
+
+
+def _may_be_spun_elsewhere(node: Instance) -> bool:
+    state = node.state
+    return not isinstance(state, NodeState) or state.ghost is not None or bool(state.more)
+
+
+def _needed(wait: OutsideWait, world: World) -> Iterator[tuple[Instance, str]]:
+    """The nodes that must be spun, with what each is needed for."""
+    if wait.call == _RATE:
+        yield wait.client.node, 'has it'
+        return
+    yield wait.client.node, 'must take it'
+    kind, key = SERVER_KINDS[wait.client.kind], wait.client.key
+    servers = [e for e in world.entities if e.kind is kind and _is_same(e.key, key)]
+    if len(servers) == 1:
+        yield servers[0].node, 'must give it'
+
+
+def _is_same(one: Value | None, other: Value | None) -> bool:
+    return isinstance(one, Const) and isinstance(other, Const) and one.value == other.value
+
+
+def _spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
+    """What other threads spin; which thread is which is not told apart."""
+    for spin in world.spins.values():
+        if spin.in_thread or wait.in_thread:
+            yield from spin.nodes
+            for entry in spin.executor.slots.get('__nodes__', ()):
+                yield from (o for o in options_of(entry) if isinstance(o, Instance))
+
+
+def _unanswered(wait: OutsideWait, what: str) -> Diagnostic:
+    key = wait.client.key
+    name = f' of {key.value!r}' if isinstance(key, Const) else ''
+    call = 'a busy loop' if wait.call == 'busy wait' else wait.call
+    awaited = 'a timer' if wait.call == _RATE else f'the answer{name}'
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='nobody-spins',
+        place=wait.place,
+        message=f'{call} waits for {awaited} while nobody spins the node that {what}: '
+        'it waits for ever',
+        help='use time.sleep, or spin the node in a thread before'
+        if wait.call == _RATE
+        else 'spin the nodes concerned in a thread, or wait by spin_until_future_complete on an '
+        'executor that has them',
+    )

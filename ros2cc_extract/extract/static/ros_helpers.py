@@ -1,0 +1,149 @@
+"""
+Helper libraries whose methods wait or spin inside, where their source is not scanned.
+
+Sources: ``tf2_ros/buffer_client.py`` (one action client; a look-up sends a goal and waits for an
+event), ``nav2_simple_commander/robot_navigator.py`` (a node of its own, which its methods spin),
+``pymoveit2/moveit2.py`` 4.2 (its methods spin the given node).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_executors import as_node, spin_in_passing
+from ros2cc_extract.extract.static.ros_groups import group_of
+from ros2cc_extract.extract.static.ros_nodes import NODE, add_entity, init_node
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+)
+from ros2cc_extract.extract.static.world import NodeState, PlainState
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import EntityKind
+
+_BUFFER_CLIENT = 'tf2_ros.BufferClient'
+_NAVIGATOR = 'nav2_simple_commander.robot_navigator.BasicNavigator'
+_MOVEIT = 'pymoveit2.MoveIt2'
+_PADDING_S = 2.0
+"""What a buffer client waits beyond the time-out it was given, unless told otherwise."""
+
+
+def _make_buffer_client(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    node = as_node(machine, call.argument(0, 'node'))
+    if node is not None:
+        group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
+        entity = add_entity(machine, node, EntityKind.ACTION_CLIENT, group, call.place)
+        entity.key, entity.library = call.argument(1, 'ns'), _BUFFER_CLIENT
+        entity.label = 'buffer_client'
+        receiver.state = entity
+    return NONE
+
+
+def _ask(name: str, position: int) -> Handler:
+    def ask(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(position, 'timeout')
+        state = timeout.state if isinstance(timeout, Instance) else None
+        given = state.key if isinstance(state, PlainState) else timeout
+        machine.note_blocking(f'BufferClient.{name}', receiver, _padded(given, call), call.place)
+        return machine.mystery('a transform at run time', call.place)
+
+    return ask
+
+
+def _padded(given: Value | None, call: Call) -> Value:
+    if given is None:
+        return Const(_PADDING_S)
+    if isinstance(given, Const) and isinstance(given.value, (int, float)):
+        return Const(given.value + _PADDING_S)
+    return Mystery(Unknown('a duration that could not be followed', call.place))
+
+
+def _make_navigator(machine: Machine, receiver: Value, call: Call) -> Value:
+    name = call.argument(0, 'node_name') or Const('basic_navigator')
+    return init_node(machine, receiver, Call(call.place, [name]))
+
+
+def _spin_navigator(machine: Machine, receiver: Value, call: Call) -> Value:
+    spin_in_passing(machine, receiver, 'spin_until_future_complete', call.place)
+    return machine.mystery('answer of the navigation', call.place)
+
+
+def _make_moveit(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    node = as_node(machine, call.argument(0, 'node'))
+    if node is not None and isinstance(node.state, NodeState):
+        receiver.slots['_node'] = node
+        reason = f'the node is passed to {_MOVEIT}, which is not scanned'
+        node.state.more.append((reason, call.place))
+    return NONE
+
+
+def _spin_moveit(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = receiver.slots.get('_node') if isinstance(receiver, Instance) else None
+    if isinstance(node, Instance):
+        spin_in_passing(machine, node, 'spin_once', call.place)
+    return machine.mystery('result of a motion', call.place)
+
+
+_NAVIGATE = [
+    'assistedTeleop',
+    'backup',
+    'cancelTask',
+    'changeMap',
+    'clearAllCostmaps',
+    'clearCostmapAroundRobot',
+    'clearCostmapExceptRegion',
+    'clearGlobalCostmap',
+    'clearLocalCostmap',
+    'dockRobotByID',
+    'dockRobotByPose',
+    'driveOnHeading',
+    'followGpsWaypoints',
+    'followPath',
+    'followWaypoints',
+    'getGlobalCostmap',
+    'getLocalCostmap',
+    'getPath',
+    'getPathThroughPoses',
+    'goThroughPoses',
+    'goToPose',
+    'isTaskComplete',
+    'lifecycleShutdown',
+    'lifecycleStartup',
+    'smoothPath',
+    'spin',
+    'undockRobot',
+    'waitUntilNav2Active',
+]
+_MOVE = ('compute_fk', 'compute_ik', 'plan', 'update_planning_scene', 'wait_until_executed')
+
+TABLE = Library(
+    classes={
+        _BUFFER_CLIENT: LibraryClass(
+            init=_make_buffer_client,
+            methods={
+                'lookup_transform': _ask('lookup_transform', 3),
+                'lookup_transform_full': _ask('lookup_transform_full', 5),
+                'can_transform': _ask('can_transform', 3),
+                'can_transform_full': _ask('can_transform_full', 5),
+            },
+        ),
+        _NAVIGATOR: LibraryClass(
+            init=_make_navigator,
+            bases=(NODE,),
+            methods=dict.fromkeys(_NAVIGATE, _spin_navigator),
+        ),
+        _MOVEIT: LibraryClass(init=_make_moveit, methods=dict.fromkeys(_MOVE, _spin_moveit)),
+    },
+    aliases={
+        'tf2_ros.buffer_client.BufferClient': _BUFFER_CLIENT,
+        'nav2_simple_commander.BasicNavigator': _NAVIGATOR,
+        'pymoveit2.moveit2.MoveIt2': _MOVEIT,
+    },
+)

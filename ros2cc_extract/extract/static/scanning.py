@@ -1,0 +1,274 @@
+"""
+One scan: the programs from their entries, then what no entry reaches.
+
+Files are followed in pieces, in children where there are several cores. What a file gives
+does not depend on who follows it: the second round tells each what all others have covered,
+and follows a file again where one before it in the order of files has covered more since.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from ros2cc_extract.crew import Crew
+from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.entries import console_scripts, entries_of
+from ros2cc_extract.extract.static.library_runs import run_library
+from ros2cc_extract.extract.static.likeness import each_once
+from ros2cc_extract.extract.static.project import FollowedFile, Project
+from ros2cc_extract.extract.static.reached import scanned_files
+from ros2cc_extract.extract.static.relevance import replaces_rclpy
+from ros2cc_extract.extract.static.runs import run_entry
+from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.extract.static.units import specs_of
+from ros2cc_extract.extract.static.values import Class
+from ros2cc_extract.extract.static.world import World
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Spec
+
+Progress = Callable[[int, int], None]
+Numbers = tuple[int, ...]
+
+PIECES_PER_CHILD = 12
+WORTH_SHARING_BYTES = 100_000
+SMALLEST_PIECE_BYTES = 20_000
+"""Below that, sending work around costs more than doing it."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """
+    Files to follow: from their entries, or from what none of ``covered`` reaches.
+
+    :param numbers: of files in the order of the scan; none to ask what was read on the way.
+    """
+
+    numbers: Numbers
+    covered: frozenset[Place] | None = None
+
+
+@dataclass(frozen=True)
+class Found:
+    """What following one file gave."""
+
+    units: tuple[Spec, ...] = ()
+    noticed: tuple[Diagnostic, ...] = ()
+    covered: frozenset[Place] = frozenset()
+
+
+@dataclass(frozen=True)
+class Read:
+    """What one process has read: trouble with files, and files nobody gave."""
+
+    unread: tuple[Diagnostic, ...]
+    followed: frozenset[FollowedFile]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was found in each file of a piece; what was read, where no file was named."""
+
+    found: tuple[Found, ...] = ()
+    read: Read | None = None
+
+
+def scan_project(
+    project: Project, processes: int, progress: Progress | None
+) -> tuple[Extraction, frozenset[FollowedFile]]:
+    """
+    Follow everything; also gives the files that were read though nobody gave them.
+
+    :param processes: at most so many share the work.
+    """
+    files = scanned_files(project)
+    if sum(len(source.data) for source in files) < WORTH_SHARING_BYTES:
+        processes = 1
+    worker = _Worker(project, files)
+    pieces = _pieces(files, processes)
+    processes = min(processes, len(pieces))
+    with Crew(worker.answer, processes) as crew:
+        return _Scan(project, files, pieces, crew, worker, progress).run()
+
+
+def _pieces(files: Sequence[SourceFile], processes: int) -> list[Numbers]:
+    """Neighbours stay together, since they import each other."""
+    if processes == 1:
+        return [(number,) for number in range(len(files))]
+    size = sum(len(source.data) for source in files) // (processes * PIECES_PER_CHILD)
+    pieces: list[list[int]] = []
+    filled = 0
+    for number, source in enumerate(files):
+        if not pieces or filled >= max(size, SMALLEST_PIECE_BYTES):
+            pieces.append([])
+            filled = 0
+        pieces[-1].append(number)
+        filled += len(source.data)
+    return [tuple(piece) for piece in pieces]
+
+
+class _Worker:
+    """Follows files, in a child or here."""
+
+    def __init__(self, project: Project, files: Sequence[SourceFile]) -> None:
+        self._project = project
+        self._files = files
+        self._scripts = console_scripts(project.script_folders())
+
+    def answer(self, piece: Piece) -> Answer:
+        """Follow a piece."""
+        if not piece.numbers:
+            return Answer(read=Read(self._unread(), frozenset(self._project.followed())))
+        files = [self._files[number] for number in piece.numbers]
+        return Answer(tuple(self._found_in(source, piece.covered) for source in files))
+
+    def _found_in(self, source: SourceFile, covered: frozenset[Place] | None) -> Found:
+        if b'modules' in source.data and source.tree and replaces_rclpy(source.tree):
+            return Found()
+        if covered is None:
+            return self._from_entries(source)
+        return self._from_rest(source, covered)
+
+    def _from_entries(self, source: SourceFile) -> Found:
+        runs = [
+            (run_entry(self._project, entry).world, entry.label)
+            for entry in entries_of(source, self._scripts)
+        ]
+        return _joined(_found(world, label) for world, label in runs)
+
+    def _from_rest(self, source: SourceFile, covered: frozenset[Place]) -> Found:
+        rest = run_library(self._project, source, covered)
+        return _found(rest.world, None) if rest is not None else Found()
+
+    def _unread(self) -> tuple[Diagnostic, ...]:
+        return tuple(d for source in self._project.files for d in source.diagnostics)
+
+
+class _Scan:
+    """Hands the pieces out and puts together what comes back."""
+
+    def __init__(
+        self,
+        project: Project,
+        files: Sequence[SourceFile],
+        pieces: Sequence[Numbers],
+        crew: Crew[Piece, Answer],
+        worker: _Worker,
+        progress: Progress | None,
+    ) -> None:
+        self._project = project
+        self._worker = worker
+        self._files = files
+        self._pieces = pieces
+        self._crew = crew
+        self._progress = progress or (lambda done, total: None)
+        self._done = 0
+
+    def run(self) -> tuple[Extraction, frozenset[FollowedFile]]:
+        """Both rounds."""
+        first = self._ask([Piece(numbers) for numbers in self._pieces], None)
+        from_entries = [found for answer, _ in first for found in answer.found]
+        homes = [home for _, home in first]
+        from_rest = self._rest(from_entries, homes)
+        read = self._read()
+        every = list(zip(from_entries, from_rest, strict=True))
+        noticed = [d for pair in every for found in pair for d in found.noticed]
+        extraction = Extraction(
+            units=each_once([unit for pair in every for found in pair for unit in found.units]),
+            diagnostics=_sorted([*noticed, *(d for each in read for d in each.unread)]),
+            files_seen=tuple(source.shown for source in self._project.given),
+        )
+        return extraction, frozenset(file for each in read for file in each.followed)
+
+    def _rest(self, first: Sequence[Found], homes: Sequence[int | None]) -> list[Found]:
+        """Follow what no entry reaches, as if one file were followed after the other."""
+        covered = _Covered(first)
+        ahead = self._ahead(covered, homes) if self._crew.size > 1 else {}
+        covered.grown.clear()
+        rest: list[Found] = []
+        for number, source in enumerate(self._files):
+            found = ahead.get(number)
+            if found is None or source.shown in covered.grown:
+                found = self._worker.answer(Piece((number,), covered.of([source]))).found[0]
+            if not ahead:
+                self._step(1)
+            covered.add(found)
+            rest.append(found)
+        return rest
+
+    def _ahead(self, covered: _Covered, homes: Sequence[int | None]) -> dict[int, Found]:
+        """Follow every file as if none before it covered more than the entries did."""
+        pieces = [
+            Piece(numbers, covered.of(self._files[number] for number in numbers))
+            for numbers in self._pieces
+        ]
+        found = (found for answer, _ in self._ask(pieces, homes) for found in answer.found)
+        return dict(enumerate(found))
+
+    def _ask(
+        self, pieces: Sequence[Piece], by: Sequence[int | None] | None
+    ) -> list[tuple[Answer, int | None]]:
+        return self._crew.ask(pieces, by, lambda number: self._step(len(pieces[number].numbers)))
+
+    def _step(self, files: int) -> None:
+        self._done += files
+        self._progress(self._done, 2 * len(self._files))
+
+    def _read(self) -> list[Read]:
+        children = range(self._crew.size if self._crew.size > 1 else 0)
+        asked = self._crew.ask([Piece(())] * len(children), list(children))
+        answers = [*(answer for answer, _ in asked), self._worker.answer(Piece(()))]
+        return [answer.read for answer in answers if answer.read is not None]
+
+
+class _Covered:
+    """
+    What was followed already, by file.
+
+    :ivar grown: files of which more was covered since.
+    """
+
+    def __init__(self, found: Iterable[Found]) -> None:
+        self.grown: set[str] = set()
+        self._places: dict[str, set[Place]] = defaultdict(set)
+        for each in found:
+            self.add(each)
+
+    def add(self, found: Found) -> None:
+        """Count what ``found`` covers."""
+        for place in found.covered:
+            if place not in self._places[place.file]:
+                self._places[place.file].add(place)
+                self.grown.add(place.file)
+
+    def of(self, files: Iterable[SourceFile]) -> frozenset[Place]:
+        """What is covered of these files."""
+        return frozenset(p for file in files for p in self._places.get(file.shown, ()))
+
+
+def _found(world: World, label: str | None) -> Found:
+    units = tuple(specs_of(world, label))
+    return Found(units, tuple(world.diagnostics), _covered(world))
+
+
+def _joined(parts: Iterable[Found]) -> Found:
+    found = list(parts)
+    return Found(
+        tuple(unit for part in found for unit in part.units),
+        tuple(diagnostic for part in found for diagnostic in part.noticed),
+        frozenset(place for part in found for place in part.covered),
+    )
+
+
+def _covered(world: World) -> frozenset[Place]:
+    functions = (function.place for function in world.called.values())
+    classes = (
+        cls.place for instance in world.instances for cls in instance.mro if isinstance(cls, Class)
+    )
+    return frozenset((*functions, *classes))
+
+
+def _sorted(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(dict.fromkeys(found), key=lambda d: (d.place, d.slug, d.message)))
