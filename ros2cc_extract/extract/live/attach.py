@@ -1,9 +1,10 @@
 """
 ``attach``: the specification of a process that already runs, without having started it.
 
-By what the interpreter offers (Python 3.14, ``sys.remote_exec``), else by hypno, the injector of
-the extra ``attach``. Either runs a few lines in the process's main thread, which write a
-recording and leave nothing behind.
+By what the interpreter offers (Python 3.14, ``sys.remote_exec``), and where that is missing or
+refused, as it is by a process of another Python version, by hypno, the injector of the extra
+``attach``. Either runs a few lines in the process's main thread, which write a recording and leave
+nothing behind.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -27,6 +28,7 @@ EXIT_CLEAN, EXIT_ERROR = 0, 2
 # The main thread runs our lines as soon as it is back from C; an executor wakes at every event.
 PATIENCE_S = 15.0
 _LOOK_EVERY_S = 0.05
+_EXTRA = 'pip install "ros2cc-extract[attach]"'
 _PTRACE_SCOPE = Path('/proc/sys/kernel/yama/ptrace_scope')
 
 
@@ -35,9 +37,11 @@ class Injector:
     """
     Runs a script in another process.
 
+    :param name: what it is called in messages.
     :param refusals: what ``inject`` raises when the process cannot be entered.
     """
 
+    name: str
     inject: Callable[[int, Path], None]
     refusals: tuple[type[Exception], ...]
 
@@ -73,11 +77,11 @@ def attach_process(pid: int, output: Path, stderr: TextIO) -> int:
     """
     check_output(output)
     _check_process(pid)
-    injector = _injector()
+    ways = injectors()
     with tempfile.TemporaryDirectory(prefix='ros2cc-attach-') as directory:
         # The process may belong to another user.
         Path(directory).chmod(0o777)
-        recording = read_recording(_record(pid, Path(directory), injector), Path.cwd())
+        recording = read_recording(_record(pid, Path(directory), ways), Path.cwd())
     report_losses([recording], stderr)
     specs = specs_of(recording)
     if not specs:
@@ -100,37 +104,63 @@ def _check_process(pid: int) -> None:
         raise InputError(f'{pid} is no process number') from None
 
 
-def _injector() -> Injector:
+def injectors() -> tuple[Injector, ...]:
+    """Give what there is, in the order in which it is to be tried."""
+    found = tuple(each for each in (_remote_exec(), _hypno()) if each is not None)
+    if not found:
+        raise ToolNotFoundError(
+            'attaching needs Python 3.14 or the injector hypno', None, f'install it with: {_EXTRA}'
+        )
+    return found
+
+
+def _remote_exec() -> Injector | None:
     remote = getattr(sys, 'remote_exec', None)
-    if remote is not None:
-        return Injector(lambda pid, script: remote(pid, str(script)), (OSError, RuntimeError))
+    if remote is None:
+        return None
+    return Injector(
+        'sys.remote_exec', lambda pid, script: remote(pid, str(script)), (OSError, RuntimeError)
+    )
+
+
+def _hypno() -> Injector | None:
     try:
         hypno = importlib.import_module('hypno')
         refusals = (OSError, importlib.import_module('pyinjector').PyInjectorError)
     except ImportError:
-        raise ToolNotFoundError(
-            'attaching needs Python 3.14 or the injector hypno',
-            None,
-            'install it with: pip install "ros2cc-extract[attach]"',
-        ) from None
+        return None
     return Injector(
+        'hypno',
         lambda pid, script: hypno.inject_py(pid, f'exec(open({str(script)!r}).read(), {{}})'),
         refusals,
     )
 
 
-def _record(pid: int, directory: Path, injector: Injector) -> Path:
+def _record(pid: int, directory: Path, ways: Sequence[Injector]) -> Path:
     recording = directory / f'{pid}.json'
     script = directory / 'record.py'
     folder = str(Path(__file__).resolve().parent)
     script.write_text(_LINES.format(folder=folder, path=str(recording)), encoding='utf-8')
-    try:
-        injector.inject(pid, script)
-    except injector.refusals as error:
-        raise ToolNotFoundError(
-            f'process {pid} cannot be entered: {error}', None, _why_forbidden()
-        ) from error
+    inject(pid, script, ways)
     return _await(recording, pid)
+
+
+def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
+    """
+    Run a script in a process by the first of ``ways`` that is let in.
+
+    :raises ToolNotFoundError: when none is; says what each was told.
+    """
+    refused: dict[str, Exception] = {}
+    for injector in ways:
+        try:
+            injector.inject(pid, script)
+        except injector.refusals as error:
+            refused[injector.name] = error
+        else:
+            return
+    told = '; '.join(f'{name}: {error}' for name, error in refused.items())
+    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
 
 
 def _await(recording: Path, pid: int) -> Path:
@@ -149,7 +179,7 @@ def _await(recording: Path, pid: int) -> Path:
     return recording
 
 
-def _why_forbidden() -> str:
+def _mend(refused: Container[str]) -> str:
     try:
         scope = _PTRACE_SCOPE.read_text().strip()
     except OSError:
@@ -159,4 +189,6 @@ def _why_forbidden() -> str:
             f'the system forbids it ({_PTRACE_SCOPE} is {scope}); run as root, or ask for '
             'sysctl kernel.yama.ptrace_scope=0'
         )
+    if 'hypno' not in refused:
+        return f'a process of another Python version needs the injector hypno: {_EXTRA}'
     return 'it must be a Python process of yours with a shared libpython, outside containers'

@@ -59,7 +59,7 @@ _LABEL_ENDS = {
 
 def specs_of(recording: Recording) -> tuple[Spec, ...]:
     """Give the units of one process, in the order their executors were made."""
-    homes = {node.number: _home(node) for node in recording.nodes}
+    homes = {node.number: home_of(node) for node in recording.nodes}
     units = []
     for executor in recording.executors:
         nodes = [node for node in recording.nodes if homes[node.number] == executor.number]
@@ -68,7 +68,7 @@ def specs_of(recording: Recording) -> tuple[Spec, ...]:
     return tuple(units)
 
 
-def _home(node: RecordedNode) -> int | None:
+def home_of(node: RecordedNode) -> int | None:
     """
     Choose the executor that a node belongs to: of those that ran it the one it was in longest.
 
@@ -209,11 +209,12 @@ class _Unit:
 
     def _label(self, entity: RecordedEntity, kind: EntityKind) -> str:
         end = _LABEL_ENDS.get(kind)
-        if end is not None:
+        if end is not None and (entity.builtin or kind is not EntityKind.QOS_EVENT):
             return f'{mend(entity.key)}_{end}' if entity.key else end
         if entity.function is not None and not entity.library:
             return _last_part(entity.function)
-        return 'rate' if entity.library == 'rclpy.create_rate' else mend(entity.key or kind.value)
+        is_rate = entity.library == 'rclpy.create_rate'
+        return 'rate_timer' if is_rate else mend(entity.key or kind.value)
 
     def _wanted(self, draft: Callback) -> Wanted:
         several = len(self._nodes) > 1 and isinstance(draft.node, str)

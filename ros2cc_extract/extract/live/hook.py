@@ -17,15 +17,21 @@ from collections.abc import Callable
 from threading import get_ident
 from typing import Any
 
-from .entries import TaskRecord
+from .events_executor import mark_spinning, measure_callbacks
 from .frames import is_node, trace_creation
-from .record import BEGIN, END, REFUSED, TASK, Recorder
-from .steps import report, trace_runs, trace_takes
+from .record import BEGIN, END, REFUSED, Recorder
+from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
 from .writer import Writer
 
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
 TRACE_VARIABLE = 'ROS2CC_LIVE_TRACE'
 WATCHED_MODULE = 'rclpy.executors'
+# Whose callbacks the executor written in C++ calls itself.
+MEASURED_FOR_EVENTS = (
+    ('rclpy.timer', 'Timer'),
+    ('rclpy.subscription', 'Subscription'),
+    ('rclpy.service', 'Service'),
+)
 
 
 class Hook:
@@ -35,8 +41,8 @@ class Hook:
         self.recorder = Recorder()
         self.writer = Writer(self.recorder, lambda: _file_of_process(directory), traced=traced)
         self._traced = traced
-        self._task_records: dict[int, TaskRecord] = {}
         self._wrapped: list[tuple[type, str, Any]] = []
+        self._measures_events = False
 
     def install(self) -> None:
         """Wrap rclpy now if it is loaded, else as soon as it will be."""
@@ -64,21 +70,22 @@ class Hook:
             self._wrap_group(group)
         self._watch_new_groups(groups.CallbackGroup)
         if self._traced:
-            trace_takes(self.recorder, base, self._set)
-            trace_runs(self.recorder, self._task_records, executors.Task, self._set)
+            self._wrap_steps(executors)
+
+    def _wrap_steps(self, executors: Any) -> None:
+        trace_waits(self.recorder, executors, self._set)
+        trace_takes(self.recorder, executors.Executor, self._set)
+        trace_runs(self.recorder, executors.Task, self._set)
+        self._replace(executors.MultiThreadedExecutor, '__init__', self._pool_made)
 
     def _wrap_events_executor(self, executors: Any) -> None:
-        """
-        Wrap the executor written in C++, which has no Python base class.
-
-        rclpy 7.1.4 and later, ``rclpy/experimental/events_executor.py``. It never asks callback
-        groups, so nothing can be measured of its callbacks.
-        """
+        """Wrap the executor written in C++, which has no Python base class."""
         events = getattr(getattr(executors, '_rclpy', None), 'EventsExecutor', None)
         if events is not None:
-            self._replace(events, 'add_node', self._node_added)
+            self._replace(events, 'add_node', self._node_added_for_events)
             self._replace(events, 'remove_node', self._node_removed)
             self._replace(events, 'create_task', self._task_created)
+            mark_spinning(events, self._set)
 
     def unwrap(self) -> None:
         """Put everything back."""
@@ -88,6 +95,7 @@ class Hook:
             else:
                 setattr(owner, name, original)
         self._wrapped.clear()
+        self._measures_events = False
 
     def _replace(self, owner: type, name: str, note: Callable[..., None]) -> None:
         """Call ``note(result, self, …)`` after each call of a method."""
@@ -121,6 +129,13 @@ class Hook:
             self.recorder.note_added(executor, node)
             self.writer.start()
 
+    def _node_added_for_events(self, added: bool, executor: Any, node: Any) -> None:
+        if not self._measures_events:
+            self._measures_events = True
+            for module, name in MEASURED_FOR_EVENTS:
+                measure_callbacks(self.recorder, getattr(sys.modules[module], name), self._set)
+        self._node_added(added, executor, node)
+
     def _node_removed(self, _result: None, executor: Any, node: Any) -> None:
         self.recorder.note_removed(executor, node)
 
@@ -132,8 +147,10 @@ class Hook:
         kind = 'done_callback' if asked_by == 'rclpy.task' else 'task'
         record = self.recorder.note_task(executor, kind, callback)
         if self._traced and record is not None:
-            self._task_records[id(task)] = record
-            report(self.recorder, TASK, record)
+            mark_task(self.recorder, task, record)
+
+    def _pool_made(self, _result: None, executor: Any, *_: Any, **__: Any) -> None:
+        trace_submits(self.recorder, executor)
 
     def _group_made(self, _result: None, group: Any) -> None:
         creation = trace_creation(sys._getframe(2), group)
@@ -160,27 +177,35 @@ class Hook:
         self._set(base, '__init_subclass__', classmethod(init_subclass))
 
     def _wrap_group(self, group: type) -> None:
-        for name in ('beginning_execution', 'ending_execution'):
+        for name, what, otherwise in (
+            ('beginning_execution', BEGIN, REFUSED),
+            ('ending_execution', END, END),
+        ):
             if name in group.__dict__:
-                self._set(group, name, self._reporting(group, name))
+                self._set(group, name, self._reporting(group, name, what, otherwise))
 
-    def _reporting(self, group: type, name: str) -> Any:
-        """Report each call of a group's method; the only code of ours on the way of a callback."""
+    def _reporting(self, group: type, name: str, what: int, otherwise: int) -> Any:
+        """
+        Report each call of a group's method; the only code of ours on the way of a callback.
+
+        :param what: the event when the method gives true, else it is ``otherwise``.
+        """
         original = group.__dict__[name]
-        is_end = name == 'ending_execution'
         recorder, find = self.recorder, self.recorder.note_entity
         entities, append, lose = recorder.entities, recorder.events.append, recorder.lose
-        clock = time.monotonic_ns
+        clock, thread = time.monotonic_ns, get_ident
 
         @functools.wraps(original)
         def method(self: Any, entity: Any) -> Any:
             result = original(self, entity)
             try:
                 # A subclass that calls its base is reported once, by its own wrapper.
-                if getattr(type(self), name) is method:
-                    what = END if is_end else BEGIN if result else REFUSED
-                    record = entities.get(id(entity)) or find(self, entity)
-                    append((clock(), get_ident(), what, record))
+                if type(self) is group or getattr(type(self), name) is method:
+                    try:
+                        record = entities[id(entity)]
+                    except KeyError:
+                        record = find(self, entity)
+                    append((clock(), thread(), what if result else otherwise, record))
             except Exception as error:
                 lose(error)
             return result
@@ -188,8 +213,11 @@ class Hook:
         return method
 
     def _after_fork(self) -> None:
-        self.recorder.forget()
-        self.writer.forget()
+        try:
+            self.recorder.forget()
+            self.writer.forget()
+        except Exception as error:
+            self.recorder.lose(error)
 
     def _at_exit(self) -> None:
         try:

@@ -31,14 +31,32 @@ from .entries import (
 )
 from .frames import Creation, RawPlace, is_node, name_function
 
-# What happened; the first three are always recorded, the others for a trace.
-EVENT_NAMES = ('begin', 'refused', 'end', 'collect', 'take', 'task', 'run', 'pause')
-BEGIN, REFUSED, END, COLLECT, TAKE, TASK, RUN, PAUSE = range(len(EVENT_NAMES))
-# Monotonic clock in nanoseconds, thread, what, and whose.
-Event = tuple[int, int, int, 'EntityRecord | TaskRecord']
+# What happened; the first three, up to ``END``, are always recorded, the others for a trace.
+EVENT_NAMES = (
+    'begin',
+    'refused',
+    'end',
+    'wait>',
+    'wait<',
+    'collect',
+    'submit',
+    'take',
+    'suspend',
+    'resume',
+    'task',
+    'run',
+    'pause',
+)
+BEGIN, REFUSED, END, WAIT, WOKEN, COLLECT, SUBMIT, TAKE, SUSPEND, RESUME, TASK, RUN, PAUSE = range(
+    len(EVENT_NAMES)
+)
+# Monotonic clock in nanoseconds, thread, what, and whose: the record of an entity, a task or an
+# executor. Only entities begin, end and are refused.
+Event = tuple[int, int, int, Any]
 
 # Half a minute of 4 kHz, should the writer not get the processor for that long.
 EVENTS_KEPT = 120_000
+LARGEST_BATCH = 1000
 
 ENTITY_LISTS = ('timers', 'subscriptions', 'guards', 'clients', 'services', 'waitables')
 
@@ -91,6 +109,7 @@ class Recorder:
 
     def note_added(self, executor: Any, node: Any) -> None:
         with self.lock:
+            node = self._node_behind(node)
             home, record = self.note_executor(executor), self.note_node(node)
             if any(
                 stay['until'] is None and stay['executor'] == home.number for stay in record.stays
@@ -110,7 +129,8 @@ class Recorder:
 
     def note_removed(self, executor: Any, node: Any) -> None:
         with self.lock:
-            home, record = self.note_executor(executor), self.note_node(node)
+            home = self.note_executor(executor)
+            record = self.note_node(self._node_behind(node))
             for stay in record.stays:
                 if stay['until'] is None and stay['executor'] == home.number:
                     stay['until'] = time.monotonic_ns()
@@ -221,18 +241,23 @@ class Recorder:
                 del known[key]
 
     def take_events(self) -> list[Event]:
-        """Take what has happened since the last time, and bring the timings up to date."""
-        taken = []
-        for _ in range(len(self.events)):
-            event = self.events.popleft()
-            clock, thread, what, record = event
+        """
+        Take what has happened since the last time, and bring the timings up to date.
+
+        At most ``LARGEST_BATCH`` events: what is held at once bounds the memory of a program
+        that has fallen behind.
+        """
+        popleft = self.events.popleft
+        taken = [popleft() for _ in range(min(len(self.events), LARGEST_BATCH))]
+        for clock, thread, what, record in taken:
+            if what > END:
+                continue
             if what == BEGIN:
                 record.timings.begin(clock, thread)
             elif what == END:
                 record.timings.end(clock, thread)
-            elif what == REFUSED:
+            else:
                 record.timings.refused += 1
-            taken.append(event)
         self.measured += len(taken)
         return taken
 
@@ -251,6 +276,13 @@ class Recorder:
             record.default, record.node = record.number == owner.default_group, owner.number
         elif getattr(node, '_rate_group', None) is group:
             record.rate, record.node = True, owner.number
+
+    def _node_behind(self, node: Any) -> Any:
+        """Give the node that an object hands on to what it lacks itself, as some programs do."""
+        if is_node(node):
+            return node
+        known = (record.ref() for record in self.all_nodes)
+        return next((each for each in known if each and each.handle is node.handle), node)
 
     def _groups_of(self, node: Any) -> Iterator[Any]:
         default = getattr(node, 'default_callback_group', None)

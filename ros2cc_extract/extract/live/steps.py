@@ -1,5 +1,5 @@
 """
-What a trace adds to the recording: collecting, taking, and runs of work outside every group.
+What a trace adds to the recording: waiting, collecting, handing to the pool, taking, pausing.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. Wrapped only when a trace is asked for.
@@ -8,20 +8,79 @@ neighbours. Wrapped only when a trace is asked for.
 from __future__ import annotations
 
 import functools
+import inspect
+import sys
 import time
+import weakref
 from collections.abc import Callable
 from threading import get_ident
 from typing import Any
 
-from .entries import EntityRecord, TaskRecord
-from .record import COLLECT, PAUSE, RUN, TAKE, Recorder
+from .entries import TaskRecord
+from .record import (
+    COLLECT,
+    PAUSE,
+    RESUME,
+    RUN,
+    SUBMIT,
+    SUSPEND,
+    TAKE,
+    TASK,
+    WAIT,
+    WOKEN,
+    Recorder,
+)
 
 Replace = Callable[[type, str, Any], None]
+# What we keep with each task of rclpy; these are the values of one not yet seen.
+_KEPT_WITH_TASKS = {
+    '_ros2cc_record': None,
+    '_ros2cc_submitted': False,
+    '_ros2cc_suspended': False,
+    '_ros2cc_awaited': None,
+}
+_clock = time.monotonic_ns
 
 
-def report(recorder: Recorder, what: int, record: EntityRecord | TaskRecord) -> None:
+def report(recorder: Recorder, what: int, record: Any) -> None:
     """Report an event that happens here and now."""
-    recorder.events.append((time.monotonic_ns(), get_ident(), what, record))
+    recorder.events.append((_clock(), get_ident(), what, record))
+
+
+def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
+    """
+    Report when an executor begins to wait for work and when it is woken.
+
+    It waits in the ``WaitSet`` that a generator builds on every lap, and that generator is asked
+    by ``wait_for_ready_callbacks``, whose ``self`` it is (3.3 to 9.1, ``executors.py``). Reading
+    that from its frame costs less than a wrapper, which would be called for every callback.
+    """
+    append, lose = recorder.events.append, recorder.lose
+    lap = executors.Executor._wait_for_ready_callbacks.__code__
+    wait = executors._rclpy.WaitSet.wait
+
+    @functools.wraps(wait)
+    def traced_wait(wait_set: Any, *args: Any) -> Any:
+        thread, record = 0, None
+        try:
+            caller = sys._getframe(1)
+            if caller.f_code is lap and caller.f_back is not None:
+                record = recorder.executors.get(id(caller.f_back.f_locals.get('self')))
+            if record is not None:
+                thread = get_ident()
+                append((_clock(), thread, WAIT, record))
+        except Exception as error:
+            lose(error)
+        try:
+            return wait(wait_set, *args)
+        finally:
+            try:
+                if record is not None:
+                    append((_clock(), thread, WOKEN, record))
+            except Exception as error:
+                lose(error)
+
+    replace(executors._rclpy.WaitSet, 'wait', traced_wait)
 
 
 def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> None:
@@ -34,60 +93,176 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
     original = executor_class.__dict__.get('_make_handler')
     if original is None:
         return
-    entities, append, lose = recorder.entities, recorder.events.append, recorder.lose
-    clock = time.monotonic_ns
+    entities, find = recorder.entities, recorder.note_entity
+    append, lose = recorder.events.append, recorder.lose
 
     @functools.wraps(original)
     def make_handler(executor: Any, entity: Any, node: Any, take: Any, *more: Any) -> Any:
         def traced_take(taken: Any) -> Any:
             data = take(taken)
             try:
-                record = entities.get(id(taken))
-                if record is not None:
-                    append((clock(), get_ident(), TAKE, record))
+                append((_clock(), get_ident(), TAKE, entities[id(taken)]))
             except Exception as error:
                 lose(error)
             return data
 
+        task = original(executor, entity, node, traced_take, *more)
         try:
-            record = entities.get(id(entity))
-            if record is not None:
-                append((clock(), get_ident(), COLLECT, record))
+            record = entities.get(id(entity)) or find(entity.callback_group, entity)
+            task._ros2cc_record = record
+            append((_clock(), get_ident(), COLLECT, record))
         except Exception as error:
             lose(error)
-        return original(executor, entity, node, traced_take, *more)
+        return task
 
     replace(executor_class, '_make_handler', make_handler)
 
 
-def trace_runs(
-    recorder: Recorder, records: dict[int, TaskRecord], task_class: Any, replace: Replace
-) -> None:
+def trace_submits(recorder: Recorder, executor: Any) -> None:
     """
-    Report the runs of work outside every group; a coroutine may pause and run again.
+    Report when a task is first handed to an executor's pool of threads.
 
-    :param records: by identity of the task, for those made by ``create_task``.
+    rclpy hands over whatever has not begun on every lap, which changes nothing (9.1,
+    ``executors.py``). Nothing here keeps the pool alive: its threads end when it is let go.
+    """
+    pool = executor._executor
+    submit, pool_ref, lose = type(pool).submit, weakref.ref(pool), recorder.lose
+
+    @functools.wraps(submit)
+    def traced_submit(function: Any, /, *args: Any, **kwargs: Any) -> Any:
+        try:
+            record = getattr(function, '_ros2cc_record', None)
+            if record is not None and not function._ros2cc_submitted:
+                function._ros2cc_submitted = True
+                report(recorder, SUBMIT, record)
+        except Exception as error:
+            lose(error)
+        return submit(pool_ref(), function, *args, **kwargs)
+
+    pool.submit = traced_submit
+
+
+def trace_runs(recorder: Recorder, task_class: Any, replace: Replace) -> None:
+    """
+    Report runs of work outside every group, and when a coroutine of any kind pauses and goes on.
+
+    rclpy runs a paused coroutine on every lap to see whether it can go on (7.1, ``task.py``);
+    runs that change nothing are left out.
     """
     original = task_class.__dict__['__call__']
     lose = recorder.lose
+    steps = _Steps(recorder)
 
     @functools.wraps(original)
     def run(task: Any) -> Any:
-        record = records.get(id(task))
+        record = task._ros2cc_record
         if record is None:
-            return original(task)
+            return run_unmarked(task)
+        begun = None
         try:
-            report(recorder, RUN, record)
+            if task._ros2cc_suspended or type(record) is TaskRecord:
+                begun = steps.begin(task, record)
         except Exception as error:
             lose(error)
         try:
             return original(task)
         finally:
             try:
-                report(recorder, PAUSE, record)
-                if task.done():
-                    records.pop(id(task), None)
+                # A task that is done has let go of its handler, without a lock to ask for.
+                if begun is not None or task._handler is not None:
+                    steps.end(task, record, begun)
             except Exception as error:
                 lose(error)
 
+    def run_unmarked(task: Any) -> Any:
+        began = _clock()
+        try:
+            return original(task)
+        finally:
+            try:
+                task._ros2cc_early = began, _clock(), get_ident()
+                if task._ros2cc_record is not None:
+                    report_early_run(recorder, task)
+            except Exception as error:
+                lose(error)
+
+    for name, value in _KEPT_WITH_TASKS.items():
+        replace(task_class, name, value)
     replace(task_class, '__call__', run)
+
+
+def mark_task(recorder: Recorder, task: Any, record: TaskRecord) -> None:
+    """Note whose task this is; it may have run already, in the thread of the executor."""
+    report(recorder, TASK, record)
+    task._ros2cc_record = record
+    report_early_run(recorder, task)
+
+
+def report_early_run(recorder: Recorder, task: Any) -> None:
+    """Report a run that was over before the task was marked; whoever comes first does so."""
+    early = vars(task).pop('_ros2cc_early', None)
+    if early is not None:
+        began, paused, thread = early
+        recorder.events.append((began, thread, RUN, task._ros2cc_record))
+        recorder.events.append((paused, thread, PAUSE, task._ros2cc_record))
+
+
+class _Steps:
+    """What to tell of one run of a task: when it began, and whether that has been told."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._append = recorder.events.append
+
+    def begin(self, task: Any, record: Any) -> tuple[int, bool] | None:
+        """Give ``None`` when the task runs in another thread or has ended: nothing will happen."""
+        if task.executing() or task.done():
+            return None
+        clock, moves = _clock(), _can_go_on(task)
+        if moves:
+            self._tell_begin(clock, record)
+        return clock, moves
+
+    def end(self, task: Any, record: Any, begun: tuple[int, bool] | None) -> None:
+        if begun is not None:
+            clock, told = begun
+            if not told and not _can_go_on(task):
+                return
+            if not told:
+                self._tell_begin(clock, record)
+        elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
+            return
+        is_work = type(record) is TaskRecord
+        if not task.done():
+            task._ros2cc_awaited = _innermost_future(task._handler)
+            task._ros2cc_suspended = True
+        elif not is_work:
+            return
+        self._append((_clock(), get_ident(), PAUSE if is_work else SUSPEND, record))
+
+    def _tell_begin(self, clock: int, record: Any) -> None:
+        what = RUN if type(record) is TaskRecord else RESUME
+        self._append((clock, get_ident(), what, record))
+
+
+def _can_go_on(task: Any) -> bool:
+    awaited = task._ros2cc_awaited
+    return awaited is None or task.done() or awaited.done()
+
+
+def _is_paused(task: Any) -> bool:
+    """Tell a pause from a call in vain: another thread may hold the task and not run it yet."""
+    handler = task._handler
+    if not inspect.iscoroutine(handler):
+        return False
+    return inspect.getcoroutinestate(handler) == inspect.CORO_SUSPENDED
+
+
+def _innermost_future(coroutine: Any) -> Any:
+    """Give the future of rclpy that a paused coroutine waits for, ``None`` if it is another's."""
+    inner = coroutine
+    while inner is not None:
+        last = inner
+        inner = getattr(inner, 'cr_await', None) or getattr(inner, 'gi_yieldfrom', None)
+    frame = getattr(last, 'gi_frame', None)
+    future = frame.f_locals.get('self') if frame is not None else None
+    return future if hasattr(future, 'add_done_callback') else None

@@ -6,12 +6,13 @@ Runs inside the user's process: the standard library only, nothing else of ours.
 
 from __future__ import annotations
 
+import sys
 from collections import deque
 from collections.abc import Sequence
 from typing import Any
 
 # Enough for a median within a few per cent; extremes and counts are exact.
-SAMPLES = 512
+SAMPLES = 256
 
 
 class Distribution:
@@ -21,12 +22,12 @@ class Distribution:
 
     def __init__(self) -> None:
         self.count = 0
-        self.smallest = 0
+        self.smallest = sys.maxsize
         self.largest = 0
         self.last: deque[int] = deque(maxlen=SAMPLES)
 
     def add(self, value: int) -> None:
-        if not self.count or value < self.smallest:
+        if value < self.smallest:
             self.smallest = value
         if value > self.largest:
             self.largest = value
@@ -70,13 +71,13 @@ class Timings:
 
     def end(self, clock_ns: int, thread: int) -> None:
         """Close the last run begun by this thread; a coroutine may end in another one."""
-        for index in range(len(self._begun) - 1, -1, -1):
-            if self._begun[index][1] == thread:
-                break
-        else:
-            index = 0
-        if self._begun:
-            self.durations.add(clock_ns - self._begun.pop(index)[0])
+        begun = self._begun
+        if not begun:
+            return
+        index = len(begun) - 1
+        while index and begun[index][1] != thread:
+            index -= 1
+        self.durations.add(clock_ns - begun.pop(index)[0])
 
     def describe(self) -> dict[str, Any]:
         return {

@@ -15,15 +15,23 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.live.collect import home_of
 from ros2cc_extract.extract.live.recording import Recording
 from ros2cc_extract.places import Place
 
 FORMAT = 'ros2cc trace'
 VERSION = 1
 RAW_SUFFIX = '.jsonl'
-# Each begins a stretch of time on its thread that the other ends.
-_STRETCHES = {'begin': 'end', 'run': 'pause'}
-_OPENERS = {end: begin for begin, end in _STRETCHES.items()}
+# What ends a stretch of time, and what it can have begun with. A coroutine that pauses leaves its
+# thread and stays in its group.
+_ON_THREADS = {
+    'end': ('begin', 'resume'),
+    'suspend': ('begin', 'resume'),
+    'pause': ('run',),
+    'wait<': ('wait>',),
+}
+_IN_GROUPS = {'end': ('begin',), 'pause': ('run',)}
+_MOMENTS = ('refused', 'collect', 'submit', 'task')
 _NO_GROUP = 0
 
 
@@ -32,9 +40,10 @@ class Event:
     """
     One step of an executor.
 
-    :param thread: the number that the system gave the thread.
-    :param event: begin, refused, end, collect, take, task, run or pause.
-    :param subject: number of the entity or task, as in the recording.
+    :param thread: the number that Python gives the thread.
+    :param event: one of ``record.EVENT_NAMES``.
+    :param subject: number of the entity, task or (``wait>``, ``wait<``) executor, as in the
+        recording.
     """
 
     clock_ns: int
@@ -123,14 +132,16 @@ def _lines(trace: Trace) -> Iterator[Mapping[str, Any]]:
 
 
 def _subjects(recording: Recording) -> dict[int, dict[str, Any]]:
-    """Describe entities and tasks by their numbers."""
+    """Describe entities, tasks and executors by their numbers."""
     nodes = {node.number: node.name for node in recording.nodes}
+    homes = {node.number: home_of(node) for node in recording.nodes}
     found: dict[int, dict[str, Any]] = {
         entity.number: {
             'entity': entity.number,
             'kind': entity.kind,
             'node': nodes.get(entity.node) if entity.node else None,
             'group': entity.group,
+            'executor': homes.get(entity.node) if entity.node else None,
             'name': entity.function.name if entity.function else entity.key or entity.kind,
             'key': entity.key,
             'period_s': entity.period_s,
@@ -138,16 +149,27 @@ def _subjects(recording: Recording) -> dict[int, dict[str, Any]]:
         for entity in recording.entities
     }
     for task in recording.tasks:
-        found[task.number] = {
-            'entity': task.number,
-            'kind': task.kind,
-            'node': nodes.get(task.node) if task.node else None,
-            'group': None,
-            'name': task.function.name,
-            'key': None,
-            'period_s': None,
-        }
+        node = nodes.get(task.node) if task.node else None
+        known = {'node': node, 'executor': task.executor}
+        found[task.number] = _groupless(task.number, task.kind, task.function.name, **known)
+    for executor in recording.executors:
+        known = {'threads': executor.threads}
+        found[executor.number] = _groupless(executor.number, 'executor', executor.cls, **known)
     return found
+
+
+def _groupless(number: int, kind: str, name: str, **known: Any) -> dict[str, Any]:
+    return {
+        'entity': number,
+        'kind': kind,
+        'node': None,
+        'group': None,
+        'executor': None,
+        'name': name,
+        'key': None,
+        'period_s': None,
+        **known,
+    }
 
 
 def to_chrome(traces: Iterable[Trace]) -> dict[str, Any]:
@@ -164,46 +186,62 @@ def _chrome_events(trace: Trace) -> Iterator[dict[str, Any]]:
     yield _named('process_name', groups_pid, 0, f'callback groups of process {pid}')
     for number, name in trace.threads.items():
         yield _named('thread_name', pid, number, name)
-    for group in {subject['group'] or _NO_GROUP for subject in subjects.values()}:
-        yield _named('thread_name', groups_pid, group, _group_name(trace.recording, group))
-    for begin, end in _stretches(trace):
-        subject = subjects.get(begin.subject, {'name': '?', 'group': None})
-        drawn = {
-            'ph': 'X',
-            'name': subject['name'].rpartition('.')[2],
-            'ts': begin.clock_ns / 1e3,
-            'dur': (end.clock_ns - begin.clock_ns) / 1e3,
-            'args': subject,
-        }
-        yield {**drawn, 'pid': pid, 'tid': begin.thread}
-        yield {**drawn, 'pid': groups_pid, 'tid': subject['group'] or _NO_GROUP}
+    for number in {subject['group'] or _NO_GROUP for subject in subjects.values()}:
+        yield _named('thread_name', groups_pid, number, _group_name(trace.recording, number))
+    for begin, end in _stretches(trace.events, _ON_THREADS):
+        yield _drawn(begin, end, subjects, pid, begin.thread)
+    for begin, end in _stretches(trace.events, _IN_GROUPS):
+        group = subjects.get(begin.subject, {}).get('group') or _NO_GROUP
+        yield _drawn(begin, end, subjects, groups_pid, group)
     for event in trace.events:
-        if event.event in ('refused', 'collect', 'task'):
-            name = subjects.get(event.subject, {'name': '?'})['name'].rpartition('.')[2]
+        if event.event in _MOMENTS:
             yield {
                 'ph': 'i',
                 's': 't',
-                'name': f'{event.event} {name}',
+                'name': f'{event.event} {_short_name(event, subjects)}',
                 'ts': event.clock_ns / 1e3,
                 'pid': pid,
                 'tid': event.thread,
             }
 
 
-def _stretches(trace: Trace) -> Iterator[tuple[Event, Event]]:
+def _drawn(
+    begin: Event, end: Event, subjects: Mapping[int, Mapping[str, Any]], pid: int, tid: int
+) -> dict[str, Any]:
+    name = _short_name(begin, subjects)
+    return {
+        'ph': 'X',
+        'name': f'{name} waits' if begin.event == 'wait>' else name,
+        'ts': begin.clock_ns / 1e3,
+        'dur': (end.clock_ns - begin.clock_ns) / 1e3,
+        'args': subjects.get(begin.subject, {}),
+        'pid': pid,
+        'tid': tid,
+    }
+
+
+def _short_name(event: Event, subjects: Mapping[int, Mapping[str, Any]]) -> str:
+    name: str = subjects.get(event.subject, {}).get('name', '?')
+    return name.rpartition('.')[2]
+
+
+def _stretches(
+    events: Iterable[Event], begun_by: Mapping[str, tuple[str, ...]]
+) -> Iterator[tuple[Event, Event]]:
     """Pair begins with ends; what had not ended when the trace stopped is left out."""
-    opened: dict[tuple[str, int], list[Event]] = {}
-    for event in trace.events:
-        if event.event in _STRETCHES:
-            opened.setdefault((event.event, event.subject), []).append(event)
-        elif event.event in _OPENERS:
-            begun = opened.get((_OPENERS[event.event], event.subject), [])
+    openers = {name for names in begun_by.values() for name in names}
+    opened: dict[int, list[Event]] = {}
+    for event in events:
+        if event.event in openers:
+            opened.setdefault(event.subject, []).append(event)
+        elif event.event in begun_by:
+            begun = opened.get(event.subject, [])
+            fitting = [each for each in begun if each.event in begun_by[event.event]]
             # A coroutine may end in another thread than it began in.
-            own = [each for each in begun if each.thread == event.thread] or begun
+            own = [each for each in fitting if each.thread == event.thread] or fitting
             if own:
-                begin = own[-1]
-                begun.remove(begin)
-                yield begin, event
+                begun.remove(own[-1])
+                yield own[-1], event
 
 
 def _group_name(recording: Recording, number: int) -> str:

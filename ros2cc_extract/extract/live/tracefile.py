@@ -15,7 +15,7 @@ import threading
 from collections.abc import Sequence
 from typing import TextIO
 
-from .record import EVENT_NAMES, EVENTS_KEPT, Event
+from .record import EVENT_NAMES, Event
 
 
 class TraceFile:
@@ -27,25 +27,33 @@ class TraceFile:
         self._threads: set[int] = set()
         self._usable = True
 
+    def note_loss(self) -> None:
+        """Say that events came faster than they were taken, so that the oldest are gone."""
+        self._write('["lost"]\n')
+
     def write(self, events: Sequence[Event]) -> None:
-        if not events or not self._usable:
+        lines = self._new_threads(events)
+        lines += [
+            f'[{clock},{thread},"{EVENT_NAMES[what]}",{record.number}]\n'
+            for clock, thread, what, record in events
+        ]
+        self._write(''.join(lines))
+
+    def _write(self, text: str) -> None:
+        if not self._usable:
             return
         try:
             if self._stream is None:
                 self._stream = open(self._path, 'w', encoding='utf-8')  # noqa: PTH123, SIM115
-            lines = ['["lost"]\n'] if len(events) >= EVENTS_KEPT else []
-            lines += self._new_threads(events)
-            lines += [
-                f'[{clock},{thread},"{EVENT_NAMES[what]}",{record.number}]\n'
-                for clock, thread, what, record in events
-            ]
-            self._stream.write(''.join(lines))
+            self._stream.write(text)
             self._stream.flush()
         except OSError as error:
             self._usable = False
+            # In one piece with its line end, or the program's own words may come between them.
             print(
                 f'ros2cc-extract: cannot write {self._path}: {error.strerror}; the node runs on '
-                'without its trace',
+                'without its trace\n',
+                end='',
                 file=sys.stderr,
             )
 

@@ -15,14 +15,14 @@ import threading
 import time
 from collections.abc import Callable
 
-from .record import Recorder
+from .record import EVENTS_KEPT, Recorder
 from .snapshot import snapshot
 from .spinning import look_for_spinning_threads
 from .tracefile import TraceFile
 
 # The file is at most 0.5 s old: something new is written at once, mere counts every other time.
-INTERVAL_S = 0.2
-# Writing takes at most this share of one processor, however much there is to write.
+INTERVAL_S = 0.24
+# Writing mere counts takes at most this share of one processor, however much there is to write.
 LARGEST_SHARE = 0.02
 RETRY_S = 5.0
 
@@ -46,6 +46,7 @@ class Writer:
         self._thread: threading.Thread | None = None
         self._looked_changes = 0
         self._written_changes = (0, 0)
+        self._counts_not_before = 0.0
         self._not_before = 0.0
         self._counts_turn = False
         self._complained = False
@@ -62,7 +63,7 @@ class Writer:
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join(timeout=2.0)
         if self._recorder.all_executors or self._recorder.loss_count:
-            self._take_events()
+            self.take_events()
             self._recorder.settle()
             self._write(ended=True)
         if self._trace is not None:
@@ -80,7 +81,7 @@ class Writer:
     def update(self) -> None:
         """Write the file if anything has changed since it was written."""
         recorder = self._recorder
-        self._take_events()
+        self.take_events()
         if recorder.changes != self._looked_changes:
             self._looked_changes = recorder.changes
             recorder.look_around()
@@ -91,21 +92,25 @@ class Writer:
         is_turn = self._counts_turn = not self._counts_turn
         if not is_new and not (is_turn and changes != self._written_changes):
             return
-        if time.monotonic() >= self._not_before:
+        if time.monotonic() >= (self._not_before if is_new else self._counts_not_before):
             self._written_changes = changes
             self._rewrite()
 
     def _rewrite(self) -> None:
-        started = time.thread_time()
+        started_at, started = time.monotonic(), time.thread_time()
         done = self._write(ended=False)
         spent = time.thread_time() - started
-        wait = spent / LARGEST_SHARE if done else RETRY_S
-        self._not_before = time.monotonic() + max(0.0, wait - INTERVAL_S)
+        self._not_before = time.monotonic() + (0.0 if done else RETRY_S)
+        self._counts_not_before = max(self._not_before, started_at + spent / LARGEST_SHARE)
 
-    def _take_events(self) -> None:
-        events = self._recorder.take_events()
-        if self._trace is not None:
-            self._trace.write(events)
+    def take_events(self) -> None:
+        """Account for what has happened since the last time."""
+        overflowed = len(self._recorder.events) >= EVENTS_KEPT
+        if self._trace is not None and overflowed:
+            self._trace.note_loss()
+        while events := self._recorder.take_events():
+            if self._trace is not None:
+                self._trace.write(events)
 
     def _write(self, *, ended: bool) -> bool:
         with self._recorder.lock:
@@ -126,8 +131,10 @@ class Writer:
     def _complain(self, path: str, error: OSError) -> None:
         if not self._complained:
             self._complained = True
+            # In one piece with its line end, or the program's own words may come between them.
             print(
                 f'ros2cc-extract: cannot write {path}: {error.strerror}; the node runs on, '
-                'its recording is tried again every 5 s',
+                'its recording is tried again every 5 s\n',
+                end='',
                 file=sys.stderr,
             )
