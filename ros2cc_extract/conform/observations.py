@@ -1,0 +1,195 @@
+"""What a trace says about one unit, in the terms of its model: which callback did which step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from ros2cc_extract.conform.trace import Event, Subject, Trace
+from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+
+#: Who collects looks at the group just before it is told; so long after its last step, the thread
+#: may have slept in between (89 ms were seen on a machine with eight times its load).
+ASLEEP_NS = 20_000_000
+
+
+class Act(Enum):
+    """A step of an executor that can be seen from outside; the value is how it is told."""
+
+    WAKE = 'wakes up'
+    COLLECT = 'collects'
+    ARRIVE = 'is made'
+    BEGIN = 'starts'
+    REFUSED = 'is refused'
+    TAKE = 'takes its data'
+    END = 'ends'
+    SUSPEND = 'awaits'
+    RESUME = 'goes on'
+    PAUSE = 'ends or awaits'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Observation:
+    """
+    One observed step.
+
+    :param callback: place of the callback in the unit; ``None`` for a wake-up.
+    :param earliest_ns: when it can have happened at the earliest: a wait may have been over
+        long before it returned.
+    :param found: what a wake-up has found ready, by place.
+    :param takes: its data was seen to be taken in the same step.
+    :param is_task: it runs outside every group, and goes on as it begins.
+    :param has_arrived: that something arrived for it is an observation of its own.
+    """
+
+    act: Act
+    callback: int | None
+    thread: int
+    clock_ns: int
+    earliest_ns: int
+    found: frozenset[int] = frozenset()
+    takes: bool = False
+    is_task: bool = False
+    has_arrived: bool = False
+
+
+_ACTS = {
+    'collect': Act.COLLECT,
+    'begin': Act.BEGIN,
+    'refused': Act.REFUSED,
+    'take': Act.TAKE,
+    'end': Act.END,
+    'suspend': Act.SUSPEND,
+    'resume': Act.RESUME,
+}
+_ACTS_OF_TASKS = {
+    'task': Act.ARRIVE,
+    'run': Act.BEGIN,
+    'pause': Act.PAUSE,
+}
+TASKS = (EntityKind.TASK, EntityKind.DONE_CALLBACK, EntityKind.ACTION_EXECUTE)
+_TASK_KINDS = {kind.value for kind in TASKS}
+
+
+def match(trace: Trace, executor: int, spec: Spec) -> dict[int, int]:
+    """
+    Find for each subject of an executor the place of its callback in ``spec``.
+
+    By kind, node and name: function, topic or service. Subjects without one are left out.
+    """
+    found: dict[int, int] = {}
+    for subject in trace.subjects.values():
+        if subject.executor == executor:
+            fitting = [p for p, c in enumerate(spec.callbacks) if _is_same(subject, c)]
+            if len(fitting) > 1:
+                fitting = [p for p in fitting if p not in found.values()]
+            if fitting:
+                found[subject.number] = fitting[0]
+    return found
+
+
+def _is_same(subject: Subject, callback: Callback) -> bool:
+    kind = callback.entity
+    if kind is None or kind.value != subject.kind:
+        return False
+    if subject.node and isinstance(callback.node, str) and subject.node != callback.node:
+        return False
+    if subject.key is not None and isinstance(callback.key, str) and subject.key != callback.key:
+        return False
+    if callback.function is None or subject.name == subject.key:
+        return True
+    return _last_parts(subject.name) == _last_parts(callback.function)
+
+
+def _last_parts(name: str) -> str:
+    """Source knows the module that a function is in, a live run does not."""
+    return name.rpartition('.')[2]
+
+
+def observe(trace: Trace, executor: int, places: Mapping[int, int]) -> tuple[Observation, ...]:
+    """
+    List what was observed of an executor and its callbacks, in the order of the clock.
+
+    Waits after which nothing was collected, and hand-overs of what was collected, are left out.
+    """
+    rows = list(_observations(trace, executor, places))
+    return tuple(_with_takes(_with_found(rows)))
+
+
+def _observations(trace: Trace, executor: int, places: Mapping[int, int]) -> Iterator[Observation]:
+    waits_since: dict[int, int] = {}
+    before: dict[int, int] = {}
+    for event in trace.events:
+        if event.subject == executor:
+            if event.name == 'wait>':
+                waits_since[event.thread] = event.clock_ns
+            elif event.name == 'wait<':
+                since = waits_since.get(event.thread, event.clock_ns)
+                before[event.thread] = event.clock_ns
+                yield _observation(Act.WAKE, None, event, since)
+        elif event.subject in places:
+            subject = trace.subjects[event.subject]
+            act = _act(event, subject)
+            is_task = _is_task(subject)
+            if act is not None:
+                last = before.get(event.thread, 0)
+                # What is made is told afterwards: it may have been served by then.
+                is_late = act is Act.ARRIVE or (
+                    act is Act.COLLECT and event.clock_ns - last >= ASLEEP_NS
+                )
+                since = last if is_late else event.clock_ns
+                before[event.thread] = event.clock_ns
+                seen = _observation(act, places[event.subject], event, since)
+                yield replace(seen, is_task=is_task)
+
+
+def _act(event: Event, subject: Subject) -> Act | None:
+    if event.name == 'take' and subject.kind == EntityKind.GUARD_CONDITION.value:
+        return None  # there is nothing to take
+    return (_ACTS_OF_TASKS if _is_task(subject) else _ACTS).get(event.name)
+
+
+def _is_task(subject: Subject) -> bool:
+    return subject.kind in _TASK_KINDS
+
+
+def _observation(act: Act, callback: int | None, event: Event, earliest: int) -> Observation:
+    return Observation(
+        act=act,
+        callback=callback,
+        thread=event.thread,
+        clock_ns=event.clock_ns,
+        earliest_ns=earliest,
+    )
+
+
+def _with_found(rows: Sequence[Observation]) -> Iterator[Observation]:
+    """Say of each wake-up what was collected until the next, in the same thread."""
+    found: dict[int, set[int]] = {}
+    kept: list[Observation] = []
+    for row in reversed(rows):
+        if row.act is Act.COLLECT and row.callback is not None:
+            found.setdefault(row.thread, set()).add(row.callback)
+        if row.act is Act.WAKE:
+            collected = found.pop(row.thread, set())
+            if not collected:
+                continue
+            row = replace(row, found=frozenset(collected))
+        kept.append(row)
+    yield from reversed(kept)
+
+
+def _with_takes(rows: Iterator[Observation]) -> Iterator[Observation]:
+    """Join each take with the begin before it in the same thread: one step of the model."""
+    begun: dict[int, int] = {}
+    kept: list[Observation] = []
+    for row in rows:
+        before = begun.pop(row.thread, None)
+        if row.act is Act.TAKE and before is not None and kept[before].callback == row.callback:
+            kept[before] = replace(kept[before], takes=True)
+            continue
+        if row.act is Act.BEGIN:
+            begun[row.thread] = len(kept)
+        kept.append(row)
+    yield from kept
