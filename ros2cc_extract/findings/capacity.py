@@ -4,16 +4,17 @@ How many callbacks can wait at the same time, each holding a worker thread.
 An exclusive group lets one of its members in, branches of one ``alternative`` mark never
 coexist, everything else may coincide. So a largest set of simultaneous waiters is a maximum
 matching between groups and marks, where a reentrant callback has a group of its own and an
-unmarked one a mark of its own.
+unmarked one a mark of its own. Where branches are told apart, the one with most waiters counts.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.model import Callback, EntityKind, When
 
 Key = tuple[str, str, int]
 Matching = dict[Key, tuple[Key, int]]
@@ -37,6 +38,7 @@ class Capacity:
 
 def capacity_of(waiters: Sequence[Callback], context: Context) -> Capacity:
     """Decide the capacity of ``waiters``, callbacks of the unit without repetition."""
+    waiters = _of_largest_branches(waiters)
     edges: dict[Key, list[tuple[Key, int]]] = {}
     for number, waiter in enumerate(waiters):
         for copy in range(_copies(waiter, context)):
@@ -54,6 +56,17 @@ def capacity_of(waiters: Sequence[Callback], context: Context) -> Capacity:
     )
 
 
+def _of_largest_branches(waiters: Sequence[Callback]) -> list[Callback]:
+    """Of the branches of each mark, those who wait in the one with most of them."""
+    branches = [w for w in waiters if w.alternative is not None and w.branch is not None]
+    sizes = Counter((waiter.alternative, waiter.branch) for waiter in branches)
+    largest: dict[str | None, int | None] = {}
+    for (mark, branch), _ in sizes.most_common():
+        largest.setdefault(mark, branch)
+    left = [w for w in branches if largest[w.alternative] != w.branch]
+    return [waiter for waiter in waiters if waiter not in left]
+
+
 def can_overlap_itself(callback: Callback, context: Context) -> bool:
     """
     True when one entity may run concurrently with itself.
@@ -63,9 +76,16 @@ def can_overlap_itself(callback: Callback, context: Context) -> bool:
     group runs once per task, but a server makes one per goal.
     """
     group = context.group_of(callback)
-    if group.unresolved is not None or callback.one_shot:
+    if group.unresolved is not None or _runs_once(callback):
         return False
     return context.exclusive_group(callback) is None
+
+
+def _runs_once(callback: Callback) -> bool:
+    """A task that is made at one known place, once, before anything spins, has no second run."""
+    is_task = callback.entity in (EntityKind.TASK, EntityKind.DONE_CALLBACK)
+    made_once = callback.when is When.START and callback.count == 1 and callback.source is not None
+    return callback.one_shot or (is_task and made_once)
 
 
 def _copies(callback: Callback, context: Context) -> int:
@@ -83,7 +103,7 @@ def _group_key(waiter: Callback, copy: int, context: Context) -> Key:
 
 
 def _mark_key(waiter: Callback, copy: int) -> Key:
-    if waiter.alternative is None:
+    if waiter.alternative is None or waiter.branch is not None:
         return ('callback', waiter.name, copy)
     return ('mark', waiter.alternative, 0)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.places import Place
+from ros2cc_extract.verify.evidence import Evidence
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.capacity import can_overlap_itself
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.workers import runs_in_parallel
-from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.verify import Verdict
+from ros2cc_extract.spec.model import Callback, exclude_each_other
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import Verdict
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def overlaps_itself(callback: Callback, context: Context) -> bool:
 
 def _is_settled(one: Callback, other: Callback, context: Context) -> bool:
     open_groups = any(context.group_of(c).unresolved is not None for c in (one, other))
-    branches = one.alternative is not None and one.alternative == other.alternative
+    branches = exclude_each_other(one, other)
     return not open_groups and not branches and runs_in_parallel(context.unit.executor)
 
 

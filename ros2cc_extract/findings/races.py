@@ -9,23 +9,25 @@ A plain assignment is atomic in CPython; what breaks is *read, then write*: an u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import overlap
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Access, Callback
+from ros2cc_extract.spec.model import SHARED, Access, Callback
+from ros2cc_extract.verify.evidence import Evidence
 
 
 class RaceKind(Enum):
     """What goes wrong, the worst first."""
 
+    CHANGED_IN_LOOP = 'changed in a loop'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -34,14 +36,14 @@ class RaceKind(Enum):
 
 @dataclass(frozen=True)
 class Use:
-    """A write of an attribute by a callback."""
+    """A write of an attribute by a callback, or a loop over it."""
 
     callback: Callback
     access: Access
 
     @property
     def place(self) -> Place:
-        """Where it is written; the callback where the line is not known."""
+        """Where it stands; the callback where the line is not known."""
         callback = self.callback
         known = self.access.source or callback.defined or callback.source
         return known or Place(callback.name)
@@ -76,11 +78,12 @@ class Race:
         return (*self.names, *dict.fromkeys(use.callback.name for use in callbacks))
 
     def related(self) -> tuple[Remark, ...]:
-        """The other writes."""
-        return tuple(
+        """The other writes; one function of several entities is told once."""
+        remarks = (
             Remark(use.place, f'{use.callback.display_name} writes {use.access.name} here')
             for use in self.others
         )
+        return tuple(dict.fromkeys(remarks))
 
 
 @dataclass(frozen=True)
@@ -116,10 +119,13 @@ def describe(race: Race) -> str:
     """Say what happens to the attributes."""
     first = race.first.callback.display_name
     others = shown(use.callback for use in race.others)
+    others = f'{others} of another entity' if others == first else others
     names = listing(race.names, limit=4)
     it = 'it' if len(race.names) == 1 else 'them'
     old = 'its old value' if len(race.names) == 1 else 'their old values'
     return {
+        RaceKind.CHANGED_IN_LOOP: f'{first} goes over {names} in a loop, and {others} may change '
+        f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one of the changes can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
@@ -133,22 +139,43 @@ def describe(race: Race) -> str:
 
 def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
-    if not written:
+    iterated = {use.access.name for use, _ in _loops(one, other)}
+    if not written and not iterated:
         return
     together = overlap(one, other, context)
     if together is None:
         return
-    for name in sorted(written):
+    for name in sorted(written | iterated):
         pairs = [
             (Use(one, a), Use(other, b))
             for a in one.writes
             for b in other.writes
-            if a.name == b.name == name and not set(a.locks) & set(b.locks)
+            if a.name == b.name == name and not keep_apart(a.locks, b.locks)
         ]
         classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
+        loops = (pair for pair in _loops(one, other) if pair[0].access.name == name)
+        classified += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops]
         if classified:
             kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
             yield _Conflict(kind, first, second, together.run)
+
+
+# Their loops notice a change of size; those over a list see more or less, and raise nothing.
+_NOTICING = frozenset({'dict', 'set', 'deque'})
+
+
+def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
+    """Loops of one over a collection that the other changes in place, without a common lock."""
+    for looper, changer in ((one, other), (other, one)):
+        for read in looper.reads:
+            if read.iterates in _NOTICING:
+                yield from (
+                    (Use(looper, read), Use(changer, write))
+                    for write in changer.writes
+                    if write.name == read.name
+                    and write.in_place
+                    and not keep_apart(read.locks, write.locks)
+                )
 
 
 def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
@@ -169,14 +196,22 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
     write = first.access
-    changed_at = {_steps(other) for other in first.callback.writes if other.in_place}
+    changed_at = {steps(other) for other in first.callback.writes if other.in_place}
     return any(
         read.name == write.name
-        and (_steps(read) < _steps(write) or (write.in_place and _is_operand(read, write)))
-        and _steps(read) not in changed_at
-        and not set(read.locks) & set(second.access.locks)
+        and (steps(read) < steps(write) or (write.in_place and _is_operand(read, write)))
+        and steps(read) not in changed_at
+        and not keep_apart(read.locks, second.access.locks)
         for read in first.callback.reads
     )
+
+
+def keep_apart(one: Sequence[str], other: Sequence[str]) -> bool:
+    """True when a lock is held by both, and by one of them alone."""
+    bare = {lock.removesuffix(SHARED) for lock in one} & {
+        lock.removesuffix(SHARED) for lock in other
+    }
+    return any(lock in one or lock in other for lock in bare)
 
 
 def _is_operand(read: Access, write: Access) -> bool:
@@ -187,17 +222,17 @@ def _is_operand(read: Access, write: Access) -> bool:
     return (at.file, at.line) == (to.file, to.line) and (at.column or 0) > (to.column or 0)
 
 
-def _steps(access: Access) -> tuple[Place, ...]:
-    """The way to an access; ways of one callback are ordered as its text is, loops apart."""
-    source = (access.source,) if access.source is not None else ()
-    return (*access.chain, *source)
-
-
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
     worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
-    uses = [use for conflict in conflicts for use in (conflict.first, conflict.other)]
+    first = worst.first.callback.name
+    uses = [
+        use
+        for conflict in conflicts
+        if first in (conflict.first.callback.name, conflict.other.callback.name)
+        for use in (conflict.first, conflict.other)
+    ]
     others = {use.callback.name: use for use in reversed(uses)}
-    others.pop(worst.first.callback.name, None)
+    others.pop(first, None)
     order = dict.fromkeys(use.callback.name for use in uses)
     return Race(
         names=(name,),

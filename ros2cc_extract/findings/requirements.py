@@ -16,7 +16,7 @@ from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.findings.rules.of_requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
 NEVER_TOGETHER = 'never_together'
 CAN_OVERLAP = 'can_overlap'
@@ -122,7 +122,7 @@ def _named(name: str, unit: Spec) -> list[Callback]:
     return [
         callback
         for callback in unit.callbacks
-        if name in (callback.name, callback.display_name, callback.function)
+        if name in (callback.name, callback.function_name, callback.function)
     ]
 
 

@@ -7,16 +7,17 @@ tables of the reports are all made from them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec
-from ros2cc_extract.verify import Verification
+from ros2cc_extract.spec.releases import Release
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import Verification
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,7 @@ class Rule:
     :param bad: a node, or the part that matters, that gets the finding.
     :param good: the same, mended.
     :param mend: what to do, in a sentence or two.
+    :param since: the releases of rclpy from which on it matters, by line; none for all.
     :param language: of the bad example.
     :param find: the check; without one the rule speaks for the extractor's diagnostics.
     """
@@ -110,6 +112,7 @@ class Rule:
     bad: str
     good: str
     mend: str
+    since: Mapping[int, Release] | None = None
     language: str = 'python'
     find: Check = field(default=_nothing, repr=False)
 
@@ -125,6 +128,6 @@ class Rule:
                 unit=context.unit.name,
                 subjects=hit.subjects,
                 chain=hit.chain,
-                related=hit.related,
+                related=tuple(dict.fromkeys(hit.related)),
                 run=hit.run,
             )

@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import re
 import tokenize
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Severity
@@ -52,11 +52,15 @@ class Suppressed:
     accepted: tuple[tuple[Finding, Ignore], ...]
 
 
-def suppress(findings: Sequence[Finding], sources: Mapping[str, str]) -> Suppressed:
+def suppress(
+    findings: Sequence[Finding], sources: Mapping[str, str], checked: Collection[str] | None = None
+) -> Suppressed:
     """
     Take out what comments in the sources accept.
 
     :param sources: text of the files, by the path that places name.
+    :param checked: files of which every finding is known, all by default; in others, such as
+        modules that a checked file imports, a comment may be for somebody else's finding.
     """
     ignores = [i for file in sorted(sources) for i in ignores_in(file, sources[file])]
     by_line: dict[tuple[str, int, str], Ignore] = {
@@ -73,7 +77,11 @@ def suppress(findings: Sequence[Finding], sources: Mapping[str, str]) -> Suppres
             accepted.append((finding, by_line[key]))
         else:
             kept.append(finding)
-    unused = [_unused(ignore, key[2]) for key, ignore in by_line.items() if key not in used]
+    unused = [
+        _unused(ignore, key[2])
+        for key, ignore in by_line.items()
+        if key not in used and (checked is None or key[0] in checked)
+    ]
     ordered = sorted((*kept, *unused), key=lambda f: (f.place, f.code, f.message))
     return Suppressed(tuple(ordered), tuple(accepted))
 

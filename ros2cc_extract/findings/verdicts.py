@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.evidence import Evidence
+from collections.abc import Sequence
+
+from ros2cc_extract.findings.hang import show_hang
 from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.waits import Wait, WaitKind
+from ros2cc_extract.findings.waits import Wait
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.verify import QueryResult, Verdict
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import QueryResult, Verdict
 
 CAN_OVERLAP = 'can_overlap'
 SELF_OVERLAP = 'self_overlap'
 PROGRESS = 'progress'
+NODE_KEPT = 'node_kept'
+_ABSENT = 'which nobody here offers'
 
 
 def verdict_on(family: str, context: Context, *callbacks: Callback) -> QueryResult | None:
@@ -29,13 +34,36 @@ def refuting_run(family: str, context: Context, *callbacks: Callback) -> Evidenc
     return result.evidence if result is not None and refuted else None
 
 
+def run_in_which_one_hangs(waits: Sequence[Wait], context: Context) -> Evidence | None:
+    """The first run that shows that one of the callbacks never ends, and no more than that."""
+    for wait in waits:
+        run = refuting_run(PROGRESS, context, wait.caller)
+        if run is not None:
+            about = {wait.caller.name, *(needed.name for needed in wait.needs)}
+            return show_hang(run, about, _exclusive(context), context.unit.executor.threads)
+    return None
+
+
+def rests_on_absent_service(run: Evidence) -> bool:
+    """True for a run in which somebody waits for a service that another program may well offer."""
+    return any(s.text.endswith(_ABSENT) for moment in run.moments for s in moment.sentences)
+
+
+def _exclusive(context: Context) -> dict[str, str]:
+    return {
+        callback.name: callback.group
+        for callback in context.unit.callbacks
+        if context.exclusive_group(callback) is not None
+    }
+
+
 def surely_ends(wait: Wait, context: Context) -> bool:
     """
     True when the model proves that the callback always ends, the wait included.
 
-    A nested spin and a wait with a time-out are not part of the models.
+    With a time-out it ends in any case, and the question is with what.
     """
-    if wait.kind is WaitKind.SPUN_FUTURE or wait.has_timeout:
+    if wait.has_timeout:
         return False
     result = verdict_on(PROGRESS, context, wait.caller)
     return result is not None and result.verdict is Verdict.SATISFIED

@@ -9,14 +9,16 @@ the executor has run the client; ``Rate.sleep`` waits for one set by a timer of 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.words import shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Blocking, Callback, EntityKind
+from ros2cc_extract.spec.model import Blocking, Callback, EntityKind, exclude_each_other
+from ros2cc_extract.spec.partners import client_before, is_client, is_done_callback, server_of
 
 
 class WaitKind(Enum):
@@ -30,6 +32,7 @@ class WaitKind(Enum):
     SPUN_FUTURE = 'spun future'
     SLEEP = 'sleep'
     PRESENCE = 'presence'
+    TRANSFORM = 'transform'
     OTHER = 'other'
 
 
@@ -53,10 +56,10 @@ _KINDS = {
     'time.sleep': WaitKind.SLEEP,
     'wait_for_service': WaitKind.PRESENCE,
     'wait_for_server': WaitKind.PRESENCE,
-}
-_SERVERS = {
-    EntityKind.CLIENT: (EntityKind.SERVICE,),
-    EntityKind.ACTION_CLIENT: (EntityKind.ACTION_SERVER,),
+    'BufferClient.lookup_transform': WaitKind.ANSWER,
+    'BufferClient.lookup_transform_full': WaitKind.ANSWER,
+    'BufferClient.can_transform': WaitKind.ANSWER,
+    'BufferClient.can_transform_full': WaitKind.ANSWER,
 }
 
 
@@ -95,8 +98,13 @@ class Wait:
 
 def kind_of(block: Blocking) -> WaitKind:
     """Classify a blocking call by its name."""
+    known = _KINDS.get(block.call)
+    if known is not None:
+        return known
+    if block.call.startswith('Buffer.'):
+        return WaitKind.TRANSFORM
     is_spin = block.call.rpartition('.')[2].startswith('spin')
-    return _KINDS.get(block.call, WaitKind.SPIN if is_spin else WaitKind.OTHER)
+    return WaitKind.SPIN if is_spin else WaitKind.OTHER
 
 
 def waits_of(context: Context) -> Iterator[Wait]:
@@ -117,44 +125,15 @@ def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Call
     needed = context.by_name.get(block.on) if isinstance(block.on, str) else None
     if kind_of(block) is WaitKind.PRESENCE:
         return
-    if needed is None or needed == caller or _exclude_each_other(needed, caller):
+    if needed is None or needed == caller or exclude_each_other(needed, caller):
         return
     yield needed
-    client = _client_before(needed, context)
+    client = client_before(needed, context.written)
     if client is not None and client != caller:
         yield client
-    server = server_of(client or needed, context)
+    server = server_of(client or needed, context.written)
     if server is not None:
         yield server
-
-
-def _client_before(done: Callback, context: Context) -> Callback | None:
-    """The client whose answer a done-callback is for, where its node has one of that name."""
-    if not is_done_callback(done) or not isinstance(done.key, str):
-        return None
-    found = [
-        c for c in context.written if is_client(c) and c.key == done.key and c.node == done.node
-    ]
-    return found[0] if len(found) == 1 else None
-
-
-def server_of(client: Callback, context: Context) -> Callback | None:
-    """The one server of the unit by the client's name; a remapping is not visible here."""
-    kinds = _SERVERS.get(client.entity) if client.entity else None
-    if not kinds or not isinstance(client.key, str):
-        return None
-    found = [c for c in context.written if c.entity in kinds and c.key == client.key]
-    return found[0] if len(found) == 1 else None
-
-
-def is_client(callback: Callback) -> bool:
-    """True for what takes the answers of a service or an action."""
-    return callback.entity in _SERVERS
-
-
-def _exclude_each_other(one: Callback, other: Callback) -> bool:
-    """True when only one of them is ever created."""
-    return one.alternative is not None and one.alternative == other.alternative
 
 
 def waits_for(wait: Wait) -> str:
@@ -179,14 +158,38 @@ def waits_in(wait: Wait) -> str:
     return words.get(wait.block.call, wait.block.call)
 
 
-def how_it_ends(wait: Wait) -> str:
-    """Say what becomes of a wait that nobody can end."""
+def how_it_ends(waits: Sequence[Wait]) -> str:
+    """Say what becomes of waits that nobody can end, of callbacks at one place."""
+    wait, is_one = waits[0], len(callers_of(waits)) == 1
     if wait.has_timeout:
-        return 'it always runs into its time-out'
+        runs = 'it always runs into its' if is_one else 'they always run into their'
+        return f'{runs} time-out'
     is_event = wait.block.call == EVENT_WAIT and not is_done_callback(wait.needs[0])
-    return 'it waits for ever' + (', unless the event was set before' if is_event else '')
+    for_ever = 'it waits for ever' if is_one else 'they wait for ever'
+    return for_ever + (', unless the event was set before' if is_event else '')
 
 
-def is_done_callback(callback: Callback) -> bool:
-    """True for what runs when an answer has come."""
-    return callback.entity is EntityKind.DONE_CALLBACK
+def at_one_place(waits: Iterable[Wait]) -> Iterator[tuple[Wait, ...]]:
+    """Waits of several callbacks at one line, for the same, in order of the first."""
+    alike: dict[object, list[Wait]] = {}
+    for wait in waits:
+        needs = tuple(needed.name for needed in wait.needs)
+        alike.setdefault((wait.place, wait.block.call, needs), []).append(wait)
+    yield from map(tuple, alike.values())
+
+
+def callers_of(waits: Sequence[Wait]) -> tuple[str, ...]:
+    """Names of the callbacks that wait, each once."""
+    return tuple(dict.fromkeys(wait.caller.name for wait in waits))
+
+
+def who_waits(waits: Sequence[Wait]) -> str:
+    """Say who waits: ``drive waits``, ``drive, stop wait``."""
+    names = shown(wait.caller for wait in waits)
+    return f'{names} {"waits" if len(callers_of(waits)) == 1 else "wait"}'
+
+
+def ways_of_others(waits: Sequence[Wait]) -> Iterator[Remark]:
+    """Where the others than the first call what waits."""
+    for wait in waits[1:]:
+        yield from wait.chain[:1]

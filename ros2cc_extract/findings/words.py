@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.findings.model import Remark
-from ros2cc_extract.spec.model import Callback, CallbackGroup
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor
 
 
 def group_words(group: CallbackGroup) -> str:
@@ -41,9 +42,17 @@ def made_at(*owners: Callback | CallbackGroup) -> Iterator[Remark]:
             yield Remark(owner.source, f'{words} is created here')
 
 
+def served_at(executor: Executor, place: Place) -> Iterator[Remark]:
+    """Where the executor is spun, if in another file: a class may run under several programs."""
+    source = executor.source
+    if source is not None and source.file != place.file:
+        yield Remark(source, f'the {executor.kind or "executor"} of this run is here')
+
+
 def _made_words(owner: Callback | CallbackGroup) -> str:
     if isinstance(owner, CallbackGroup):
         return group_words(owner)
     kind = owner.entity.value.replace('_', ' ') if owner.entity else owner.type.value
     name = f' {owner.key!r}' if isinstance(owner.key, str) else ''
-    return f'{kind}{name or " of " + owner.display_name}'
+    owned = '' if owner.display_name == kind else f' of {owner.display_name}'
+    return f'{kind}{name or owned}'

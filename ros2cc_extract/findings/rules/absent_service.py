@@ -2,43 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.waits import Wait, WaitKind, name_of_service, server_of, waits_of
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.waits import (
+    Wait,
+    WaitKind,
+    at_one_place,
+    callers_of,
+    name_of_service,
+    waits_of,
+    ways_of_others,
+    who_waits,
+)
+from ros2cc_extract.findings.words import made_at, served_at
 from ros2cc_extract.findings.workers import is_one_thread
-from ros2cc_extract.spec.model import Callback, When
+from ros2cc_extract.spec.model import Callback, EntityKind, When
+from ros2cc_extract.spec.partners import server_of
 
 
 def find(context: Context) -> Iterator[Hit]:
     """A service that the unit itself makes at its start is there already."""
     if not is_one_thread(context.unit.executor):
         return
+    awaited: dict[str, list[Wait]] = {}
     for wait in waits_of(context):
-        if wait.kind is WaitKind.PRESENCE and not wait.has_timeout:
-            on = wait.block.on
-            client = context.by_name.get(on) if isinstance(on, str) else None
-            if client is not None and not _is_served(client, context):
-                yield _hit(wait, client, context)
+        on = wait.block.on
+        if wait.kind is WaitKind.PRESENCE and not wait.has_timeout and isinstance(on, str):
+            awaited.setdefault(on, []).append(wait)
+    for name, waits in awaited.items():
+        client = context.by_name.get(name)
+        if client is not None and not _is_served(client, context):
+            yield from (_hit(alike, client, context) for alike in at_one_place(waits))
 
 
 def _is_served(client: Callback, context: Context) -> bool:
-    server = server_of(client, context)
+    server = server_of(client, context.written)
     return server is not None and server.when is When.START
 
 
-def _hit(wait: Wait, client: Callback, context: Context) -> Hit:
+def _question(client: Callback) -> str:
+    """The call that answers at once whether it is there."""
+    is_action = client.entity is EntityKind.ACTION_CLIENT
+    return 'server_is_ready' if is_action else 'service_is_ready'
+
+
+def _hit(waits: Sequence[Wait], client: Callback, context: Context) -> Hit:
+    """Of several callbacks that get to one place the first is shown on its way."""
+    wait = waits[0]
     return Hit(
         place=wait.place,
-        message=f'{wait.caller.display_name} waits in {wait.block.call} without a time-out on the '
+        message=f'{who_waits(waits)} in {wait.block.call} without a time-out on the '
         f'only thread of the {context.unit.executor.kind or "executor"}: until '
         f'{name_of_service(client)} is there no other callback runs',
-        help='wait before the node is spun, or ask service_is_ready and come back by a timer',
-        subjects=(wait.caller.name, client.name),
+        help=f'wait before the node is spun, or ask {_question(client)} and come back by a timer',
+        subjects=(*callers_of(waits), client.name),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, client)),
+        related=(
+            *made_at(wait.caller, client),
+            *served_at(context.unit.executor, wait.place),
+            *ways_of_others(waits),
+        ),
     )
 
 
@@ -68,6 +93,7 @@ class Arm(Node):
         if self.client.service_is_ready():
             self.client.call_async(Trigger.Request())
 """,
-    mend='Wait for the service before the node is spun; or ask `service_is_ready()` in a timer.',
+    mend='Wait for the service before the node is spun; or ask `service_is_ready()`, '
+    'of an action `server_is_ready()`, in a timer.',
     find=find,
 )

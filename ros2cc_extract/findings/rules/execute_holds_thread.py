@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.words import made_at, served_at
 from ros2cc_extract.findings.workers import is_one_thread
 from ros2cc_extract.spec.model import EntityKind
 
@@ -33,7 +33,7 @@ def _hit(wait: Wait, context: Context) -> Hit:
         help='serve the action with a MultiThreadedExecutor of at least two threads',
         subjects=(wait.caller.name,),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller)),
+        related=(*made_at(wait.caller), *served_at(context.unit.executor, wait.place)),
     )
 
 

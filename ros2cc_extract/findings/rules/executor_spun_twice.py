@@ -6,27 +6,44 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.rules.nested_spin import is_executor_call
-from ros2cc_extract.findings.waits import WaitKind, waits_of
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.rules.nested_spin import is_executor_call, is_global
+from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.words import made_at, served_at
+from ros2cc_extract.spec.releases import SPIN_REFUSED_TWICE, has_change
 
 
 def find(context: Context) -> Iterator[Hit]:
     executor = context.unit.executor
+    refused = has_change(context.unit.rclpy, SPIN_REFUSED_TWICE)
     for wait in waits_of(context):
-        is_own = wait.block.on == executor.name
-        if wait.kind is WaitKind.SPIN and is_executor_call(wait) and is_own:
+        if wait.kind is WaitKind.SPIN and _is_of_this_executor(wait, context):
             yield Hit(
                 place=wait.place,
                 message=f'{wait.caller.display_name} calls {wait.block.call} on the executor '
-                'that runs it: from rclpy 7.1.9 on a RuntimeError, before that other callbacks '
-                'run inside this one',
+                f'that runs it: {_consequence(refused)}',
                 help='do not spin in a callback: use call_async and continue in a done-callback, '
                 'or await in a coroutine callback',
+                severity=Severity.ERROR if refused else None,
                 subjects=(wait.caller.name, executor.name),
                 chain=wait.chain,
-                related=tuple(made_at(wait.caller)),
+                related=(*made_at(wait.caller), *served_at(executor, wait.place)),
             )
+
+
+def _consequence(refused: bool | None) -> str:
+    if refused is None:
+        return (
+            'from rclpy 7.1.9 on a RuntimeError, before that other callbacks run inside this one'
+        )
+    return 'it raises RuntimeError' if refused else 'other callbacks run inside this one'
+
+
+def _is_of_this_executor(wait: Wait, context: Context) -> bool:
+    """``rclpy.spin…`` of another node uses the global executor, as ``rclpy.spin`` does."""
+    if is_executor_call(wait):
+        return wait.block.on == context.unit.executor.name
+    is_other = wait.block.on is not None and wait.block.on not in context.unit.nodes
+    return is_other and is_global(context.unit)
 
 
 RULE = Rule(
@@ -34,7 +51,9 @@ RULE = Rule(
     slug='executor-spun-twice',
     severity=Severity.WARNING,
     title='Executor spun while it spins',
-    what='An executor is spun from two threads, or from inside a callback that it runs itself.',
+    what='An executor is spun from two threads, or from inside a callback that it runs itself. '
+    'Libraries do so too: the methods of `BasicNavigator` spin a node of their own by the global '
+    'executor, which under `rclpy.spin` runs the callback that calls them.',
     why='The executor walks through what is ready by one generator. From two threads that ends '
     'in `ValueError: generator already executing`; nested, other callbacks run inside the one '
     'that waits, and members of its group do not. From rclpy 7.1.9 on both raise `RuntimeError: '

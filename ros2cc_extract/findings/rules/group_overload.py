@@ -1,8 +1,8 @@
-"""CC202: timers that sleep longer than their period, alone or together in one group."""
+"""CC202: members of one group that leave no time to those that are served after them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
@@ -10,81 +10,82 @@ from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.words import group_words, made_at, shown
 from ros2cc_extract.findings.workers import MULTI
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind
-
-SERVING_ORDER = (
-    EntityKind.TIMER,
-    EntityKind.SUBSCRIPTION,
-    EntityKind.GUARD_CONDITION,
-    EntityKind.CLIENT,
-    EntityKind.SERVICE,
-)
-"""Kinds in the order in which one node's ready entities are served, each in creation order."""
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Spec
+from ros2cc_extract.verify.load import Load, LoadKind, load_of, served_before
+from ros2cc_extract.verify.rates import demand_of
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """Only where one starved group member is certain: a multi-threaded executor, one group."""
+    """Only where one starved member is certain: several nodes are served in any order."""
     if context.unit.executor.kind != MULTI:
         return
     for group in context.unit.groups:
         members = [c for c in context.written if c.group == group.name]
-        if members and context.exclusive_group(members[0]) is not None:
-            yield from _overloaded(group, members)
+        is_exclusive = bool(members) and context.exclusive_group(members[0]) is not None
+        if is_exclusive and len({c.node for c in members}) == 1:
+            yield from _overloaded(group, members, context)
 
 
-def _overloaded(group: CallbackGroup, members: list[Callback]) -> Iterator[Hit]:
-    served = sorted(members, key=_rank)
-    load = 0.0
-    for number, callback in enumerate(served):
-        load += load_of(callback)
-        victims = served[number + 1 :]
-        if load >= 1 and victims and len({c.node for c in members}) == 1:
-            yield _hit(group, served[: number + 1], victims, load)
-            return
+def _overloaded(
+    group: CallbackGroup, members: Sequence[Callback], context: Context
+) -> Iterator[Hit]:
+    unit = context.unit
+    loads = {callback.name: load_of(unit, callback) for callback in members}
+    starved = {n: load for n, load in loads.items() if load.kind is LoadKind.STARVED and load.busy}
+    victims = [c for c in members if c.name in starved]
+    victims.sort(key=lambda victim: len(served_before(victim, unit)))
+    if victims:
+        load = starved[victims[0].name]
+        busy = [context.by_name[name] for name in load.busy]
+        yield _hit(group, busy, victims, load, unit)
 
 
-def load_of(callback: Callback) -> float:
-    """Share of the time for which a timer sleeps; 0 for what is not known or conditional."""
-    if callback.entity is not EntityKind.TIMER or callback.conditional or callback.one_shot:
-        return 0.0
-    period = callback.period_s
-    if not isinstance(period, float) or period <= 0:
-        return 0.0
-    slept = (b.seconds for b in callback.blocking if kind_of(b) is WaitKind.SLEEP)
-    return sum(s for s in slept if isinstance(s, float)) / period
-
-
-def _rank(callback: Callback) -> int:
-    known = callback.entity in SERVING_ORDER
-    return SERVING_ORDER.index(callback.entity) if known and callback.entity else -1
-
-
-def _hit(group: CallbackGroup, busy: list[Callback], victims: list[Callback], load: float) -> Hit:
-    last = next(c for c in reversed(busy) if load_of(c) > 0)
-    sleep = next(b for b in last.blocking if kind_of(b) is WaitKind.SLEEP)
-    sleepers = [c for c in busy if load_of(c) > 0]
+def _hit(
+    group: CallbackGroup,
+    busy: Sequence[Callback],
+    victims: Sequence[Callback],
+    load: Load,
+    unit: Spec,
+) -> Hit:
+    it = 'it' if len(busy) == 1 else 'one of them'
     return Hit(
-        place=sleep.source or last.defined or last.source or Place(last.name),
-        message=f'{shown(sleepers)} in {group_words(group)} '
-        f'{"sleeps" if len(sleepers) == 1 else "sleep"} {load:.0%} of the time: '
-        f'whenever the group opens {"it" if len(sleepers) == 1 else "one of them"} is due, so '
-        f'{shown(victims)}, served after {"it" if len(sleepers) == 1 else "them"}, '
-        'may never run',
-        help='give the timer that sleeps a group of its own, or a period longer than its work; '
-        'within a group the order of creation decides who starves',
-        subjects=(group.name, *(c.name for c in sleepers)),
-        related=tuple(made_at(*sleepers, *victims)),
+        place=_place(busy[-1]),
+        message=f'{shown(busy)} in {group_words(group)} {_asks(busy, load, unit)}: whenever the '
+        f'group opens {it} is due, so {shown(victims)}, served after '
+        f'{"it" if len(busy) == 1 else "them"}, may never run',
+        help='give what keeps the group busy a group of its own, or a period longer than its '
+        'work; within a group the order of creation decides who starves',
+        subjects=(group.name, *(c.name for c in busy)),
+        related=tuple(made_at(*busy, *victims)),
     )
+
+
+def _asks(busy: Sequence[Callback], load: Load, unit: Spec) -> str:
+    """Say how much of the time they want."""
+    if len(busy) > 1:
+        return f'together ask for {load.before:.0%} of the time'
+    demand = demand_of(busy[0], [unit])
+    least = 'at least ' if demand.is_least else ''
+    return f'takes {least}{demand.duration_s:g} s and is due every {demand.period_s:g} s'
+
+
+def _place(callback: Callback) -> Place:
+    """Where it sleeps, or else where it stands."""
+    sleeps = (b.source for b in callback.blocking if kind_of(b) is WaitKind.SLEEP)
+    slept = next((place for place in sleeps if place is not None), None)
+    return slept or callback.defined or callback.source or Place(callback.name)
 
 
 RULE = Rule(
     code='CC202',
     slug='group-overload',
     severity=Severity.WARNING,
-    title='Group kept busy by timers that are served first',
-    what='The timers of a mutually exclusive group sleep at least as long as their periods '
+    title='Group kept busy by callbacks that are served first',
+    what='Callbacks of a mutually exclusive group take at least as long as their periods '
     'allow, so that one of them is always due when the group opens. Members that are served '
-    'after them never get a turn on a multi-threaded executor.',
+    'after them never get a turn on a multi-threaded executor. Periods and durations are those '
+    'of `verify --profile rclpy`: written down, measured in a run, or read from timers and '
+    'sleeps in the source.',
     why='After each end the executor looks again from the start: timers first, then '
     'subscriptions, guard conditions, clients and services, each in order of creation. Source: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_wait_for_ready_callbacks`). Measured for two '

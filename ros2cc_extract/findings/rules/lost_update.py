@@ -39,7 +39,8 @@ RULE = Rule(
     what='A callback reads an attribute and writes it back (`self.n += 1`, or a test followed by '
     'an assignment), another callback writes it, the two may run at the same time, and no lock '
     'is held by both. A change in place after a look (`if d: d.pop()`, `d[k] = d.get(k) + 1`) is '
-    'only a note: the two may mean different items.',
+    'only a note: the two may mean different items. A loop over a dictionary, set or deque that '
+    'another callback changes meanwhile ends in a RuntimeError.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between reading and writing. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '

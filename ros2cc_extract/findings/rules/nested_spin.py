@@ -6,11 +6,13 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.verdicts import NODE_KEPT, refuting_run
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.words import made_at, served_at
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
+from ros2cc_extract.spec.releases import NODE_STAYS, has_change
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -39,7 +41,8 @@ def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
         severity=_severity(unit, is_own),
         subjects=(wait.caller.name,),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller)),
+        related=(*made_at(wait.caller), *served_at(unit.executor, wait.place)),
+        run=refuting_run(NODE_KEPT, context, wait.caller),
     )
 
 
@@ -50,7 +53,7 @@ def _consequence(caller: Callback, context: Context) -> str:
             'under an executor of its own the node leaves that executor and none of its '
             'callbacks runs again; under rclpy.spin it runs others inside this one'
         )
-    if is_global(unit):
+    if is_global(unit) and not _loses_node(unit):
         return (
             f'{_runs_inside(caller, context)}, and from rclpy 7.1.9 on the executor refuses to be '
             'spun twice'
@@ -69,8 +72,14 @@ def _runs_inside(caller: Callback, context: Context) -> str:
 def _severity(unit: Spec, is_own: bool) -> Severity | None:
     if not is_own:
         return Severity.NOTE
-    certain = not isinstance(unit.executor.kind, Unknown) and not is_global(unit)
-    return None if certain else Severity.WARNING
+    is_known = not isinstance(unit.executor.kind, Unknown)
+    is_certain = is_known and (not is_global(unit) or _loses_node(unit))
+    return None if is_certain else Severity.WARNING
+
+
+def _loses_node(unit: Spec) -> bool:
+    """True in old releases, which took the node out of the global executor as well."""
+    return has_change(unit.rclpy, NODE_STAYS) is False
 
 
 def is_global(unit: Spec) -> bool:
@@ -89,7 +98,8 @@ RULE = Rule(
     why='These functions add the node to the global executor, which takes it out of the executor '
     'it is in, and remove it afterwards: then it is in none, and none of its callbacks runs '
     'again. Under plain `rclpy.spin` it is the same executor: callbacks of other groups run '
-    'inside this one, members of its own group do not; from rclpy 7.1.9 on that raises '
+    'inside this one, members of its own group do not; before 3.3.15 (Humble) and 7.1.2 (Jazzy) '
+    'the node was lost there too, and from 7.1.9 on that raises '
     '`RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` '
     '(`spin_until_future_complete`), '
     '`node.py` (setter of `executor`), `executors.py` (`add_node`). Measured: a timer fires once '

@@ -14,7 +14,12 @@ from ros2cc_extract.findings.rules import (
     pool_exhausted,
     rate_on_one_thread,
 )
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run
+from ros2cc_extract.findings.verdicts import (
+    PROGRESS,
+    refuting_run,
+    rests_on_absent_service,
+    run_in_which_one_hangs,
+)
 from ros2cc_extract.findings.waits import Wait, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import workers_of
@@ -29,9 +34,14 @@ def find(context: Context) -> Iterator[Hit]:
     unknown = unit.unresolved or isinstance(workers_of(unit.executor), Unknown)
     if unknown or any(hit for rule in EXPLAINED for hit in rule.find(context)):
         return
-    stuck = [w for w in waits_of(context) if w.needs and refuting_run(PROGRESS, context, w.caller)]
+    stuck = [wait for wait in waits_of(context) if wait.needs and _hangs(wait, context)]
     if stuck:
         yield _hit(stuck, context)
+
+
+def _hangs(wait: Wait, context: Context) -> bool:
+    run = refuting_run(PROGRESS, context, wait.caller)
+    return run is not None and not rests_on_absent_service(run)
 
 
 def _hit(stuck: list[Wait], context: Context) -> Hit:
@@ -49,7 +59,7 @@ def _hit(stuck: list[Wait], context: Context) -> Hit:
             Remark(wait.place, f'{wait.caller.display_name} waits here in {wait.block.call}')
             for wait in stuck[1:]
         ),
-        run=refuting_run(PROGRESS, context, stuck[0].caller),
+        run=run_in_which_one_hangs(stuck, context),
     )
 
 

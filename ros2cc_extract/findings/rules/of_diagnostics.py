@@ -55,9 +55,10 @@ UNREADABLE = Rule(
     code='CC500',
     slug='unreadable',
     severity=Severity.ERROR,
-    title='File could not be read',
-    what='A file is no UTF-8 text, does not parse as Python, or could not be opened. Nothing in '
-    'it was checked.',
+    title='Not read, or not followed to its end',
+    what='A file is no UTF-8 text, does not parse as Python, or could not be opened: nothing in '
+    'it was checked. As a warning: a program is too long to be followed to its end, or makes '
+    'entities of an object that is no node in sight; they are missing from the units.',
     why='The extractor reads source by the syntax of the Python version it runs on.',
     bad="""\
 def on_timer(self:
@@ -65,7 +66,8 @@ def on_timer(self:
     good="""\
 def on_timer(self): ...
 """,
-    mend='Mend the file, or exclude it.',
+    mend='Mend the file, or exclude it. Of a program that is too long check the files that make '
+    'its nodes by themselves, or observe it by `ros2cc-extract run`.',
 )
 UNUSED_IGNORE = Rule(
     code='CC502',

@@ -2,47 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by, what
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
+from ros2cc_extract.findings.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits import (
     Wait,
+    at_one_place,
+    callers_of,
     how_it_ends,
-    is_client,
-    is_done_callback,
     waits_for,
     waits_in,
     waits_of,
+    ways_of_others,
+    who_waits,
 )
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import is_one_thread
+from ros2cc_extract.spec.partners import is_client, is_done_callback
 
 
 def find(context: Context) -> Iterator[Hit]:
     if not is_one_thread(context.unit.executor):
         return
-    for wait in waits_of(context):
-        if wait.kind in BLOCKING and wait.needs and not surely_ends(wait, context):
-            yield _hit(wait, context)
+    waits = [
+        wait
+        for wait in waits_of(context)
+        if wait.kind in BLOCKING and wait.needs and not surely_ends(wait, context)
+    ]
+    for alike in at_one_place(waits):
+        yield _hit(alike, context)
 
 
-def _hit(wait: Wait, context: Context) -> Hit:
+def _hit(waits: Sequence[Wait], context: Context) -> Hit:
+    """Of several callbacks that get to one place the first is shown on its way."""
+    wait = waits[0]
     executor = context.unit.executor
     is_answer = is_client(wait.needs[0]) or is_done_callback(wait.needs[0])
     nobody = 'nobody can take it' if is_answer else 'it cannot run'
     return Hit(
         place=wait.place,
-        message=f'{wait.caller.display_name} waits in {waits_in(wait)} for {waits_for(wait)} on '
-        f'the only thread of the {executor.kind or "executor"}, so {nobody}: {how_it_ends(wait)}',
+        message=f'{who_waits(waits)} in {waits_in(wait)} for {waits_for(wait)} on '
+        f'the only thread of the {executor.kind or "executor"}, so {nobody}: {how_it_ends(waits)}',
         help=_help(wait, is_answer, context),
         severity=Severity.WARNING if wait.has_timeout else None,
-        subjects=(wait.caller.name, *(needed.name for needed in wait.needs)),
+        subjects=(*callers_of(waits), *(needed.name for needed in wait.needs)),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, *wait.needs)),
-        run=refuting_run(PROGRESS, context, wait.caller),
+        related=(*made_at(wait.caller, *wait.needs), *ways_of_others(waits)),
+        run=run_in_which_one_hangs(waits, context),
     )
 
 

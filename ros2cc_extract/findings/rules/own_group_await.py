@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
+from ros2cc_extract.findings.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_for, waits_of
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import honours_groups
@@ -41,7 +41,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
         related=tuple(made_at(wait.caller, shut_out, group)),
-        run=refuting_run(PROGRESS, context, wait.caller),
+        run=run_in_which_one_hangs([wait], context),
     )
 
 

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends
+from ros2cc_extract.findings.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits import (
     Wait,
     WaitKind,
+    at_one_place,
+    callers_of,
     how_it_ends,
-    is_client,
     waits_for,
     waits_in,
     waits_of,
+    ways_of_others,
+    who_waits,
 )
 from ros2cc_extract.findings.words import group_words, made_at
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.partners import is_client
 
 BLOCKING = (WaitKind.ANSWER, WaitKind.SIGNAL)
 
@@ -27,12 +31,17 @@ def find(context: Context) -> Iterator[Hit]:
     """On one thread the group is not what blocks, which is CC102, unless it spins meanwhile."""
     executor = context.unit.executor
     one_thread = is_one_thread(executor)
+    found: list[Wait] = []
     for wait in waits_of(context):
         counts = wait.kind is WaitKind.SPUN_FUTURE and honours_groups(executor)
         if counts or (wait.kind in BLOCKING and not one_thread):
-            shut_out = shut_out_by(wait, context)
-            if shut_out is not None and not surely_ends(wait, context):
-                yield _hit(wait, shut_out, context)
+            is_shut_out = shut_out_by(wait, context) is not None
+            if is_shut_out and not surely_ends(wait, context):
+                found.append(wait)
+    for alike in at_one_place(found):
+        shut_out = shut_out_by(alike[0], context)
+        if shut_out is not None:
+            yield _hit(alike, shut_out, context)
 
 
 def shut_out_by(wait: Wait, context: Context) -> Callback | None:
@@ -43,21 +52,28 @@ def shut_out_by(wait: Wait, context: Context) -> Callback | None:
     return next((needed for needed in wait.needs if needed.group == group.name), None)
 
 
-def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
+def _instead(wait: Wait) -> str:
+    """The other way out; who waits for an event has no call to make otherwise."""
+    is_signal = wait.kind is WaitKind.SIGNAL
+    return '' if is_signal else ', or use call_async and continue in a done-callback'
+
+
+def _hit(waits: Sequence[Wait], shut_out: Callback, context: Context) -> Hit:
+    """Of several callbacks that get to one place the first is shown on its way."""
+    wait = waits[0]
     group = context.group_of(shut_out)
-    caller = wait.caller.display_name
+    caller = wait.caller.display_name if len(callers_of(waits)) == 1 else 'one of them'
     return Hit(
         place=wait.place,
-        message=f'{caller} waits in {waits_in(wait)} for {waits_for(wait)}, but '
+        message=f'{who_waits(waits)} in {waits_in(wait)} for {waits_for(wait)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
-        f'runs: {how_it_ends(wait)}',
-        help=f'give the {what(shut_out)}'
-        ' a callback group of its own, or use call_async and continue in a done-callback',
+        f'runs: {how_it_ends(waits)}',
+        help=f'give the {what(shut_out)} a callback group of its own{_instead(wait)}',
         severity=Severity.WARNING if wait.has_timeout else None,
-        subjects=(wait.caller.name, shut_out.name),
+        subjects=(*callers_of(waits), shut_out.name),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, shut_out, group)),
-        run=refuting_run(PROGRESS, context, wait.caller),
+        related=(*made_at(wait.caller, shut_out, group), *ways_of_others(waits)),
+        run=run_in_which_one_hangs(waits, context),
     )
 
 

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.capacity import Capacity, capacity_of
+from ros2cc_extract.findings.claims import lets_one_wait
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run
+from ros2cc_extract.findings.verdicts import run_in_which_one_hangs
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
@@ -42,9 +43,11 @@ def find(context: Context) -> Iterator[Hit]:
         return
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)
+    unbounded = tuple(caller for caller in capacity.unbounded if not lets_one_wait(caller))
+    capacity = replace(capacity, unbounded=unbounded)
     for hit in _judge(waits, capacity, workers_of(executor)):
-        caller = context.by_name[hit.subjects[0]]
-        yield replace(hit, run=refuting_run(PROGRESS, context, caller))
+        first = [wait for wait in waits if wait.caller.name == hit.subjects[0]]
+        yield replace(hit, run=run_in_which_one_hangs(first, context))
 
 
 def _holds_a_worker(wait: Wait, context: Context) -> bool:
@@ -58,20 +61,18 @@ def _holds_a_worker(wait: Wait, context: Context) -> bool:
 
 
 def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown) -> Iterator[Hit]:
-    needed = capacity.at_least + 1
     if isinstance(workers, Unknown):
         if capacity.at_least > 1:
             rest = f'on a number of threads that is not known ({workers})'
             yield _hit(waits, capacity, rest, Severity.NOTE)
-    elif workers.is_default:
-        if capacity.at_least > 1:
-            rest = (
-                f'with as many threads as CPUs, so on a machine with {capacity.at_least} or fewer '
-                'CPUs no thread is left for the answers and all wait for ever'
-            )
-            usual = capacity.at_least >= USUAL_CPUS
-            yield _hit(waits, capacity, rest, Severity.WARNING if usual else Severity.NOTE)
-    elif capacity.at_least >= workers.count:
+    elif workers.is_default and capacity.at_least > 1:
+        rest = (
+            f'with as many threads as CPUs, so on a machine with {capacity.at_least} or fewer '
+            'CPUs no thread is left for the answers and all wait for ever'
+        )
+        usual = capacity.at_least >= USUAL_CPUS
+        yield _hit(waits, capacity, rest, Severity.WARNING if usual else Severity.NOTE)
+    elif not workers.is_default and capacity.at_least >= workers.count:
         rest = (
             f'on {plural(workers.count, "thread")}: then none is left for the answers and all '
             'wait for ever'
@@ -79,7 +80,7 @@ def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown
         timed = all(wait.has_timeout for wait in waits)
         yield _hit(waits, capacity, rest, Severity.WARNING if timed else None)
     elif capacity.unbounded:
-        yield _overlap_hit(waits, capacity, workers, needed)
+        yield _overlap_hit(waits, capacity, workers)
 
 
 def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:
@@ -101,8 +102,13 @@ def _help(capacity: Capacity) -> str:
         return f'{capacity.at_least + 1} threads are the smallest number that is enough'
     return (
         f'at least {capacity.at_least + 1} threads, but no number is surely enough: '
-        f'{shown(capacity.unbounded)} may also overlap itself; {_remedy(capacity.unbounded)}'
+        f'{shown(capacity.unbounded)} may also overlap {_itself(capacity.unbounded)}; '
+        f'{_remedy(capacity.unbounded)}'
     )
+
+
+def _itself(unbounded: Sequence[Callback]) -> str:
+    return 'itself' if len(unbounded) == 1 else 'themselves'
 
 
 def _remedy(unbounded: Sequence[Callback]) -> str:
@@ -116,15 +122,24 @@ def _remedy(unbounded: Sequence[Callback]) -> str:
     return '; '.join((*ways, *outside))
 
 
-def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers, needed: int) -> Hit:
-    first = next(wait for wait in waits if wait.caller in capacity.unbounded)
+def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers) -> Hit:
+    """Answers may come in time; the timer of a rate never comes before its period."""
+    of_unbounded = [wait for wait in waits if wait.caller in capacity.unbounded]
+    first = next((w for w in of_unbounded if w.kind is WaitKind.RATE), of_unbounded[0])
+    is_rate = first.kind is WaitKind.RATE
+    comes_by_itself = first.caller.entity in (EntityKind.SUBSCRIPTION, EntityKind.TIMER)
+    who = f'{shown(capacity.unbounded)} may overlap {_itself(capacity.unbounded)}'
+    runs, threads = 'as many runs as the machine has CPUs', 'threads'
+    if not workers.is_default:
+        runs, threads = plural(workers.count, 'run'), plural(workers.count, 'thread')
+    when = 'in Rate.sleep; ' if is_rate else 'in a wait; when answers are slow, '
     return Hit(
         place=first.place,
-        message=f'{shown(capacity.unbounded)} may overlap itself while it waits; when answers '
-        f'are slow, {plural(workers.count, "run")} of it can hold all '
-        f'{plural(workers.count, "thread")}, and no thread is left for the answers',
-        help=f'{_remedy(capacity.unbounded)}; then {plural(needed, "thread")} are enough',
-        severity=Severity.NOTE,
+        message=f'{who} {when}{runs} can hold all {threads}, and no thread is left for '
+        f'{"the timer that ends the sleep" if is_rate else "the answers"}',
+        help=f'{_remedy(capacity.unbounded)}; then {plural(capacity.at_least + 1, "thread")} are '
+        'enough',
+        severity=Severity.WARNING if is_rate and comes_by_itself else Severity.NOTE,
         subjects=tuple(callback.name for callback in capacity.unbounded),
         chain=first.chain,
         related=_others([first], capacity),
@@ -152,14 +167,17 @@ RULE = Rule(
     what='As many callbacks can wait synchronously at the same time as the executor has worker '
     'threads. The groups are right, but nobody is left to run what they wait for. The number is '
     'exact: a mutually exclusive group counts once, a reentrant callback for itself, branches '
-    'of which only one is taken do not add up.',
+    'of which only one is taken do not add up. That a callback may also overlap itself is a note; '
+    'where a subscription or timer sleeps by a `Rate`, a warning, since each run sleeps a period '
+    'long. It is not said of one that claims a state under a lock, waits, and gives it back.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
     'are handled by the same workers, and the spinning thread runs no callbacks. Without '
     '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '
     'on one machine and hangs on another. In a reentrant group an entity may be started again '
     'before its last run has ended. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`MultiThreadedExecutor`, `_make_handler`). Measured: 4 reentrant callers, 0 completed '
-    'calls on 4 threads, 64 of 64 on 8.',
+    'calls on 4 threads, 64 of 64 on 8; a reentrant timer of 10 Hz that sleeps by a rate of 2 Hz '
+    'on 4 threads: no sleep ends.',
     bad="""\
 class Arms(Node):
     def __init__(self):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run
+from ros2cc_extract.findings.verdicts import run_in_which_one_hangs
 from ros2cc_extract.findings.waits import WaitKind, waits_of
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.findings.workers import is_one_thread
@@ -28,7 +28,7 @@ def find(context: Context) -> Iterator[Hit]:
                 subjects=(wait.caller.name,),
                 chain=wait.chain,
                 related=tuple(made_at(wait.caller)),
-                run=refuting_run(PROGRESS, context, wait.caller),
+                run=run_in_which_one_hangs([wait], context),
             )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.overlap import overlaps_itself
-from ros2cc_extract.findings.races import Use
+from ros2cc_extract.findings.races import Use, keep_apart
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
@@ -48,7 +48,8 @@ def _hit(use: Use, context: Context) -> Hit:
 
 
 def _can_lose(access: Access) -> bool:
-    return access.update and not access.in_place and not access.locks
+    is_alone = keep_apart(access.locks, access.locks)
+    return access.update and not access.in_place and not is_alone
 
 
 def _is_quick_timer(callback: Callback) -> bool:

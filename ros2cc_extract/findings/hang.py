@@ -1,0 +1,181 @@
+"""
+What of a run shows that callbacks wait for ever: how they get there, and what it ends in.
+
+A run that refutes *it always ends* goes on until nothing moves any more, so that whatever else
+could happen has happened; most of it has no part in the wait. Knows the words that the edges of
+profile ``rclpy`` carry, and no template.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from ros2cc_extract.verify.evidence import Evidence, Moment
+
+_WAIT = re.compile(
+    r'(?P<who>\w+) (waits|(?P<spins>spins \w+|takes .* spins it)) on (?P<thread>\w+) for '
+    r'(the service of )?'
+    r'(?P<needed>\w+)(, which nobody here offers)?'
+)
+_AWAIT = re.compile(r'(?P<who>\w+) awaits (?P<needed>\w+) and leaves (?P<thread>\w+)')
+_GO_ON = re.compile(r'(?P<who>\w+) (has .* and )?goes on(, on \w+)?')
+_ARRIVAL = re.compile(r'(timer (?P<timer>\w+) is due|data arrives for (?P<who>\w+))')
+_END = re.compile(r'(?P<who>\w+) ends on \w+')
+_WAKE = re.compile(r'\w+ wakes up: .*')
+_SERVED = re.compile(r'(?P<who>\w+) (starts|ends) on \w+')
+
+
+@dataclass(frozen=True)
+class Standstill:
+    """
+    A wait that has not ended at the end of a run.
+
+    :param since: index of the moment in which it began.
+    :param thread: that it holds; ``None`` for an ``await``.
+    :param spins: true where it serves others on that thread meanwhile.
+    """
+
+    who: str
+    needed: str
+    thread: str | None
+    since: int
+    spins: bool = False
+
+    @property
+    def words(self) -> str:
+        """Say who waits for what."""
+        if self.thread is None:
+            return f'{self.who} awaits {self.needed}'
+        verb = 'spins' if self.spins else 'waits'
+        return f'{self.who} {verb} on {self.thread} for {self.needed}'
+
+
+def show_hang(
+    run: Evidence, about: Collection[str], groups: Mapping[str, str], threads: Collection[str]
+) -> Evidence:
+    """
+    Leave out of a run what has no part in the waits of ``about``, and say what it ends in.
+
+    :param about: names of the callbacks that wait, and of those they wait for.
+    :param groups: the mutually exclusive group of each callback that is in one.
+    :param threads: all that the executor has.
+    :return: the run as it was where it does not end in such a wait.
+    """
+    open_waits = _open_waits(run.moments)
+    held = {wait.thread for wait in open_waits if not wait.spins}
+    is_full = held >= set(threads)
+    waits = open_waits if is_full else _concerned(open_waits, about, groups)
+    if not waits:
+        return run
+    told = sorted(_told(run.moments, waits, {*about, *(wait.needed for wait in waits)}))
+    return replace(
+        run,
+        moments=tuple(_renumbered(run.moments, told)),
+        left_out=len(run.moments) - len(told),
+        closing=_closing(waits, groups, is_full=is_full),
+    )
+
+
+def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
+    waits: list[Standstill] = []
+    for index, text in _sentences(moments):
+        began = _WAIT.fullmatch(text) or _AWAIT.fullmatch(text)
+        ended = _GO_ON.fullmatch(text)
+        if began:
+            is_wait = began.re is _WAIT
+            thread = began['thread'] if is_wait else None
+            spins = is_wait and began['spins'] is not None
+            waits.append(Standstill(began['who'], began['needed'], thread, index, spins))
+        elif ended:
+            over = next((wait for wait in waits if wait.who == ended['who']), None)
+            waits = [wait for wait in waits if wait is not over]
+    return waits
+
+
+def _concerned(
+    waits: Sequence[Standstill], about: Collection[str], groups: Mapping[str, str]
+) -> list[Standstill]:
+    """Those of ``about``, of what they wait for, and of who keeps the groups of these closed."""
+    names = set(about)
+    while True:
+        closed = {groups[name] for name in names if name in groups}
+        found = [w for w in waits if w.who in names or groups.get(w.who) in closed]
+        wider = names | {name for wait in found for name in (wait.who, wait.needed)}
+        if wider == names:
+            return found
+        names = wider
+
+
+def _told(
+    moments: Sequence[Moment], waits: Sequence[Standstill], names: Collection[str]
+) -> Iterator[int]:
+    """Of the waiting callbacks the run that waits; of others what they do for it meanwhile."""
+    waiting = {wait.who: wait.since for wait in waits}
+    begin = {who: _begin(moments, who, since) for who, since in waiting.items()}
+    first = min(waiting.values())
+    last_wake: int | None = None
+    for index, text in _sentences(moments):
+        if _WAKE.fullmatch(text):
+            last_wake = index
+        who = next((word for word in re.findall(r'\w+', text) if word in waiting), None)
+        if who is not None:
+            if begin[who] <= index <= waiting[who]:
+                yield index
+                if last_wake is not None and not _ARRIVAL.fullmatch(text):
+                    yield last_wake
+                    last_wake = None
+        elif index > first and _does_its_part(text, names):
+            yield index
+
+
+def _begin(moments: Sequence[Moment], who: str, since: int) -> int:
+    """Where the arrival stands that led to the wait; a wait after another needs both."""
+    begin = 0
+    for index, text in _sentences(moments[:since]):
+        ended = _END.fullmatch(text)
+        if ended and ended['who'] == who:
+            begin = index + 1
+    return begin
+
+
+def _does_its_part(text: str, names: Collection[str]) -> bool:
+    arrival = _ARRIVAL.fullmatch(text)
+    if arrival:
+        return (arrival['who'] or arrival['timer']) in names
+    served = _SERVED.match(text)
+    return bool(served and served['who'] in names)
+
+
+def _renumbered(moments: Sequence[Moment], told: Sequence[int]) -> Iterator[Moment]:
+    """What changed in a step that is left out has changed in the next."""
+    changes: dict[str, int | str] = {}
+    kept = set(told)
+    number = 0
+    for index, moment in enumerate(moments):
+        changes |= moment.changes
+        if index in kept:
+            number += 1
+            yield replace(moment, number=number, changes=changes)
+            changes = {}
+
+
+def _closing(waits: Sequence[Standstill], groups: Mapping[str, str], *, is_full: bool) -> str:
+    parts = list(dict.fromkeys(_state_of(wait, groups) for wait in waits))
+    if is_full:
+        parts.append('no thread is left')
+    return f'nothing moves any more: {"; ".join(parts)}'
+
+
+def _state_of(wait: Standstill, groups: Mapping[str, str]) -> str:
+    group = groups.get(wait.who)
+    if group is None or group != groups.get(wait.needed):
+        return wait.words
+    return f'{wait.words}, and keeps group {group} closed'
+
+
+def _sentences(moments: Sequence[Moment]) -> Iterator[tuple[int, str]]:
+    for index, moment in enumerate(moments):
+        for sentence in moment.sentences:
+            yield index, sentence.text
