@@ -25,7 +25,7 @@ from ros2cc_extract.spec.model import (
 )
 
 PLACES = frozenset({'source', 'defined', 'chain', 'threads_source'})
-OF_A_RUN = frozenset({'measured'})
+OF_A_RUN = frozenset({'measured', 'duration_s'})
 WORDS: Mapping[str, str] = {
     'cls': 'class',
     'entity': 'kind of entity',

@@ -17,6 +17,7 @@ from typing import TypeVar
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import (
     Callback,
+    EntityKind,
     Executor,
     Origin,
     Spec,
@@ -79,7 +80,17 @@ def diff(left: Sequence[Spec], right: Sequence[Spec]) -> tuple[Difference, ...]:
 
 
 def diff_units(left: Spec, right: Spec) -> Iterator[Difference]:
-    """List the differences of two units that serve the same nodes."""
+    """List the differences of two units that serve the same nodes, maybe under another name."""
+    if _new_names(left, right):
+        yield Difference(
+            kind=Kind.DIFFERS,
+            unit=left.name,
+            subject=left.name,
+            fact='node',
+            left=', '.join(left.nodes),
+            right=', '.join(right.nodes),
+            marked=True,
+        )
     yield from _diff_executors(left, right)
     matching = match_callbacks(left, right)
     for mine, theirs in matching.pairs:
@@ -122,7 +133,12 @@ def merge_units(static: Spec, live: Spec) -> Spec:
 def match_units(
     left: Sequence[Spec], right: Sequence[Spec]
 ) -> tuple[list[tuple[Spec, Spec]], list[Spec], list[Spec]]:
-    """Pair units by the nodes they share, most shared first; names decide between equals."""
+    """
+    Pair units by the nodes they share, most shared first; names decide between equals.
+
+    A node may be started under another name than its source gives it: what is left over is
+    paired by its functions.
+    """
     rest_left, rest_right = list(left), list(right)
     ranked = sorted(
         ((_likeness(a, b), -i, -j) for i, a in enumerate(left) for j, b in enumerate(right)),
@@ -131,7 +147,7 @@ def match_units(
     pairs = []
     for likeness, minus_i, minus_j in ranked:
         a, b = left[-minus_i], right[-minus_j]
-        if likeness > (0, 0) and a in rest_left and b in rest_right:
+        if any(likeness) and a in rest_left and b in rest_right:
             pairs.append((a, b))
             rest_left.remove(a)
             rest_right.remove(b)
@@ -139,9 +155,25 @@ def match_units(
     return pairs, rest_left, rest_right
 
 
-def _likeness(left: Spec, right: Spec) -> tuple[int, int]:
+def _likeness(left: Spec, right: Spec) -> tuple[int, int, int]:
     shared = _node_names(left) & _node_names(right)
-    return len(shared), int(left.name == right.name)
+    return len(shared), len(_new_names(left, right)), int(left.name == right.name)
+
+
+def _new_names(left: Spec, right: Spec) -> dict[str, str]:
+    """Name of a node on the right to its name on the left, if only the name is another."""
+    mine, theirs = _node_names(left), _node_names(right)
+    if mine & theirs or len(mine) != 1 or len(theirs) != 1:
+        return {}
+    here, there = _functions(left), _functions(right)
+    is_same = here and there and (here <= there or there <= here)
+    return dict(zip(theirs, mine, strict=True)) if is_same else {}
+
+
+def _functions(unit: Spec) -> set[str]:
+    """Give class and function of what somebody wrote; the module depends on how it is started."""
+    callbacks = (callback for callback in unit.callbacks if not callback.builtin)
+    return {'.'.join(c.function.split('.')[-2:]) for c in callbacks if c.function}
 
 
 def _node_names(unit: Spec) -> set[str]:
@@ -154,10 +186,13 @@ def match_callbacks(left: Spec, right: Spec) -> Matching:
     rest_left = [callback for callback in left.callbacks if not callback.builtin]
     rest_right = [callback for callback in right.callbacks if not callback.builtin]
     pairs: list[Pair] = []
+    names = _new_names(left, right)
+    called = {id(c): replace(c, node=names.get(str(c.node), c.node)) for c in rest_right}
     for identity in _IDENTITIES:
         for mine in list(rest_left):
-            theirs = next((c for c in rest_right if identity(c) == identity(mine)), None)
-            if theirs is not None and identity(mine) is not None:
+            sought = identity(mine)
+            theirs = next((c for c in rest_right if identity(called[id(c)]) == sought), None)
+            if theirs is not None and sought is not None:
                 pairs.append((mine, theirs))
                 rest_left.remove(mine)
                 rest_right.remove(theirs)
@@ -229,8 +264,11 @@ def _is_default(executor: Executor) -> bool:
 
 
 def _diff_facts(unit: str, mine: Callback, theirs: Callback) -> Iterator[Difference]:
+    # A live run does not tell whose answer a done-callback has.
+    is_untold = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
+    key = mine.key if is_untold else theirs.key
     for fact, a, b in (
-        (mine.entity.key_name if mine.entity else None, mine.key, theirs.key),
+        (mine.entity.key_name if mine.entity else None, mine.key, key),
         ('period_s', mine.period_s, theirs.period_s),
         ('coroutine', mine.coroutine, theirs.coroutine),
     ):
@@ -328,6 +366,7 @@ def _filled(mine: Callback, theirs: Callback) -> Callback:
         node=_known(mine.node, theirs.node),
         key=_known(mine.key, theirs.key),
         period_s=_known(mine.period_s, theirs.period_s),
+        duration_s=mine.duration_s or theirs.duration_s,
         function=mine.function or theirs.function,
         unresolved=None if theirs.function else mine.unresolved,
         source=mine.source or theirs.source,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ros2cc_extract.spec.close import Policy
-    from ros2cc_extract.verify import Options
+    from ros2cc_extract.verify.unit import Options
 
 
 def add_paths(parser: argparse.ArgumentParser) -> None:
@@ -39,6 +39,13 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
         '--builtin',
         action='store_true',
         help='keep the entities in the model that rclpy itself creates',
+    )
+    parser.add_argument(
+        '--rclpy',
+        type=_version,
+        metavar='VERSION',
+        help='version of rclpy that runs the node, for what differs in profile rclpy: 7.1.6 is '
+        'Jazzy, 9.1.2 Kilted (default: as recorded, else what holds for all)',
     )
 
 
@@ -99,8 +106,13 @@ def add_search_arguments(
         '--no-reduction', action='store_true', help='explore every state of the text'
     )
     group.add_argument(
-        '--max-states', type=_positive, metavar='N', help='stop after about N states'
+        '--jobs',
+        type=_positive,
+        default=1,
+        metavar='N',
+        help='explore a large model with N threads (default 1); the output is the same',
     )
+    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after N states')
     group.add_argument('--max-memory', type=_positive, metavar='MB', help='stop at this memory')
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
@@ -116,14 +128,15 @@ def policy_of(args: argparse.Namespace) -> Policy:
     """Collect what ``add_unit_arguments`` declared."""
     from ros2cc_extract.spec.close import Policy
 
-    return Policy(builtin=args.builtin, threads=args.threads[0] if args.threads else None)
+    threads = args.threads[0] if args.threads else None
+    return Policy(builtin=args.builtin, threads=threads, rclpy=args.rclpy)
 
 
 def options_of(args: argparse.Namespace) -> Options:
     """Collect what ``add_search_arguments`` declared."""
     from ros2cc_extract.checker.api import EngineKind, Fairness, Limits
     from ros2cc_extract.generator.build import Profile, Text
-    from ros2cc_extract.verify import Checker, Options, Runs
+    from ros2cc_extract.verify.unit import Checker, Options, Runs
 
     return Options(
         checker=Checker(args.checker),
@@ -136,6 +149,7 @@ def options_of(args: argparse.Namespace) -> Options:
         fairness=Fairness[args.fairness.upper()],
         reduction=not args.no_reduction,
         limits=Limits(states=args.max_states, memory_mb=args.max_memory, seconds=args.timeout),
+        jobs=args.jobs,
     )
 
 
@@ -144,6 +158,12 @@ def _positive(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
     return value
+
+
+def _version(text: str) -> str:
+    if not text.split('.')[0].isdecimal():
+        raise argparse.ArgumentTypeError(f'{text!r} is no version; write 7.1.6')
+    return text
 
 
 def _bounds(text: str) -> tuple[int | None, ...]:

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from ros2cc_extract.report.formats import Checked
 
 DEFAULT_SECONDS = 20.0
+WITH_RUNS = ('json', 'html')
+"""Formats that show the run behind every verdict."""
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
 
@@ -33,6 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
     parser.add_argument('--output-format', choices=FORMATS, default='text')
+    parser.add_argument(
+        '--tables',
+        action='store_true',
+        help="text: every unit's verdicts, and every note with its line, however many",
+    )
     parser.add_argument(
         '--assume',
         action='append',
@@ -46,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--write-baseline', type=Path, metavar='FILE', help='accept all of today, into FILE'
     )
     only_new.add_argument(
-        '--diff-base', metavar='REV', help='accept what git revision REV has already'
+        '--diff-base', metavar='REV', help='accept what was there where the change left REV of git'
     )
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=DEFAULT_SECONDS)
@@ -56,7 +63,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.config import load_config
     from ros2cc_extract.cli.pipeline import check_paths
 
-    config = load_config(args.paths[0])
+    config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
     job = replace(job, known=_known(args, config, job, stderr))
     outcome = check_paths(job, stderr)
@@ -65,7 +72,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.write_baseline is not None:
         _write_baseline(args.write_baseline, outcome, job, stderr)
         return EXIT_CLEAN
-    _tell(args.output_format, outcome, job, stdout)
+    _tell(args, outcome, job, stdout)
     return _status(args, outcome)
 
 
@@ -84,6 +91,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         assumptions=assumptions_of(config, args.assume),
         root=config.root.resolve(),
         cached=not args.no_cache,
+        keeps_runs=args.output_format in WITH_RUNS,
     )
 
 
@@ -129,13 +137,15 @@ def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> N
     print(f'wrote {path}; use it with --baseline {path}', file=stderr)
 
 
-def _tell(form: str, outcome: Outcome, job: Job, stdout: TextIO) -> None:
+def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) -> None:
+    form = args.output_format
     if form == 'text':
         from ros2cc_extract.report.check_text import print_check
         from ros2cc_extract.report.style import console_for
 
         verified = list(zip(outcome.units, outcome.verifications, strict=True))
-        print_check(verified, outcome.findings, outcome.summary, console_for(stdout))
+        console = console_for(stdout)
+        print_check(verified, outcome.findings, outcome.summary, console, tables=args.tables)
         return
     from ros2cc_extract.report.formats import Checked, write
 
@@ -171,5 +181,13 @@ def _status(args: argparse.Namespace, outcome: Outcome) -> int:
         return EXIT_ERROR
     if outcome.has_findings:
         return EXIT_FINDINGS
-    unresolved = args.strict and any(unit.unresolved for unit in outcome.units)
+    unresolved = args.strict and _is_unresolved(outcome)
     return EXIT_UNDECIDED if unresolved or outcome.is_undecided else EXIT_CLEAN
+
+
+def _is_unresolved(outcome: Outcome) -> bool:
+    """Whether a unit has an open fact, or was left out for one."""
+    from ros2cc_extract.cli.sources import NOT_FOLLOWED
+
+    of_units = any(unit.unresolved for unit in outcome.units)
+    return of_units or any(d.slug == NOT_FOLLOWED for d in outcome.extraction.diagnostics)

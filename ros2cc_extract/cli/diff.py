@@ -11,6 +11,7 @@ from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_FINDINGS
 
 if TYPE_CHECKING:
     from ros2cc_extract.merge import Difference
+    from ros2cc_extract.spec.model import Spec
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,15 +19,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             name, type=Path, metavar=name.upper(), help='a YAML specification, or Python source'
         )
-    parser.add_argument('--output-format', choices=['text', 'json'], default='text')
+    parser.add_argument('--output-format', choices=['text', 'json', 'mermaid'], default='text')
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.sources import load_units
     from ros2cc_extract.merge import diff
 
-    differences = diff(load_units(args.left, stderr), load_units(args.right, stderr))
+    left, right = load_units(args.left, stderr), load_units(args.right, stderr)
+    differences = diff(left, right)
+    if args.output_format == 'mermaid':
+        return _draw(differences, (('before', left), ('after', right)), stdout)
     return report(differences, (str(args.left), str(args.right)), args.output_format, stdout)
+
+
+def _draw(
+    differences: Sequence[Difference],
+    sides: tuple[tuple[str, Sequence[Spec]], ...],
+    stdout: TextIO,
+) -> int:
+    """Draw both sides in one chart, with what is different marked."""
+    from ros2cc_extract.report.unit_mermaid import sides_diagram
+
+    stdout.write(sides_diagram(sides, {difference.subject for difference in differences}))
+    return _status(differences)
 
 
 def report(
@@ -42,5 +58,9 @@ def report(
         from ros2cc_extract.report.style import console_for
 
         print_differences(differences, names, console_for(stdout))
+    return _status(differences)
+
+
+def _status(differences: Sequence[Difference]) -> int:
     faulty = any(not difference.marked for difference in differences)
     return EXIT_FINDINGS if faulty else EXIT_CLEAN

@@ -31,6 +31,7 @@ COMMANDS = {
     'env': 'print the environment variables that switch the live hook on',
     'collect': 'write the specification of what nodes switched on by `env` have recorded',
     'attach': 'write the specification of a process that already runs',
+    'conform': 'decide whether a recorded execution is a path of the model',
     'diff': 'compare two specifications of one program',
     'init': 'write the test file, hook and job that guard a ROS 2 package',
     'merge': 'join a specification from source with one from a live run',

@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
+from ros2cc_extract.cachefile import default_cache_folder
 from ros2cc_extract.cli.config import Config
-from ros2cc_extract.cli.progress import search_progress
+from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.cli.sources import scan_sources
+from ros2cc_extract.cli.verifying import Task, examine_all
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.findings.baseline import compare
-from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.findings.collect import all_findings
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.selection import select
 from ros2cc_extract.findings.suppress import suppress
-from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify import Checker, Options, Verification, verify_unit
-
-LONGEST_JUDGEMENT_S = 10.0
+from ros2cc_extract.verify.unit import Options, Verification
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +34,7 @@ class Job:
 
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
+    :param keeps_runs: the run behind every verdict is wanted.
     """
 
     paths: Sequence[Path]
@@ -45,6 +45,7 @@ class Job:
     root: Path
     known: frozenset[str] = frozenset()
     cached: bool = True
+    keeps_runs: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +53,7 @@ class Outcome:
     """
     What came out.
 
-    :param sources: text of the scanned files, by the path that places name.
+    :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
     """
 
@@ -96,49 +97,52 @@ class Outcome:
 def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
     extraction = scan_sources(job.paths, stderr, cached=job.cached)
-    units = tuple(assume(unit, job.assumptions) for unit in extraction.units)
-    closed = tuple(close(unit, job.policy) for unit in units)
-    verifications = tuple(_verify(each, job.options, stderr) for each in closed)
-    judged = tuple(
-        _judge(each, verification, job.options)
-        for each, verification in zip(closed, verifications, strict=True)
+    units = tuple(
+        assume(unit, job.assumptions)
+        for unit in extraction.units
+        if job.policy.builtin or not all(callback.builtin for callback in unit.callbacks)
     )
-    sources = _sources(extraction.files_seen)
+    closed = tuple(close(unit, job.policy) for unit in units)
+    tasks = [
+        Task(unit, each, job.options, job.keeps_runs)
+        for unit, each in zip(units, closed, strict=True)
+    ]
+    with bar(stderr, 'verifying') as meter:
+        examined = examine_all(tasks, default_cache_folder() if job.cached else None, meter)
     findings = (
-        *findings_of(units, extraction.diagnostics, judged),
-        *check_requirements(job.config.requirements, units, judged),
+        *all_findings(
+            [each.findings for each in examined],
+            extraction.diagnostics,
+            {unit.rclpy for unit in units},
+        ),
+        *check_requirements(job.config.requirements, units, [each.judged for each in examined]),
     )
     root = job.root.as_posix()
-    suppressed = suppress(select(findings, job.config.selection, root), sources)
+    selected = select(findings, job.config.selection, root)
+    sources = _sources({*extraction.files_seen, *_files_shown(selected)})
+    suppressed = suppress(selected, sources, extraction.files_seen)
     compared = compare(suppressed.kept, job.known, root)
     return Outcome(
         extraction=extraction,
         units=units,
         closed=closed,
-        verifications=verifications,
+        verifications=tuple(each.shown for each in examined),
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
     )
 
 
-def _verify(closed: ClosedSpec, options: Options, stderr: TextIO) -> Verification:
-    with search_progress(stderr, closed.spec.name) as progress:
-        return verify_unit(closed, options, progress)
+def _files_shown(findings: Sequence[Finding]) -> set[str]:
+    """Files that findings lead to, also those that a checked file only imports."""
+    remarks = [remark for finding in findings for remark in (*finding.chain, *finding.related)]
+    places = [*(finding.place for finding in findings), *(remark.place for remark in remarks)]
+    return {place.file for place in places}
 
 
-def _judge(closed: ClosedSpec, shown: Verification, options: Options) -> Verification:
-    """Findings rest on rclpy's own executors, whichever model the table shows."""
-    if options.profile is Profile.RCLPY or options.checker is not Checker.EMBEDDED:
-        return shown
-    seconds = min(options.limits.seconds or LONGEST_JUDGEMENT_S, LONGEST_JUDGEMENT_S)
-    limits = replace(options.limits, seconds=seconds)
-    return verify_unit(closed, replace(options, profile=Profile.RCLPY, limits=limits))
-
-
-def _sources(files: Sequence[str]) -> dict[str, str]:
+def _sources(files: Collection[str]) -> dict[str, str]:
     texts = {}
-    for file in files:
+    for file in sorted(files):
         try:
             texts[file] = Path(file).read_text(encoding='utf-8', errors='replace')
         except OSError:

@@ -4,27 +4,74 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from time import monotonic
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
+    from rich.progress import Progress as Drawn
+    from rich.progress import TaskID
+
     from ros2cc_extract.checker.api import Progress
 
-ScanProgress = Callable[[int, int], None]
 SearchProgress = Callable[['Progress'], None]
+SECONDS_BETWEEN = 0.1
+
+
+class Meter:
+    """Takes what is done, and shows nothing."""
+
+    def step(self, done: int, total: int) -> None:
+        """So many are done, of so many."""
+
+    def search(self, title: str) -> SearchProgress | None:
+        """What shows the states of one long search, where somebody looks."""
+        return None
+
+
+class Bar(Meter):
+    """A line that is drawn again now and then; no thread does, so that others may fork."""
+
+    def __init__(self, drawn: Drawn, task: TaskID, title: str) -> None:
+        self._drawn = drawn
+        self._task = task
+        self._title = title
+        self._last = 0.0
+
+    def step(self, done: int, total: int) -> None:
+        """Draw how many are done."""
+        self._drawn.update(self._task, completed=done, total=total, description=self._title)
+        self._draw(done == total)
+
+    def search(self, title: str) -> SearchProgress | None:
+        """Draw how far one search is."""
+
+        def tell(progress: Progress) -> None:
+            states = f'{progress.states:,} states, {progress.seconds:.0f} s'
+            self._drawn.update(self._task, description=f'{self._title} {title}: {states}')
+            self._draw(False)
+
+        return tell
+
+    def _draw(self, is_end: bool) -> None:
+        now = monotonic()
+        if is_end or now - self._last >= SECONDS_BETWEEN:
+            self._last = now
+            self._drawn.refresh()
 
 
 @contextmanager
-def scan_progress(stderr: TextIO) -> Iterator[ScanProgress | None]:
-    """Show how many files were read, when ``stderr`` is a terminal."""
+def bar(stderr: TextIO, title: str) -> Iterator[Meter]:
+    """Show how many of how many are done, when ``stderr`` is a terminal; nothing stays of it."""
     if not stderr.isatty():
-        yield None
+        yield Meter()
         return
     from rich.console import Console
-    from rich.progress import Progress as Bar
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-    with Bar(console=Console(file=stderr), transient=True) as bar:
-        task = bar.add_task('reading', total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+    columns = (TextColumn('{task.description}'), BarColumn(), MofNCompleteColumn())
+    console = Console(file=stderr)
+    with Progress(*columns, console=console, transient=True, auto_refresh=False) as drawn:
+        yield Bar(drawn, drawn.add_task(title, total=None), title)
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -52,4 +52,38 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
     from ros2cc_extract.merge import diff
 
     units = load_units(source, stderr)
-    return lambda live: report(diff(units, live), (str(source), 'live'), 'text', stdout)
+
+    def compare(live: tuple[Spec, ...]) -> int:
+        scanned = [unit for unit in live if _is_of(unit, source, units)]
+        status = report(diff(units, _distinct(scanned)), (str(source), 'live'), 'text', stdout)
+        for unit in live:
+            if unit not in scanned:
+                made = unit.executor.source
+                files = [*unit.sources, *([made.file] if made else [])]
+                print(f'not scanned: {unit.name}', *files[:1], sep=' of ', file=stdout)
+        return status
+
+    return compare
+
+
+def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
+    """Tell whether a live unit is made in the files that were scanned, or is one of theirs."""
+    from ros2cc_extract.merge import match_units
+
+    callbacks = [callback for callback in unit.callbacks if not callback.builtin]
+    places = [place for callback in callbacks for place in (callback.source, callback.defined)]
+    files = {Path(place.file).resolve() for place in (unit.executor.source, *places) if place}
+    within = source.resolve()
+    is_within = any(file == within or within in file.parents for file in files)
+    return is_within or bool(match_units(scanned, [unit])[0])
+
+
+def _distinct(live: Sequence[Spec]) -> list[Spec]:
+    """Leave out units that another process holds just alike."""
+    from ros2cc_extract.merge import diff
+
+    kept: list[Spec] = []
+    for unit in live:
+        if all(any(not found.marked for found in diff([each], [unit])) for each in kept):
+            kept.append(unit)
+    return kept

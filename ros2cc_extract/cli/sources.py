@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
 
-from ros2cc_extract.cli.progress import scan_progress
+from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
@@ -16,27 +16,52 @@ from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
 RECORDING_SUFFIX = '.json'
+NOT_FOLLOWED = 'not-followed'
+"""Slug of what may hide callbacks and stands in no unit."""
 
 
-def scan_sources(paths: Sequence[Path], stderr: TextIO, *, cached: bool = True) -> Extraction:
+def scan_sources(
+    paths: Sequence[Path], stderr: TextIO, *, cached: bool = True, lists_builtin: bool = False
+) -> Extraction:
     """
     Scan Python files and directories, with progress.
 
     :param cached: take an earlier result when no file has changed since.
+    :param lists_builtin: also list what rclpy makes by itself for every node.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither
     the published format nor a model has a place for them.
     """
+    from ros2cc_extract.cachefile import default_cache_folder
     from ros2cc_extract.extract.static.api import scan
-    from ros2cc_extract.extract.static.cache import default_cache_folder
 
-    with scan_progress(stderr) as progress:
+    with bar(stderr, 'reading') as meter:
         folder = default_cache_folder() if cached else None
-        extraction = scan(paths, progress=progress, cache=folder)
-    for unit in extraction.units:
-        if not unit.callbacks:
-            print(f'{_where(unit)}: unit {unit.name} has no callback, left out', file=stderr)
-    return replace(extraction, units=tuple(unit for unit in extraction.units if unit.callbacks))
+        extraction = scan(paths, progress=meter.step, cache=folder, lists_builtin=lists_builtin)
+    left_out = [unit for unit in extraction.units if not unit.callbacks]
+    for unit in left_out:
+        in_sight = ' in sight' if _missing(unit) else ''
+        print(f'{_where(unit)}: unit {unit.name} has no callback{in_sight}, left out', file=stderr)
+    return replace(
+        extraction,
+        units=tuple(unit for unit in extraction.units if unit.callbacks),
+        diagnostics=(*extraction.diagnostics, *(d for unit in left_out for d in _missing(unit))),
+    )
+
+
+def _missing(unit: Spec) -> list[Diagnostic]:
+    """Why a unit without callbacks may have some all the same: as open as any other fact."""
+    return [
+        Diagnostic(
+            severity=Severity.NOTE,
+            slug=NOT_FOLLOWED,
+            place=fact.source,
+            message=f'{fact.reason}: unit {unit.name} is left out, and may have callbacks',
+            help='check what it names too, or observe the node by ros2cc-extract run',
+        )
+        for fact in unit.unresolved
+        if fact.fact == 'entities' and fact.source is not None
+    ]
 
 
 def _where(unit: Spec) -> str:

@@ -30,6 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
     add_cache_argument(parser)
     parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
+    parser.add_argument(
+        '--builtin', action='store_true', help='also list what rclpy makes for every node'
+    )
     parser.add_argument('--schema', action='store_true', help='print the JSON Schema')
 
 
@@ -42,7 +45,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     if not args.paths:
         raise InputError('no path given', None, 'name a Python file or a directory')
-    extraction = scan_sources(args.paths, stderr, cached=not args.no_cache)
+    extraction = scan_sources(
+        args.paths, stderr, cached=not args.no_cache, lists_builtin=args.builtin
+    )
     print_diagnostics(extraction.diagnostics, stderr)
     has_drift = False
     if args.check is not None:
@@ -61,10 +66,14 @@ def _write(
     args: argparse.Namespace, extraction: Extraction, stdout: TextIO, stderr: TextIO
 ) -> None:
     from ros2cc_extract.cli.output import write_text
+    from ros2cc_extract.report.confidence_text import confidence_lines
+    from ros2cc_extract.spec.confidence import confidence_in
     from ros2cc_extract.spec.yaml_io import write_specs
 
     if extraction.units:
         write_text(write_specs(extraction.units), args.output, stdout)
+        for line in confidence_lines(confidence_in(extraction.units)):
+            print(line, file=stderr)
     else:
         print(f'no rclpy node found in {len(extraction.files_seen)} files', file=stderr)
 

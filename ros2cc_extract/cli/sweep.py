@@ -9,12 +9,12 @@ from typing import TextIO
 
 from ros2cc_extract.cli.arguments import options_of, policy_of
 from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_UNDECIDED
-from ros2cc_extract.cli.progress import scan_progress
+from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.cli.sources import load_units
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.sweep import Sweep, points, run_sweep
+from ros2cc_extract.verify.sweep import Sweep, points, run_sweep
 
 
 def run_sweeps(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -35,14 +35,14 @@ def run_sweeps(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 def _sweep(unit: Spec, args: argparse.Namespace, stderr: TextIO) -> Sweep:
     threads = args.threads or range(len(unit.executor.threads), len(unit.executor.threads) + 1)
     settings = points(threads, args.max_cycle)
-    with scan_progress(stderr) as progress:
+    with bar(stderr, 'verifying') as meter:
         return run_sweep(
             unit,
             policy_of(args),
             options_of(args),
             settings,
             len(os.sched_getaffinity(0)),
-            lambda done: progress(done, len(settings)) if progress else None,
+            lambda done: meter.step(done, len(settings)),
         )
 
 

@@ -17,7 +17,9 @@ from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_UNDECIDED
 from ros2cc_extract.cli.progress import search_progress
 
 if TYPE_CHECKING:
-    from ros2cc_extract.verify import QueryResult, Verification
+    from ros2cc_extract.checker.api import Query
+    from ros2cc_extract.spec.close import ClosedSpec
+    from ros2cc_extract.verify.unit import QueryResult, Verification
 
 MODEL_SUFFIX = '.xml'
 
@@ -30,7 +32,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='a YAML specification, a UPPAAL model, or Python source',
     )
     parser.add_argument(
-        'queries', nargs='?', type=Path, metavar='QUERIES.q', help='queries of a UPPAAL model'
+        'queries',
+        nargs='?',
+        type=Path,
+        metavar='QUERIES.q',
+        help="queries instead of the model's own; a specification is asked on its plain text",
+    )
+    parser.add_argument(
+        '--query',
+        action='append',
+        default=[],
+        metavar='FORMULA',
+        help="a query instead of the model's own, as `A[] not deadlock`; may be repeated",
+    )
+    parser.add_argument(
+        '--replay',
+        type=Path,
+        metavar='RUN',
+        help='tell a run that UPPAAL saved (.xtr, or the XML or text of verifyta) of this model',
     )
     parser.add_argument(
         '--trace',
@@ -40,9 +59,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--output-format', choices=['text', 'json'], default='text')
     parser.add_argument(
         '--trace-format',
-        choices=['text', 'json', 'mermaid', 'perfetto'],
+        choices=['text', 'json', 'mermaid', 'perfetto', 'uppaal', 'xtr'],
         default='text',
-        help='how runs are written; mermaid and perfetto need -o',
+        help="how runs are written to -o; uppaal: the XML of verifyta -X, xtr: UPPAAL's simulator",
     )
     parser.add_argument(
         '-o', '--output', type=Path, metavar='DIR', help='folder for one trace file per run'
@@ -55,7 +74,10 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if len(args.threads or ()) > 1 or len(args.max_cycle) > 1:
         from ros2cc_extract.cli.sweep import run_sweeps
 
+        _refuse_with_ranges(args)
         return run_sweeps(args, stdout, stderr)
+    if args.replay is not None:
+        return _replay(args, stdout, stderr)
     verifications = list(_verifications(args, stderr))
     if args.output is not None:
         _write_traces(verifications, args, stderr)
@@ -67,25 +89,59 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     return EXIT_UNDECIDED if undecided else EXIT_CLEAN
 
 
-def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
-    from ros2cc_extract.verify import verify_model, verify_unit
+def _refuse_with_ranges(args: argparse.Namespace) -> None:
+    from ros2cc_extract.errors import InputError
 
-    options = options_of(args)
+    if args.query or args.queries or args.replay:
+        what = 'a sweep asks the queries of each model and shows no saved run'
+        raise InputError(what, None, 'give one number of threads and of arrivals')
+
+
+def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
+    from ros2cc_extract.verify.unit import ask_unit, verify_model, verify_unit
+
+    options, queries = options_of(args), _queries(args)
     if args.path.suffix == MODEL_SUFFIX:
         with search_progress(stderr, args.path.name) as progress:
-            yield verify_model(args.path, args.queries, options, progress)
+            yield verify_model(args.path, queries, options, progress)
         return
-    from ros2cc_extract.cli.sources import load_units
-    from ros2cc_extract.errors import InputError
+    for closed in _units(args, stderr):
+        with search_progress(stderr, closed.spec.name) as progress:
+            if queries:
+                yield ask_unit(closed, queries, options, progress)
+            else:
+                yield verify_unit(closed, options, progress)
+
+
+def _queries(args: argparse.Namespace) -> list[Query]:
+    from ros2cc_extract.checker.api import Query
     from ros2cc_extract.places import Place
+    from ros2cc_extract.verify.unit import load_queries
+
+    given = [Query(formula, '', Place('--query')) for formula in args.query]
+    return [*(load_queries(args.queries) if args.queries else ()), *given]
+
+
+def _units(args: argparse.Namespace, stderr: TextIO) -> Iterator[ClosedSpec]:
+    from ros2cc_extract.cli.sources import load_units
     from ros2cc_extract.spec.close import close
 
-    if args.queries is not None:
-        place = Place(str(args.queries))
-        raise InputError('queries go with a MODEL.xml', place, 'a specification brings its own')
     for unit in load_units(args.path, stderr):
-        with search_progress(stderr, unit.name) as progress:
-            yield verify_unit(close(unit, policy_of(args)), options, progress)
+        yield close(unit, policy_of(args))
+
+
+def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.report.style import console_for
+    from ros2cc_extract.report.verdict_text import print_run
+    from ros2cc_extract.verify.uppaal.retell import retell_model, retell_unit
+
+    if args.path.suffix == MODEL_SUFFIX:
+        told = [retell_model(args.path, args.replay)]
+    else:
+        told = [retell_unit(u, args.replay, options_of(args)) for u in _units(args, stderr)]
+    for evidence in told:
+        print_run(evidence, console_for(stdout), changes=args.trace)
+    return EXIT_CLEAN
 
 
 def _print_json(verifications: list[Verification], stdout: TextIO) -> None:

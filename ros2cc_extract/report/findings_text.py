@@ -11,8 +11,10 @@ from rich.text import Text
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.places import Place
+from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.verdict_text import print_run
 
+MOST_RELATED = 8
 _COLOURS = {Severity.ERROR: 'red', Severity.WARNING: 'magenta', Severity.NOTE: 'cyan'}
 
 
@@ -25,8 +27,11 @@ def print_findings(findings: Sequence[Finding], root: Path, console: Console) ->
         console.print(head, soft_wrap=True)
         for line in source_excerpt(finding.place, root):
             console.print(line, soft_wrap=True)
-        for remark in (*finding.chain, *finding.related):
+        for remark in (*finding.chain, *finding.related[:MOST_RELATED]):
             console.print(f'  {remark.place}: {remark.text}', soft_wrap=True)
+        if len(finding.related) > MOST_RELATED:
+            left_out = counted(len(finding.related) - MOST_RELATED, 'places')
+            console.print(f'  and {left_out} more: see --output-format html')
         if finding.run is not None:
             console.print('  it can happen like this:')
             print_run(finding.run, console)

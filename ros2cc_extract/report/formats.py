@@ -11,9 +11,9 @@ from ros2cc_extract.report.html import html_report
 from ros2cc_extract.report.json_report import check_data, to_text
 from ros2cc_extract.report.junit import junit
 from ros2cc_extract.report.sarif import sarif
-from ros2cc_extract.report.unit_mermaid import unit_diagram
+from ros2cc_extract.report.unit_mermaid import units_diagram
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify import Verification
+from ros2cc_extract.verify.unit import Verification
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +55,7 @@ def _html(checked: Checked) -> str:
 
 
 def _mermaid(checked: Checked) -> str:
-    return '\n'.join(unit_diagram(unit) for unit in checked.units)
+    return units_diagram(checked.units)
 
 
 WRITERS: Mapping[str, Callable[[Checked], str]] = {

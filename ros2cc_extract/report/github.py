@@ -13,9 +13,12 @@ from collections.abc import Mapping, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.fingerprints import relative
 from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.places import Place
 from ros2cc_extract.report.counts import counted
 
 SHOWN_PER_KIND = 10
+MOST_ROWS = 500
+"""GitHub takes no step summary above 1 MiB; a row has some hundred bytes."""
 _KINDS = {Severity.ERROR: 'error', Severity.WARNING: 'warning', Severity.NOTE: 'notice'}
 _MARKS = {Severity.ERROR: '🔴', Severity.WARNING: '🟠', Severity.NOTE: '🔵'}
 
@@ -34,16 +37,39 @@ def workflow_commands(findings: Sequence[Finding], *, root: str = '') -> str:
 def step_summary(
     findings: Sequence[Finding], summary: Mapping[str, int], *, root: str = ''
 ) -> str:
-    """Write the whole list as Markdown, for the file ``$GITHUB_STEP_SUMMARY``."""
+    """
+    Write the findings as Markdown, for the file ``$GITHUB_STEP_SUMMARY``.
+
+    Errors first; notes are folded. Of more rows than ``MOST_ROWS`` the last are counted only.
+    """
     counts = ', '.join(counted(number, what) for what, number in summary.items())
     lines = ['## ros2cc-extract', '', counts, '']
     if not findings:
         return '\n'.join([*lines, 'No findings.', ''])
+    weight = list(Severity)
+    ordered = sorted(findings, key=lambda finding: weight.index(finding.severity))
+    told = [finding for finding in ordered if finding.severity is not Severity.NOTE]
+    notes = ordered[len(told) :]
+    if told:
+        lines += [_counts(told), '', *_rows(told, MOST_ROWS, root)]
+    if notes:
+        title = f'{counted(len(notes), "notes")}: {_counts(notes)}'
+        rows = _rows(notes, max(0, MOST_ROWS - len(told)), root)
+        lines += [f'<details><summary>{title}</summary>', '', *rows, '</details>', '']
+    return '\n'.join(lines)
+
+
+def _counts(findings: Sequence[Finding]) -> str:
     codes = Counter(finding.code for finding in findings)
-    lines += [', '.join(f'{code}: {number}' for code, number in sorted(codes.items())), '']
-    lines += ['| | code | place | what | help |', '|---|---|---|---|---|']
-    lines += [_row(finding, root) for finding in findings]
-    return '\n'.join([*lines, ''])
+    return ', '.join(f'{code}: {number}' for code, number in sorted(codes.items()))
+
+
+def _rows(findings: Sequence[Finding], most: int, root: str) -> list[str]:
+    rows = [_row(finding, root) for finding in findings[:most]]
+    head = ['| | code | place | what | help |', '|---|---|---|---|---|'] if rows else []
+    left_out = len(findings) - len(rows)
+    more = [f'{left_out} more: see the log, or --output-format json.', ''] if left_out else []
+    return [*head, *rows, *([''] if rows else []), *more]
 
 
 def _command(finding: Finding, root: str) -> str:
@@ -64,9 +90,12 @@ def _body(finding: Finding, root: str) -> str:
 
 
 def _remark(remark: Remark, root: str) -> str:
-    place = remark.place
+    return f'{_shown(remark.place, root)}: {remark.text}'
+
+
+def _shown(place: Place, root: str) -> str:
     line = f':{place.line}' if place.line else ''
-    return f'{relative(place.file, root)}{line}: {remark.text}'
+    return f'{relative(place.file, root)}{line}'
 
 
 def _data(text: str) -> str:
@@ -78,8 +107,7 @@ def _property(text: str) -> str:
 
 
 def _row(finding: Finding, root: str) -> str:
-    place = f'{relative(finding.place.file, root)}:{finding.place.line}'
-    cells = (finding.code, f'`{place}`', finding.message, finding.help)
+    cells = (finding.code, f'`{_shown(finding.place, root)}`', finding.message, finding.help)
     return f'| {_MARKS[finding.severity]} | ' + ' | '.join(map(_cell, cells)) + ' |'
 
 

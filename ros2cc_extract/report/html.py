@@ -16,19 +16,22 @@ from importlib.resources import files
 from typing import Any
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.evidence import Evidence, Moment
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.report.closing import closing_lines
 from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.html_findings import finding_card
 from ros2cc_extract.report.html_parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html_unit import Numbered, unit_picture
 from ros2cc_extract.report.run_lanes import Lane, lanes_of
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 from ros2cc_extract.version import __version__
 
 BLOCKED = 'blocked'
 """Location of a thread whose callback waits, in the models of profile ``rclpy``."""
+MOST_NOTES = 10
+"""More notes than this are folded."""
 _VERDICT_CLASSES = {
     Verdict.SATISFIED: 'satisfied',
     Verdict.NOT_SATISFIED: 'not-satisfied',
@@ -50,7 +53,8 @@ class _Runs:
             number = len(self.kept)
             self.kept.append((run, _run_data(run, self.callbacks)))
         steps = ''.join(_step_text(moment, run) for moment in run.moments)
-        return tag('div', tag('ol', steps), class_='timeline', data_run=str(number))
+        closing = ''.join(tag('p', escape(line), class_='closing') for line in closing_lines(run))
+        return tag('div', tag('ol', steps), class_='timeline', data_run=str(number)) + closing
 
 
 def html_report(
@@ -72,7 +76,7 @@ def html_report(
     cards = []
     for number, finding in _by_weight(numbered):
         runs.callbacks = names.get(finding.unit or '', ())
-        cards.append(finding_card(number, finding, sources, runs.timeline))
+        cards.append((finding, finding_card(number, finding, sources, runs.timeline)))
     verdicts: Sequence[Verification | None] = verifications or [None] * len(units)
     sections = []
     for unit, verification in zip(units, verdicts, strict=True):
@@ -117,8 +121,14 @@ def _header(findings: Sequence[Finding], summary: Mapping[str, int]) -> str:
 _TILES = set(SEVERITY_WORDS.values())
 
 
-def _findings(cards: Sequence[str]) -> str:
-    content = ''.join(cards) or tag('p', 'No findings.', class_='quiet')
+def _findings(cards: Sequence[tuple[Finding, str]]) -> str:
+    """Many notes are folded, so that errors and units stay in sight."""
+    notes = [card for finding, card in cards if finding.severity is Severity.NOTE]
+    others = [card for finding, card in cards if finding.severity is not Severity.NOTE]
+    if len(notes) > MOST_NOTES:
+        summary = tag('summary', counted(len(notes), 'notes'))
+        notes = [tag('details', summary, *notes, class_='notes')]
+    content = ''.join((*others, *notes)) or tag('p', 'No findings.', class_='quiet')
     return tag('section', tag('h2', 'Findings'), content)
 
 

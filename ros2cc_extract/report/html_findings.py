@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from html import escape
 
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.findings.registry import BY_CODE
 from ros2cc_extract.findings.rule import Rule
@@ -18,6 +17,7 @@ from ros2cc_extract.report.html_parts import (
     span,
     tag,
 )
+from ros2cc_extract.verify.evidence import Evidence
 
 Timeline = Callable[[Evidence], str]
 

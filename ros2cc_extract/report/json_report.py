@@ -6,12 +6,14 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.merge import Difference
+from ros2cc_extract.spec.confidence import Summary, confidence_in
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
-from ros2cc_extract.verify import QueryResult, Verification
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.load import Load
+from ros2cc_extract.verify.unit import QueryResult, Verification
 
 Data = dict[str, Any]
 
@@ -48,10 +50,42 @@ def check_data(
     """The object of ``check``: units, verdicts, findings, summary."""
     return {
         'units': [spec_to_data(unit) for unit in units],
-        'verdicts': [verification_data(verification) for verification in verifications],
+        'verdicts': [
+            _without_cost(verification_data(verification)) for verification in verifications
+        ],
         'findings': [_finding_data(finding) for finding in findings],
         'summary': dict(summary),
+        'confidence': confidence_data(confidence_in(units)),
     }
+
+
+def confidence_data(confidence: Summary) -> Data:
+    """Counts by subject, and each unresolved fact with reason and place."""
+    counts = {
+        subject.name.lower(): {
+            'resolved': counted.resolved,
+            'assumed': dict(counted.assumed),
+            'unresolved': counted.unresolved,
+        }
+        for subject, counted in confidence.of.items()
+    }
+    unresolved = [
+        {
+            'subject': fact.subject,
+            'fact': fact.fact,
+            'reason': fact.reason,
+            'place': str(fact.source) if fact.source else None,
+        }
+        for fact in confidence.open
+    ]
+    return {**counts, 'unresolved': unresolved}
+
+
+def _without_cost(data: Data) -> Data:
+    """A check says the same on every machine; what a search costs is told by ``verify``."""
+    queries = [{k: v for k, v in query.items() if k != 'seconds'} for query in data['queries']]
+    rest = {key: value for key, value in data.items() if key not in ('seconds', 'peak_mb')}
+    return {**rest, 'queries': queries}
 
 
 def differences_data(differences: Sequence[Difference]) -> list[Data]:
@@ -81,7 +115,20 @@ def _query_data(result: QueryResult) -> Data:
         'verdict': result.verdict.value,
         'reason': result.reason,
         'seconds': result.seconds,
+        **({'load': _load_data(result.load)} if result.load else {}),
         'trace': evidence_data(result.evidence) if result.evidence else None,
+    }
+
+
+def _load_data(load: Load) -> Data:
+    return {
+        'kind': load.kind.value,
+        'words': load.words,
+        'before': load.before,
+        'own': load.own,
+        'runs': load.runs,
+        'busy': list(load.busy),
+        'unknown': list(load.unknown),
     }
 
 
@@ -120,6 +167,8 @@ def _finding_evidence(finding: Finding) -> Data:
         'chain': [_remark_data(remark) for remark in finding.chain],
         'related': [_remark_data(remark) for remark in finding.related],
         'run': evidence_data(finding.run) if finding.run else None,
+        'closing': finding.run.closing if finding.run else '',
+        'left_out': finding.run.left_out if finding.run else 0,
     }
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from ros2cc_extract.evidence import Evidence, Moment
+from ros2cc_extract.verify.evidence import Evidence, Moment
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,13 @@ def lanes_of(run: Evidence, callbacks: Iterable[str]) -> tuple[Lane, ...]:
     :param callbacks: names of the unit's callbacks, to be found in the sentences.
     """
     known = set(callbacks)
-    lanes = [Lane(process, tuple(_stays(run, process, known))) for process in run.start]
+    lanes = [Lane(process, tuple(stays_of(run, process, known))) for process in run.start]
     acting = {s.lane for moment in run.moments for s in moment.sentences}
     return tuple(lane for lane in lanes if lane.process in acting or len(lane.stays) > 1)
 
 
-def _stays(run: Evidence, process: str, callbacks: set[str]) -> Iterator[Stay]:
+def stays_of(run: Evidence, process: str, callbacks: set[str]) -> Iterator[Stay]:
+    """Cut a run into the stays of one process."""
     rest = location = run.start[process]
     since, callback = 0, None
     for moment in run.moments:

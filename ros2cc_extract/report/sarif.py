@@ -14,13 +14,14 @@ from typing import Any
 from urllib.parse import quote
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.findings.explain import page
 from ros2cc_extract.findings.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.findings.registry import RULES
 from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.places import Place
+from ros2cc_extract.report.closing import closing_lines
+from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.version import __version__
 
 Data = dict[str, Any]
@@ -111,7 +112,7 @@ def _run_flow(run: Evidence, fallback: Place, root: str) -> Data:
     """One thread flow per lane of the run, tied together by ``executionOrder``."""
     lanes = dict.fromkeys(s.lane for moment in run.moments for s in moment.sentences)
     return {
-        'message': _text('a run of the model that shows it'),
+        'message': _text('; '.join(('a run of the model that shows it', *closing_lines(run)))),
         'threadFlows': [
             {
                 'id': lane,

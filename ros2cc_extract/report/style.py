@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Sequence
 from typing import TextIO, cast
 
+from rich.cells import cell_len, set_cell_size
 from rich.console import Console
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ros2cc_extract.verify import Verdict
+from ros2cc_extract.verify.unit import Verdict
 
 LOG_WIDTH = 160
+GAP = 2
 _LINE_END_BLANKS = re.compile(r'[ \t]+(?=\n)')
 
 _COLOURS = {
@@ -55,10 +59,26 @@ class Unpadded:
 
 def table(*headers: str) -> Table:
     """Make a table without frames, which survives copying into an issue."""
-    made = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style='bold')
+    made = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0), header_style='bold')
     for header in headers:
         made.add_column(header, overflow='fold')
     return made
+
+
+def print_rows(rows: Sequence[Sequence[str]], console: Console, *, indent: int = 0) -> None:
+    """Print rows of plain text below each other as a table without headers does."""
+    widths = [max(map(cell_len, column)) for column in zip(*rows, strict=True)]
+    if indent + sum(widths) + GAP * (len(widths) - 1) <= console.width:
+        # Most rows fit, and a table takes a hundred times as long as a line.
+        for row in rows:
+            cells = (set_cell_size(cell, w) for cell, w in zip(row, widths, strict=True))
+            console.out(' ' * indent + (' ' * GAP).join(cells).rstrip(), highlight=False)
+        return
+    wrapped = table(*[''] * len(widths))
+    wrapped.show_header = False
+    for row in rows:
+        wrapped.add_row(*row)
+    console.print(Padding(wrapped, (0, 0, 0, indent)))
 
 
 def verdict_text(verdict: Verdict, reason: str | None = None) -> Text:

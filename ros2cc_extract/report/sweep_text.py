@@ -6,8 +6,8 @@ from rich.console import Console
 from rich.text import Text
 
 from ros2cc_extract.report.style import table
-from ros2cc_extract.sweep import Point, Sweep
-from ros2cc_extract.verify import Verdict
+from ros2cc_extract.verify.sweep import Point, Sweep
+from ros2cc_extract.verify.unit import Verdict
 
 _SIGNS = {
     Verdict.SATISFIED: Text('yes', style='green'),
@@ -29,6 +29,8 @@ def print_sweep(sweep: Sweep, console: Console) -> None:
     rows.add_row('', 'seconds', *(f'{v.seconds:.2f}' for v in sweep.verifications))
     console.print(f'unit {sweep.unit}: yes = satisfied, no = not satisfied, ? = undecided')
     console.print(rows)
+    for note in dict.fromkeys(note for v in sweep.verifications for note in v.notes):
+        console.print(f'  note: {note}', soft_wrap=True)
     for turn in sweep.turns():
         words = first.results[turn.query - 1].words
         bound = f' (max-cycle {turn.max_cycle})' if len(bounds) > 1 else ''
@@ -36,6 +38,9 @@ def print_sweep(sweep: Sweep, console: Console) -> None:
             f'  from {turn.threads} threads on{bound}: {words}: {turn.before.value} -> '
             f'{turn.after.value}'
         )
+    least = sweep.least_threads()
+    if least is not None:
+        console.print(f'  smallest number of threads without a dead-lock: {least}')
 
 
 def _head(point: Point, with_bound: bool) -> str:

@@ -1,19 +1,31 @@
 """
-A run for other viewers: a Mermaid sequence chart, and Chrome trace JSON, which Perfetto opens.
+A run for other viewers: a Mermaid sequence chart, Chrome trace JSON, UPPAAL's own layouts.
 
-Chrome trace format: "Trace Event Format" of the Chromium project; complete events (``X``),
-instant events (``i``) and thread names (``M``) are used.
+Chrome trace format: "Trace Event Format" of the Chromium project (document
+1CvAClvFfyA5R-PhYUmn5OOQtYMH4h6I0nSsKchNAySU at docs.google.com); complete events (``X``), instant
+events (``i``) and thread names (``M``) are used.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ros2cc_extract.evidence import Evidence, Moment
 from ros2cc_extract.report.json_report import evidence_data, to_text
+from ros2cc_extract.report.run_lanes import Stay, stays_of
+from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.uppaal.trace_xml import to_xml
+from ros2cc_extract.verify.uppaal.trace_xtr import to_xtr
 
-SUFFIXES = {'text': '.txt', 'json': '.json', 'mermaid': '.mmd', 'perfetto': '.trace.json'}
+SUFFIXES = {
+    'text': '.txt',
+    'json': '.json',
+    'mermaid': '.mmd',
+    'perfetto': '.trace.json',
+    'uppaal': '.xml',
+    'xtr': '.xtr',
+}
+UPPAAL_WRITERS = {'uppaal': to_xml, 'xtr': to_xtr}
 STEP_US = 1000
 """Drawn length of a step: the model has no time, so all steps are equally long."""
 
@@ -26,6 +38,8 @@ def write_trace(evidence: Evidence, title: str, form: str) -> str:
         return to_text(chrome_trace(evidence, title))
     if form == 'json':
         return to_text(evidence_data(evidence))
+    if form in UPPAAL_WRITERS and evidence.origin is not None:
+        return UPPAAL_WRITERS[form](evidence.origin)
     return f'{title}\n' + ''.join(_text_lines(evidence))
 
 
@@ -41,19 +55,26 @@ def _text_lines(evidence: Evidence) -> Iterator[str]:
 def mermaid(evidence: Evidence, title: str) -> str:
     """Write a sequence chart; one participant per process that acts, in order of acting."""
     lanes = dict.fromkeys(s.lane for moment in evidence.moments for s in moment.sentences)
+    names = {lane: _participant(lane, number) for number, lane in enumerate(lanes)}
     lines = ['---', f'title: "{_quoted(title)}"', '---', 'sequenceDiagram']
-    lines += [f'    participant {lane}' for lane in lanes]
+    for lane, name in names.items():
+        lines.append(f'    participant {name}' + ('' if name == lane else f' as {lane}'))
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
             lines.append('    loop for ever')
-        lines.append(f'    {_arrow(moment)}')
+        lines.append(f'    {_arrow(moment, names)}')
     if evidence.cycle_from is not None:
         lines.append('    end')
     return '\n'.join(lines) + '\n'
 
 
-def _arrow(moment: Moment) -> str:
-    lanes = [sentence.lane for sentence in moment.sentences]
+def _participant(lane: str, number: int) -> str:
+    """Stand in for names such as ``P(0)``, whose signs Mermaid reads as its own."""
+    return lane if lane.isidentifier() and lane.lower() != 'end' else f'p{number}'
+
+
+def _arrow(moment: Moment, names: Mapping[str, str]) -> str:
+    lanes = [names[sentence.lane] for sentence in moment.sentences]
     text = '<br/>'.join(_quoted(sentence.text) for sentence in moment.sentences)
     return f'{lanes[0]}->>{lanes[-1]}: {moment.number}. {text}'
 
@@ -70,14 +91,16 @@ def chrome_trace(evidence: Evidence, title: str) -> dict[str, Any]:
     A sentence stands as an instant event on the track of the process it is about.
     """
     lanes = {lane: number for number, lane in enumerate(evidence.start, start=1)}
-    end = (len(evidence.moments) + 1) * STEP_US
+    callbacks = {name for moment in evidence.moments for name, _ in moment.places}
     events = [
         {'ph': 'M', 'name': 'process_name', 'pid': 1, 'tid': 0, 'args': {'name': title}},
         *(_track(lane, number) for lane, number in lanes.items()),
     ]
     for lane, number in lanes.items():
-        events += _stays(evidence, lane, number, end)
+        events += (_slice(stay, number) for stay in stays_of(evidence, lane, callbacks))
     for moment in evidence.moments:
+        if moment.number == evidence.cycle_from:
+            events.append(_instant('from here on for ever', 'g', 0, moment.number))
         events += _said(moment, lanes)
     return {'displayTimeUnit': 'ms', 'traceEvents': events}
 
@@ -86,37 +109,25 @@ def _track(lane: str, number: int) -> dict[str, Any]:
     return {'ph': 'M', 'name': 'thread_name', 'pid': 1, 'tid': number, 'args': {'name': lane}}
 
 
-def _stays(evidence: Evidence, lane: str, number: int, end: int) -> Iterator[dict[str, Any]]:
-    location, since = evidence.start[lane], 0
-    for moment in evidence.moments:
-        changed = moment.changes.get(lane)
-        if isinstance(changed, str) and changed != location:
-            now = moment.number * STEP_US
-            yield _slice(location, number, since, now)
-            location, since = changed, now
-    yield _slice(location, number, since, end)
-
-
-def _slice(location: str, number: int, since: int, until: int) -> dict[str, Any]:
+def _slice(stay: Stay, number: int) -> dict[str, Any]:
     return {
         'ph': 'X',
-        'name': location,
+        'name': f'{stay.location}: {stay.callback}' if stay.callback else stay.location,
         'pid': 1,
         'tid': number,
-        'ts': since,
-        'dur': until - since,
+        'ts': stay.since * STEP_US,
+        'dur': (stay.until - stay.since) * STEP_US,
     }
+
+
+def _instant(name: str, scope: str, number: int, step: int) -> dict[str, Any]:
+    return {'ph': 'i', 's': scope, 'name': name, 'pid': 1, 'tid': number, 'ts': step * STEP_US}
 
 
 def _said(moment: Moment, lanes: dict[str, int]) -> Iterator[dict[str, Any]]:
     places = {name: str(place) for name, place in moment.places}
     for sentence in moment.sentences:
         yield {
-            'ph': 'i',
-            's': 't',
-            'name': sentence.text,
-            'pid': 1,
-            'tid': lanes[sentence.lane],
-            'ts': moment.number * STEP_US,
+            **_instant(sentence.text, 't', lanes[sentence.lane], moment.number),
             'args': {'step': moment.number, **places},
         }

@@ -6,12 +6,12 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from rich.console import Console
-from rich.padding import Padding
 
-from ros2cc_extract.evidence import Evidence, Moment
+from ros2cc_extract.report.closing import closing_lines
 from ros2cc_extract.report.spec_text import short
-from ros2cc_extract.report.style import table, verdict_text
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.report.style import print_rows, table, verdict_text
+from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
 LISTED_SUBJECTS = 20
 _LISTED = (
@@ -27,17 +27,23 @@ def print_table(verification: Verification, console: Console, *, details: bool) 
 
     :param details: with expression and time, as the paper's table has them.
     """
-    rows = table('  #', 'query', *(['expression', 'verdict', 'time'] if details else ['verdict']))
+    # Queries of somebody else may have no words but their expression.
+    has_words = any(result.words != result.formula for result in verification.results)
+    titles = ['expression', 'verdict', 'time'] if details else ['verdict']
+    rows = table('  #', *(['query'] if has_words or not details else []), *titles)
     for number, result in enumerate(verification.results, start=1):
         verdict = verdict_text(result.verdict, result.reason)
+        if result.load is not None:
+            verdict.append(f'; {result.load.words}', style='default')
         expert = [result.formula, verdict, f'{result.seconds:.3f} s']
-        rows.add_row(f'{number:3}', result.words, *(expert if details else [verdict]))
+        words = [result.words] if has_words or not details else []
+        rows.add_row(f'{number:3}', *words, *(expert if details else [verdict]))
     console.print(rows)
-    _print_footer(verification, console)
+    _print_footer(verification, console, details=details)
 
 
-def _print_footer(verification: Verification, console: Console) -> None:
-    console.print(f'  {_cost(verification)}')
+def _print_footer(verification: Verification, console: Console, *, details: bool) -> None:
+    console.print(f'  {_size(verification, details=details)}')
     for note in (*verification.notes, *_caveats(verification)):
         console.print(f'  note: {note}')
     for assumption in verification.assumptions:
@@ -59,7 +65,7 @@ def print_digest(verification: Verification, console: Console) -> None:
         ]
         if subjects:
             console.print(f'  {title}: {_shortened(subjects)}')
-    _print_footer(verification, console)
+    _print_footer(verification, console, details=False)
 
 
 def _by_family(verification: Verification) -> dict[str, list[QueryResult]]:
@@ -101,36 +107,37 @@ def _is_witness(result: QueryResult) -> bool:
     return result.verdict is Verdict.SATISFIED
 
 
-def _cost(verification: Verification) -> str:
+def _size(verification: Verification, *, details: bool) -> str:
     model = ' '.join(filter(None, (verification.profile, verification.text)))
     complete = '' if verification.complete else ', stopped by a limit'
+    cost = f', {verification.seconds:.3f} s, peak memory {verification.peak_mb:.0f} MB'
     return (
-        f'{verification.states} states, {verification.transitions} transitions, '
-        f'{verification.seconds:.3f} s, peak memory {verification.peak_mb:.0f} MB{complete} '
+        f'{verification.states} states, {verification.transitions} transitions'
+        f'{cost if details else ""}{complete} '
         f'({model + " model, " if model else ""}{verification.engine} checker)'
     )
 
 
 def print_run(evidence: Evidence, console: Console, *, changes: bool = False) -> None:
     """Print the steps of a run, numbered, with the places of the callbacks they name."""
-    rows = table('', '', '')
-    rows.show_header = False
+    print_rows(list(_run_rows(evidence, changes)), console, indent=2)
+    for line in closing_lines(evidence):
+        console.print(f'       {line}', soft_wrap=True)
+
+
+def _run_rows(evidence: Evidence, changes: bool) -> Iterator[tuple[str, str, str]]:
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
-            rows.add_row('', 'and then for ever:', '')
-        rows.add_row(
-            f'{moment.number:3}',
-            '; '.join(sentence.text for sentence in moment.sentences),
-            _places(moment),
-        )
+            yield '', 'and then for ever:', ''
+        words = '; '.join(sentence.text for sentence in moment.sentences)
+        yield f'{moment.number:3}', words, _places(moment)
         if changes and moment.changes:
             changed = ', '.join(f'{name} = {value}' for name, value in moment.changes.items())
-            rows.add_row('', f'[{changed}]', '')
+            yield '', f'[{changed}]', ''
     if not evidence.moments:
-        rows.add_row('', 'already the initial state shows it', '')
-    if evidence.ends:
-        rows.add_row('', _ENDS.get(evidence.ends, evidence.ends), '')
-    console.print(Padding(rows, (0, 0, 0, 2)))
+        yield '', 'already the initial state shows it', ''
+    if evidence.ends and not evidence.closing:
+        yield '', _ENDS.get(evidence.ends, evidence.ends), ''
 
 
 def _places(moment: Moment) -> str:

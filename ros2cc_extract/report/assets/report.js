@@ -23,10 +23,22 @@
     for (const card of document.querySelectorAll('.finding')) {
       card.hidden = on && card.dataset.kind !== button.dataset.filter;
     }
+    const notes = document.querySelector('.notes');
+    if (notes) notes.open = on && button.dataset.filter === 'note';
   }
   for (const button of document.querySelectorAll('.tile')) {
     button.addEventListener('click', () => filterFindings(button));
   }
+
+  function openTarget() {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const folded = target?.closest('.notes');
+    if (!folded) return;
+    folded.open = true;
+    target.scrollIntoView();
+  }
+  addEventListener('hashchange', openTarget);
+  openTarget();
 
   const SVG = 'http://www.w3.org/2000/svg';
   function svg(name, attributes) {
@@ -115,7 +127,7 @@
       const outer = make('div', 'lanes');
       const grid = make('div', 'grid');
       const rows = this.run.lanes.length + 1;
-      grid.style.gridTemplateColumns = `150px repeat(${this.last + 1}, minmax(58px, 1fr))`;
+      grid.style.gridTemplateColumns = `max-content repeat(${this.last + 1}, minmax(58px, 1fr))`;
       const corner = make('div', 'lane-name', 'step');
       corner.style.gridArea = '1 / 1';
       grid.append(corner);
@@ -144,6 +156,7 @@
 
     addLane(grid, lane, row) {
       const name = make('div', 'lane-name', lane.name);
+      name.title = lane.name;
       name.style.gridArea = `${row} / 1`;
       grid.append(name);
       for (const stay of lane.stays) {

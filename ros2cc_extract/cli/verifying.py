@@ -1,0 +1,201 @@
+"""
+Verdicts and findings of many units: from the cache, or on all cores.
+
+What travels between processes and into the cache is plain data. A run that nobody has asked
+for stays behind; whoever asks for it later has the unit verified once more.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property, partial
+from itertools import count
+from pathlib import Path
+
+import ros2cc_extract.generator.build as generator
+from ros2cc_extract.cachefile import code_version, load_value, store_value, tidy
+from ros2cc_extract.cli.progress import Meter
+from ros2cc_extract.crew import Crew, usable_cores
+from ros2cc_extract.findings.collect import findings_of_unit
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import (
+    Checker,
+    OnProgress,
+    Options,
+    QueryResult,
+    Verification,
+    verify_unit,
+)
+from ros2cc_extract.version import __version__
+
+LONGEST_JUDGEMENT_S = 10.0
+FEWEST_TO_SHARE = 4
+"""With fewer units to verify, children cost more than they save."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """
+    A unit to verify.
+
+    :param unit: as it was extracted; ``closed`` is what the model shows of it.
+    :param keeps_runs: every run is wanted, not only those that findings show.
+    """
+
+    unit: Spec
+    closed: ClosedSpec
+    options: Options
+    keeps_runs: bool
+
+    @property
+    def judging(self) -> Options | None:
+        """How findings are judged where that needs a model of its own: rclpy's executors."""
+        options = self.options
+        if options.profile is Profile.RCLPY or options.checker is not Checker.EMBEDDED:
+            return None
+        seconds = min(options.limits.seconds or LONGEST_JUDGEMENT_S, LONGEST_JUDGEMENT_S)
+        limits = replace(options.limits, seconds=seconds)
+        return replace(options, profile=Profile.RCLPY, limits=limits, structural=False)
+
+    @property
+    def key(self) -> str:
+        """Equal where nothing differs on which the answer depends."""
+        text = '\0'.join((__version__, *_code(), repr(self)))
+        return hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()
+
+
+@dataclass(frozen=True)
+class Examined:
+    """
+    What is known of a unit.
+
+    :param shown: the verdicts for the reader; ``judged`` are those that findings rest on.
+    """
+
+    shown: Verification
+    judged: Verification
+    findings: tuple[Finding, ...]
+
+    @property
+    def is_final(self) -> bool:
+        """Whether no limit of this machine has cut it short."""
+        return self.shown.complete and self.judged.complete
+
+
+def examine_all(tasks: Sequence[Task], folder: Path | None, meter: Meter) -> list[Examined]:
+    """
+    Verify every unit and find what there is to find.
+
+    :param folder: cache of earlier answers.
+    :param meter: shows how many units are done; the states too where they are verified here.
+    """
+    found = {n: known for n, task in enumerate(tasks) if (known := _load(task, folder))}
+    left = [number for number in range(len(tasks)) if number not in found]
+    size = min(usable_cores(), len(left)) if len(left) >= FEWEST_TO_SHARE else 1
+    finished = count(len(found))
+    meter.step(next(finished), len(tasks))
+
+    def answer(number: int) -> Examined:
+        task = tasks[number]
+        watch = meter.search(task.closed.spec.name) if size == 1 else None
+        examined = examine(task, watch)
+        _store(task, examined, folder)
+        return examined
+
+    with Crew(answer, size) as crew:
+        answers = crew.ask(left, done=lambda _: meter.step(next(finished), len(tasks)))
+    found.update((number, given) for number, (given, _) in zip(left, answers, strict=True))
+    if folder is not None and left:
+        tidy(folder)
+    return [_with_runs(found[number], task) for number, task in enumerate(tasks)]
+
+
+def examine(task: Task, watch: OnProgress | None = None) -> Examined:
+    """Verify one unit; runs that are not kept are told by nobody but ``_with_runs``."""
+    shown = verify_unit(task.closed, task.options, watch)
+    judged = verify_unit(task.closed, task.judging, watch) if task.judging else shown
+    findings = findings_of_unit(task.unit, judged)
+    kept = _kept(shown, task.keeps_runs)
+    return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
+
+
+def _kept(verification: Verification, with_runs: bool) -> Verification:
+    """The verification as plain data, without what differs from run to run."""
+    results = tuple(_kept_result(result, with_runs) for result in verification.results)
+    return replace(verification, seconds=0.0, peak_mb=0.0, results=results)
+
+
+def _kept_result(result: QueryResult, with_runs: bool) -> QueryResult:
+    if with_runs:
+        return replace(result, seconds=0.0, run=result.evidence)
+    return replace(result, seconds=0.0, run=_left_behind if result.run else None)
+
+
+def _left_behind() -> Evidence:
+    raise AssertionError('runs that were left behind are replaced before anybody asks')
+
+
+def _with_runs(examined: Examined, task: Task) -> Examined:
+    """Runs that were left behind can be asked for again."""
+    shown = _Again(task.closed, task.options).renew(examined.shown)
+    if task.judging is None:
+        return replace(examined, shown=shown, judged=shown)
+    judged = _Again(task.closed, task.judging).renew(examined.judged)
+    return replace(examined, shown=shown, judged=judged)
+
+
+class _Again:
+    """Verifies a unit once more, when one of its runs is asked for."""
+
+    def __init__(self, closed: ClosedSpec, options: Options) -> None:
+        self._closed = closed
+        self._options = options
+
+    def renew(self, verification: Verification) -> Verification:
+        """The same verdicts, with runs to ask for."""
+        results = tuple(
+            replace(result, run=partial(self._run, number))
+            if result.run is _left_behind
+            else result
+            for number, result in enumerate(verification.results)
+        )
+        return replace(verification, results=results)
+
+    @cached_property
+    def _verification(self) -> Verification:
+        return verify_unit(self._closed, self._options)
+
+    def _run(self, number: int) -> Evidence:
+        evidence = self._verification.results[number].evidence
+        assert evidence is not None, 'the same search finds the same run'
+        return evidence
+
+
+def _load(task: Task, folder: Path | None) -> Examined | None:
+    if folder is None or task.options.checker is not Checker.EMBEDDED:
+        return None
+    value = load_value(folder / f'{task.key}.verdicts')
+    return value if isinstance(value, Examined) else None
+
+
+def _store(task: Task, examined: Examined, folder: Path | None) -> None:
+    if folder is None or task.options.checker is not Checker.EMBEDDED:
+        return
+    if examined.is_final:
+        store_value(folder / f'{task.key}.verdicts', examined)
+
+
+@cache
+def _code() -> tuple[str, ...]:
+    """The tool's own files: a changed one may say something else."""
+    package = Path(__file__).resolve().parents[1]
+    templates = Path(generator.__file__).resolve().parent
+    roots = (package, templates)
+    folders = {folder for root in roots for folder in root.rglob('*') if folder.is_dir()}
+    return tuple(code_version(sorted({*roots, *(f for f in folders if f.name != '__pycache__')})))
