@@ -22,7 +22,7 @@ from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import write_specs
-from ros2cc_extract.verify import verify_unit
+from ros2cc_extract.verify.unit import verify_unit
 from tests.e2e.tutorial import PAGE, carried_out
 
 ROOT = Path(__file__).parents[2]
@@ -81,7 +81,8 @@ def demo_output() -> str:
 
 def shown_output() -> str:
     """Give what the README says that ``make demo`` prints."""
-    return README.read_text(encoding='utf-8').split('```')[3].removeprefix('\n')
+    after = README.read_text(encoding='utf-8').partition('$ make demo')[2]
+    return after.split('```')[2].removeprefix('\n')
 
 
 def renew_readme() -> None:

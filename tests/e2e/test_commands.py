@@ -31,6 +31,40 @@ def test_spec_is_one_valid_document_per_unit(run: Run) -> None:
     assert [c['type'] for c in document['node']['callbacks']] == ['TMR', 'TMR', 'SUB', 'SUB']
 
 
+def test_spec_lists_what_rclpy_makes_on_request(run: Run) -> None:
+    plain, full = (run('spec', CASE_1, *more).out for more in ((), ('--builtin',)))
+    assert 'builtin: true' not in plain
+    assert full.count('entity: parameter_service') == 6
+
+
+PARAMETERS = """\
+import rclpy
+from rclpy.node import Node
+
+
+class Tuned(Node):
+    def __init__(self):
+        super().__init__('tuned')
+        self.add_on_set_parameters_callback(self.on_parameters)
+
+    def on_parameters(self, parameters):
+        return None
+
+
+rclpy.init()
+rclpy.spin(Tuned())
+"""
+
+
+def test_node_with_parameter_callbacks_alone_keeps_nobody_from_being_checked(
+    run: Run, tmp_path: Path
+) -> None:
+    (tmp_path / 'tuned.py').write_text(PARAMETERS)
+    outcome = run('check', 'tuned.py', CASE_1, '--output-format', 'json')
+    assert outcome.status != 2, outcome.err
+    assert [u['node']['name'] for u in json.loads(outcome.out)['units']] == ['paper_case1']
+
+
 def test_model_writes_what_uppaal_and_the_published_tool_need(run: Run, tmp_path: Path) -> None:
     outcome = run('model', CASE_1, '-o', 'out')
     assert outcome.status == 0
@@ -84,8 +118,8 @@ def test_check_prints_units_verdicts_and_runs(run: Run) -> None:
     assert outcome.status == 0
     assert 'unit paper_case1: SingleThreadedExecutor, 1 thread' in outcome.out
     assert 'on_timer_a' in outcome.out
-    assert 'counterexample' in outcome.out
-    assert '/paper_case1/node.py:' in outcome.out
+    assert 'more runs: ros2cc-extract verify shows them' in outcome.out
+    assert 'counterexample' in run(EXAMPLES / 'two_groups' / 'node.py').out
 
 
 def test_check_keeps_what_it_made(run: Run, tmp_path: Path) -> None:
@@ -120,7 +154,7 @@ def test_a_limit_gives_undecided_and_status_3(run: Run) -> None:
 def test_json_of_check_holds_everything(run: Run) -> None:
     outcome = run(CASE_1, '--output-format', 'json')
     data = json.loads(outcome.out)
-    assert set(data) == {'units', 'verdicts', 'findings', 'summary'}
+    assert set(data) == {'units', 'verdicts', 'findings', 'summary', 'confidence'}
     assert data['summary']['units'] == 1
     assert len(data['verdicts'][0]['queries']) == 26
 
@@ -141,7 +175,26 @@ def test_a_node_that_only_publishes_is_told_and_left_out(run: Run, tmp_path: Pat
     outcome = run('talker.py')
     assert outcome.status == 0
     assert 'unit talker has no callback, left out' in outcome.err
-    assert outcome.out.startswith('1 file, 0 units')
+    assert outcome.out == (
+        '0 errors, 0 warnings, 0 notes, 0 accepted in 1 file, 0 units, 0 callbacks\n'
+    )
+
+
+def test_a_unit_left_out_says_what_could_not_be_followed(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'robot.py').write_text(
+        'import rclpy\n'
+        'from somewhere import fill\n'
+        "rclpy.init()\nnode = rclpy.create_node('robot')\n"
+        'fill(node)\n'
+        'rclpy.spin(node)\n'
+    )
+    outcome = run('robot.py')
+    assert 'unit robot has no callback in sight, left out' in outcome.err
+    assert outcome.out.splitlines()[0] == (
+        'robot.py:5:1: CC501 the node is passed to somewhere.fill, which is not scanned: '
+        'unit robot is left out, and may have callbacks'
+    )
+    assert (outcome.status, run('robot.py', '--strict').status) == (0, 3)
 
 
 def test_a_second_scan_takes_the_first_ones_result(run: Run, tmp_path: Path, cache: Path) -> None:

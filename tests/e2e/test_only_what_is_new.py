@@ -9,7 +9,7 @@ import pytest
 
 from tests.e2e.conftest import Outcome, Run
 from tests.support.packages import DEADLOCK, MENDED
-from tests.support.repositories import commit, make_repository
+from tests.support.repositories import commit, git, make_repository
 
 LINE = '        self.client.call(Trigger.Request())\n'
 
@@ -226,6 +226,45 @@ def test_the_work_tree_is_left_alone(run: Run, repository: Path) -> None:
     assert names == {'.git', 'node.py'}
 
 
+def test_what_was_mended_elsewhere_meanwhile_is_not_new_here(run: Run, repository: Path) -> None:
+    git(repository, 'branch', 'mine')
+    (repository / 'node.py').write_text(MENDED)
+    assert commit(repository, 'mend').returncode == 0
+    git(repository, 'switch', '--quiet', 'mine')
+    (repository / 'other.py').write_text('OTHER = 1\n')
+    assert commit(repository, 'add').returncode == 0
+    assert findings(check(run, '--diff-base', 'main')) == []
+
+
+def test_a_submodule_is_taken_as_the_base_has_it(
+    run: Run, repository: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    library = tmp_path_factory.mktemp('library')
+    make_repository(library)
+    (library / 'arm.py').write_text(DEADLOCK)
+    assert commit(library, 'start').returncode == 0
+    local = ('-c', 'protocol.file.allow=always')
+    added = git(repository, *local, 'submodule', 'add', '--quiet', str(library), 'deps/library')
+    assert added.returncode == 0, added.stdout
+    assert commit(repository, 'use the library').returncode == 0
+    checked = ('check', '.', '--output-format', 'json', '--diff-base', 'HEAD')
+    assert findings(run(*checked)) == []
+    (repository / 'deps' / 'library' / 'new.py').write_text(DEADLOCK)
+    assert findings(run(*checked)) == [('CC101', 44)]
+
+
+def test_a_repository_of_somebody_else_is_told_with_what_git_advises(
+    run: Run, repository: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in a container job, where the checkout belongs to another user."""
+    monkeypatch.setenv('GIT_TEST_ASSUME_DIFFERENT_OWNER', '1')
+    outcome = check(run, '--diff-base', 'HEAD')
+    assert (outcome.status, outcome.out) == (2, '')
+    (line,) = outcome.err.splitlines()
+    assert line.startswith('ros2cc-extract: error: git rev-parse: fatal: ')
+    assert line.endswith(f'; git config --global --add safe.directory {repository}')
+
+
 @pytest.mark.parametrize('revision', ['no-such-branch', '--output=stolen'])
 def test_a_revision_that_is_none_is_an_error(run: Run, repository: Path, revision: str) -> None:
     outcome = check(run, f'--diff-base={revision}')
@@ -288,3 +327,13 @@ def test_an_assumption_that_is_none_is_refused(run: Run, folder: Path, fact: str
     outcome = check(run, '--assume', fact)
     assert (outcome.status, outcome.out) == (2, '')
     assert len(outcome.err.splitlines()) == 1
+
+
+def test_comments_count_in_a_module_that_is_only_imported(run: Run, folder: Path) -> None:
+    ignored = DEADLOCK.replace(LINE, LINE.rstrip() + '  # ros2cc: ignore[CC101] known\n')
+    (folder / 'arm.py').write_text(f'# ros2cc: ignore[CC201] of another program\n{ignored}')
+    (folder / 'node.py').write_text('import rclpy\nfrom arm import main\n\nmain()\n')
+    assert LINE in DEADLOCK
+    outcome = check(run)
+    assert (outcome.status, findings(outcome)) == (0, [])
+    assert json.loads(outcome.out)['summary']['accepted'] == 1

@@ -146,7 +146,7 @@ ACTION = yaml.safe_load((ROOT / 'action.yml').read_text())
 
 
 def check_step(
-    folder: Path, tmp_path: Path, **inputs: str
+    folder: Path, tmp_path: Path, tools: Path = BIN, **inputs: str
 ) -> tuple[subprocess.CompletedProcess[str], Path]:
     """Run the checking step of the action as the runner does: its script under bash."""
     (step,) = (each for each in ACTION['runs']['steps'] if each['id'] == 'check')
@@ -159,6 +159,7 @@ def check_step(
         cwd=folder,
         env=environment(
             **variables,
+            PATH=f'{tools}{os.pathsep}{os.environ["PATH"]}',
             GITHUB_OUTPUT=str(output),
             GITHUB_STEP_SUMMARY=str(tmp_path / 'summary.md'),
         ),
@@ -191,6 +192,77 @@ def test_action_blames_a_change_only_for_what_it_adds(repository: Path, tmp_path
     done, output = check_step(repository, tmp_path, **inputs)
     assert (done.returncode, output.read_text()) == (0, 'status=0\n'), done.stderr
     assert '"ruleId": "CC101"' in (tmp_path / 'all.sarif').read_text()
+
+
+def test_action_hands_an_undecided_verdict_on(repository: Path, tmp_path: Path) -> None:
+    tool = tmp_path / 'bin' / 'ros2cc-extract'
+    tool.parent.mkdir()
+    tool.write_text('#!/bin/sh\nexit 3\n')
+    tool.chmod(0o755)
+    inputs = {'sarif-file': str(tmp_path / 'a.sarif')}
+    done, output = check_step(repository, tmp_path, tools=tool.parent, **inputs)
+    assert (done.returncode, output.read_text()) == (3, 'status=3\n'), done.stderr
+
+
+@pytest.fixture
+def shallow(repository: Path, tmp_path: Path) -> Path:
+    """As actions/checkout leaves it: one commit of a branch, on a main with a dead-lock."""
+    (repository / NODE).write_text(DEADLOCK)
+    commit(repository, 'plant a dead-lock')
+    git(repository, 'switch', '--quiet', '--create', 'feature')
+    (repository / 'README.md').write_text('An arm.')
+    commit(repository, 'say what it is')
+    clone = tmp_path / 'shallow'
+    depth = ('--depth', '1', '--single-branch', '--branch', 'feature')
+    done = git(tmp_path, 'clone', '--quiet', *depth, f'file://{repository}', str(clone))
+    assert done.returncode == 0, done.stdout
+    return clone
+
+
+def test_action_fetches_the_base_that_a_shallow_clone_has_not(
+    shallow: Path, tmp_path: Path
+) -> None:
+    done, output = check_step(shallow, tmp_path, **{'diff-base': 'origin/main'})
+    assert (done.returncode, output.read_text()) == (0, 'status=0\n'), done.stderr
+    (shallow / 'arm' / 'other.py').write_text(DEADLOCK)
+    done, _ = check_step(shallow, tmp_path, **{'diff-base': 'origin/main'})
+    errors = [line for line in done.stdout.splitlines() if line.startswith('::error')]
+    assert [line.split(',')[0] for line in errors] == ['::error file=arm/other.py']
+
+
+def test_action_tells_how_to_get_a_base_that_it_cannot_fetch(
+    shallow: Path, tmp_path: Path
+) -> None:
+    inputs = {'diff-base': 'origin/gone', 'sarif-file': str(tmp_path / 'a.sarif')}
+    done, output = check_step(shallow, tmp_path, **inputs)
+    assert (done.returncode, output.read_text()) == (2, 'status=2\n')
+    assert done.stderr.splitlines()[-1] == (
+        "ros2cc-extract: error: this shallow clone has no revision 'origin/gone'; fetch it: "
+        'git fetch --depth=1 origin BRANCH, or actions/checkout with fetch-depth: 0'
+    )
+
+
+def test_action_judges_a_push_without_a_base(shallow: Path, tmp_path: Path) -> None:
+    done, output = check_step(shallow, tmp_path, **{'diff-base': 'origin/'})
+    assert (done.returncode, output.read_text()) == (1, 'status=1\n'), done.stderr
+
+
+def test_action_takes_paths_of_several_lines(repository: Path, tmp_path: Path) -> None:
+    for name in ('one.py', 'two.py'):
+        (repository / 'arm' / name).write_text(DEADLOCK)
+    done, _ = check_step(repository, tmp_path, paths='arm/one.py\narm/two.py\n')
+    errors = [line for line in done.stdout.splitlines() if line.startswith('::error')]
+    assert [line.split(',')[0] for line in errors] == [
+        '::error file=arm/one.py',
+        '::error file=arm/two.py',
+    ]
+
+
+def test_action_reads_windows_line_ends(repository: Path, tmp_path: Path) -> None:
+    (repository / NODE).write_bytes(DEADLOCK.replace('\n', '\r\n').encode())
+    done, _ = check_step(repository, tmp_path)
+    assert done.stdout.startswith(f'::error file={NODE},line=44,col=9,title=CC101::drive waits')
+    assert '\r' not in done.stdout
 
 
 @pytest.mark.slow

@@ -20,6 +20,15 @@ def test_a_sweep_says_from_how_many_threads_on_a_verdict_turns(run: Run) -> None
     assert 'from 3 threads on' not in outcome.out
 
 
+def test_a_sweep_over_one_thread_says_why_all_columns_are_alike(run: Run) -> None:
+    node = EXAMPLES / 'default_group_only' / 'node.py'
+    outcome = run('verify', node, '--profile', 'rclpy', '--threads', '1..3')
+    assert outcome.out.splitlines()[-1] == (
+        '  note: SingleThreadedExecutor runs callbacks on one thread, whatever number is asked; '
+        'to try a pool, write kind: MultiThreadedExecutor into the specification'
+    )
+
+
 def test_a_sweep_as_json_is_a_list_in_the_order_of_the_table(run: Run) -> None:
     outcome = run(
         'verify', CASE_2, '--threads', '1..2', '--max-cycle', '1..2', '--output-format', 'json'
@@ -47,6 +56,8 @@ def test_a_range_that_is_none_is_refused(run: Run, bad: str) -> None:
         ('json', '.json', '['),
         ('mermaid', '.mmd', '---\ntitle:'),
         ('perfetto', '.trace.json', '{'),
+        ('uppaal', '.xml', '<?xml'),
+        ('xtr', '.xtr', '0 0 '),
     ],
 )
 def test_each_run_becomes_a_file(

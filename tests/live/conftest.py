@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-import fcntl
-import itertools
+import json
 import os
-import random
 import subprocess
-import sys
-import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 from child import Child
+from interpreters import EVERY_RELEASE, INTERPRETER_VARIABLE, interpreter_of
+from side_by_side import Program, RunForked
 
 from ros2cc_extract.extract.live.environment import hooked_environment
+from tests.support.domains import free_domain
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / 'launch_free_examples'
 PROBE = Path(__file__).with_name('probe.py')
-INTERPRETER_VARIABLE = 'ROS2CC_RCLPY_PYTHON'
-# The ports of domains up to 101 stay below Linux' ephemeral ports.
-DOMAINS = range(1, 102)
-# A domain is not used again soon: what a killed node announced stays known for a while.
-_DOMAINS_IN_TURN = itertools.cycle(random.sample(DOMAINS, len(DOMAINS)))
+FORKED = Path(__file__).with_name('forked.py')
+AT_ONCE = 8
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -38,26 +36,46 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope='session')
 def rclpy_python() -> str:
     """Give an interpreter that imports rclpy; skip where there is none."""
-    python = os.environ.get(INTERPRETER_VARIABLE, sys.executable)
-    tried = subprocess.run([python, '-c', 'import rclpy'], capture_output=True, check=False)
-    if tried.returncode:
-        pytest.skip(f'no rclpy in {python}; set {INTERPRETER_VARIABLE} to one that has it')
-    return python
+    return interpreter_of(INTERPRETER_VARIABLE)
 
 
 @pytest.fixture
 def domain() -> Iterator[int]:
-    """Hold a DDS domain that no other test process on this machine uses."""
-    for number in itertools.islice(_DOMAINS_IN_TURN, len(DOMAINS)):
-        path = Path(tempfile.gettempdir()) / f'ros2cc-test-domain-{number}.lock'
-        with path.open('w') as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            yield number
-            return
-    pytest.fail('all DDS domains are in use by other test processes')
+    """Hold a domain for the test."""
+    with free_domain() as number:
+        yield number
+
+
+@pytest.fixture(scope='session')
+def run_forked(rclpy_python: str) -> RunForked:
+    """Run programs side by side."""
+    return runner_by(rclpy_python)
+
+
+@pytest.fixture(scope='module', params=EVERY_RELEASE)
+def run_forked_everywhere(request: pytest.FixtureRequest) -> RunForked:
+    """Run programs side by side on each release that is there."""
+    return runner_by(interpreter_of(request.param))
+
+
+def runner_by(python: str) -> RunForked:
+    """Give what runs programs ``AT_ONCE`` at a time, each for as long as it has to."""
+
+    def run(programs: Iterable[Program]) -> dict[str, list[str]]:
+        with ExitStack() as stack:
+            domains = [stack.enter_context(free_domain()) for _ in range(AT_ONCE)]
+            found = subprocess.run(
+                [python, FORKED, ','.join(map(str, domains))],
+                input=json.dumps([asdict(program) for program in programs]),
+                env={**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'},
+                stdout=subprocess.PIPE,
+                text=True,
+                check=True,
+            )
+        told: dict[str, list[str]] = json.loads(found.stdout)
+        return told
+
+    return run
 
 
 @pytest.fixture
@@ -80,11 +98,12 @@ def start(rclpy_python: str, ros_env: dict[str, str]) -> Iterator[Callable[..., 
         *arguments: str,
         pass_fds: tuple[int, ...] = (),
         recorded_into: Path | None = None,
+        traced: bool = False,
         **variables: str,
     ) -> Child:
         env = {**ros_env, **variables}
         if recorded_into:
-            env = hooked_environment(env, recorded_into)
+            env = hooked_environment(env, recorded_into, traced=traced)
         child = Child([rclpy_python, str(program), *arguments], env, pass_fds)
         children.append(child)
         return child

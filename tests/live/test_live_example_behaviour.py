@@ -9,6 +9,8 @@ from child import Child
 from conftest import EXAMPLES
 
 Start = Callable[..., Child]
+# An answer takes milliseconds; what has none by then is taken to have none for ever.
+BLOCKED_S = 1.0
 
 
 def said(child: Child, word: str, times: int = 1) -> bool:
@@ -23,15 +25,20 @@ def test_client_gets_its_answers_on_one_thread(start_example: Start) -> None:
 
 
 def test_call_in_the_clients_own_group_never_returns(start_example: Start) -> None:
-    child = start_example('service_deadlock', '--seconds', '1.5')
-    child.end()
+    child = start_example('service_deadlock')
+    assert said(child, 'asks for the map')
+    child.sleep(BLOCKED_S)
+    child.end(signal.SIGINT)
     assert child.text.count('asks for the map') == 1
     assert 'drives' not in child.text
 
 
 def test_two_waiting_callbacks_exhaust_two_threads(start_example: Start) -> None:
-    child = start_example('pool_exhaustion', '--seconds', '1.5')
-    child.end()
+    child = start_example('pool_exhaustion')
+    assert said(child, 'left arm asks')
+    assert said(child, 'right arm asks')
+    child.sleep(BLOCKED_S)
+    child.end(signal.SIGINT)
     assert (child.text.count('left arm asks'), child.text.count('right arm asks')) == (1, 1)
     assert 'moves' not in child.text
 
@@ -53,4 +60,4 @@ def test_action_server_sees_a_cancel_while_it_works(start: Start, start_example:
 def test_two_nodes_share_an_executor(start_example: Start) -> None:
     child = start_example('two_nodes_one_executor')
     assert said(child, '[odometry]: distance 0.', 2)
-    assert child.end(signal.SIGINT) == 0
+    child.end_well(signal.SIGINT)

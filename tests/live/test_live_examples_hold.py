@@ -43,6 +43,8 @@ class Observation:
         return specs_of(self.recording)
 
 
+BUILTINS_OF_EVERY_OPTION = 46
+
 Observe = Callable[[str], Observation]
 _OBSERVED: dict[str, Observation] = {}
 
@@ -68,7 +70,7 @@ def run_under_probe(start: Callable[..., Child], program: Path, folder: Path) ->
         assert first, child.end()
         wanted = len(json.loads(first)['entities'])
         child.wait_for(lambda: written_entities(folder) >= wanted)
-        assert child.end(signal.SIGINT) == 0, child.text
+        child.end_well(signal.SIGINT)
         lines = [first, *told]
     (recording,) = read_directory(folder, io.StringIO())
     return Observation(tuple(of_probe(json.loads(line)) for line in lines), recording)
@@ -104,6 +106,47 @@ def test_hook_records_what_the_executor_holds(name: str, observe: Observe) -> No
 def test_static_and_live_specification_are_equal(name: str, observe: Observe) -> None:
     static = scan([EXAMPLES / name / 'node.py']).units
     assert [each for each in diff(static, observe(name).specs) if not each.marked] == []
+
+
+@every_example
+def test_what_rclpy_makes_by_itself_is_listed_alike(name: str, observe: Observe) -> None:
+    (spec,) = observe(name).specs
+    (static,) = scan([EXAMPLES / name / 'node.py'], lists_builtin=True).units
+    assert builtins_of(static) == builtins_of(spec)
+
+
+def test_every_option_of_a_node_that_adds_entities(
+    start: Callable[..., Child], tmp_path: Path
+) -> None:
+    program = Path(__file__).with_name('programs') / 'every_builtin.py'
+    (spec,) = run_under_probe(start, program, tmp_path).specs
+    (static,) = scan([program], lists_builtin=True).units
+    assert builtins_of(static) == builtins_of(spec)
+    assert len(builtins_of(spec)) == BUILTINS_OF_EVERY_OPTION
+
+
+def builtins_of(spec: Spec) -> list[tuple[object, ...]]:
+    """What nobody wrote, by everything that does not depend on a run, and who shares its group."""
+    members: dict[str, list[str]] = {}
+    for callback in spec.callbacks:
+        kind = callback.entity.value if callback.entity else ''
+        mate = f'{callback.node}/{callback.name}' if callback.builtin else kind
+        members.setdefault(callback.group, []).append(mate)
+    groups = {group.name: (group.type.value, group.default) for group in spec.groups}
+    return sorted(
+        (
+            c.name,
+            str(c.node),
+            str(c.entity),
+            str(c.function),
+            str(c.key),
+            str(c.source),
+            groups[c.group],
+            tuple(sorted(members[c.group])),
+        )
+        for c in spec.callbacks
+        if c.builtin
+    )
 
 
 def test_expected_specifications_say_what_the_executors_hold() -> None:

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import io
-import signal
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from child import Child
-from conftest import EXAMPLES, ROOT
+from conftest import ROOT
+from recorded import PROGRAMS, recordings_in, written
 
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.recording import Recording
-from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
 from ros2cc_extract.spec.yaml_io import read_specs, write_specs
 
-PROGRAMS = Path(__file__).with_name('programs')
 Start = Callable[..., Child]
 RunProgram = Callable[[str], 'Run']
 
@@ -55,19 +52,6 @@ def run(start: Start, tmp_path: Path) -> Callable[[str], Run]:
     return run_program
 
 
-def recordings_in(folder: Path) -> tuple[Recording, ...]:
-    return tuple(read_directory(folder, io.StringIO()))
-
-
-def timers_of(recording: Recording) -> int:
-    return sum(entity.kind == 'timer' for entity in recording.entities)
-
-
-def written(unit: Spec) -> list[Callback]:
-    """Give the callbacks somebody wrote."""
-    return [callback for callback in unit.callbacks if not callback.builtin]
-
-
 def named(unit: Spec, function: str) -> Callback:
     (found,) = [c for c in written(unit) if (c.function or '').endswith(f'.{function}')]
     return found
@@ -85,32 +69,6 @@ def test_program_behaves_the_same_with_the_hook(
     recorded = run(program)
     assert (recorded.status, recorded.text) == (without.status, without.text)
     assert {recording.losses for recording in recorded.recordings} == {0}
-
-
-def test_exception_of_a_callback_ends_the_program_as_before(start: Start, run: RunProgram) -> None:
-    child = start(PROGRAMS / 'raising.py')
-    status = child.end()
-    recorded = run('raising.py')
-    assert recorded.status == status == 1
-    assert recorded.text.splitlines()[-1] == child.lines[-1].strip()
-    assert [c.display_name for c in written(recorded.units['stuck'])] == ['tick']
-
-
-def test_ctrl_c_that_nobody_handles_ends_the_program(start: Start, tmp_path: Path) -> None:
-    child = start(PROGRAMS / 'waiting.py', '1', '1', recorded_into=tmp_path)
-    child.read_until(lambda lines: 'tick\n' in lines)
-    # KeyboardInterrupt, or an error of the executor: with or without us a race within rclpy.
-    assert child.end(signal.SIGINT) in (-signal.SIGINT, 1)
-    assert [recording.ended for recording in recordings_in(tmp_path)] == [True]
-
-
-def test_termination_that_the_program_handles_ends_it_as_before(
-    start: Start, tmp_path: Path
-) -> None:
-    child = start(EXAMPLES / 'two_groups' / 'node.py', recorded_into=tmp_path)
-    child.read_until(lambda lines: any('planned' in line for line in lines))
-    assert child.end(signal.SIGTERM) == 0
-    assert [recording.ended for recording in recordings_in(tmp_path)] == [True]
 
 
 def test_nodes_are_told_by_the_executor_they_stayed_in(run: RunProgram) -> None:
@@ -131,6 +89,10 @@ def test_events_executor_is_seen(run: RunProgram) -> None:
     assert recorded.text == 'ticks 3\n'
     assert (unit.executor.kind, len(unit.executor.threads)) == ('EventsExecutor', 1)
     assert {c.display_name for c in written(unit)} == {'tick', 'work'}
+    measured = named(unit, 'tick').measured
+    assert measured is not None
+    assert (measured.count, measured.running, measured.threads) == (3, 0, 1)
+    assert None not in (measured.period, measured.duration)
 
 
 def test_own_classes_are_named_and_unresolved(run: RunProgram) -> None:
@@ -164,7 +126,7 @@ def test_hidden_entities_and_groupless_work_are_recorded(run: RunProgram) -> Non
     (unit,) = run('everything_hidden.py').units.values()
     assert {(c.entity, c.display_name, c.key, c.when) for c in written(unit)} == {
         (EntityKind.TIMER, 'blink', None, When.CONFIGURE),
-        (EntityKind.TIMER, 'rate_', None, When.START),
+        (EntityKind.TIMER, 'rate_timer', None, When.START),
         (EntityKind.SERVICE, 'on_press', 'press', When.START),
         (EntityKind.CLIENT, 'press_client', 'press', When.START),
         (EntityKind.SUBSCRIPTION, 'on_log', 'log', When.START),
@@ -193,38 +155,6 @@ def test_entities_made_again_and_again_are_one_entry_with_a_count(run: RunProgra
     unit = run('churning.py').units['churning']
     idle = [c for c in written(unit) if c.display_name == 'idle' and c.node == 'churning']
     assert sum(c.count for c in idle if isinstance(c.count, int)) == 40
-
-
-def test_killed_process_leaves_a_whole_recording(start: Start, tmp_path: Path) -> None:
-    child = start(PROGRAMS / 'waiting.py', '50', '40', recorded_into=tmp_path)
-    child.wait_for(lambda: sum(map(timers_of, recordings_in(tmp_path))) == 2001)
-    assert child.end(signal.SIGKILL) == -signal.SIGKILL
-    (recording,) = recordings_in(tmp_path)
-    (unit,) = specs_of(recording)
-    assert not recording.ended
-    assert (len(unit.nodes), len(written(unit))) == (50, 2001)
-
-
-def test_recording_that_cannot_be_written_is_told_once(start: Start, tmp_path: Path) -> None:
-    child = start(PROGRAMS / 'waiting.py', '1', '1', recorded_into=tmp_path / 'missing')
-    complaint = 'the node runs on, its recording is tried again every 5 s'
-    child.read_until(lambda lines: any(complaint in line for line in lines))
-    ticks = child.text.count('tick')
-    child.read_until(lambda lines: sum('tick' in line for line in lines) > ticks + 3)
-    assert child.end(signal.SIGINT) != 0
-    assert child.text.count(complaint) == 1
-
-
-def test_failing_hook_changes_nothing_but_the_count_of_losses(
-    start: Start, tmp_path: Path
-) -> None:
-    without = start(PROGRAMS / 'moving_nodes.py')
-    without.end()
-    child = start(PROGRAMS / 'broken_hook.py', 'moving_nodes.py', recorded_into=tmp_path)
-    assert (child.end(), child.text) == (0, without.text)
-    (recording,) = recordings_in(tmp_path)
-    assert recording.losses > 20
-    assert recording.last_losses[-1] == "RuntimeError('broken on purpose')"
 
 
 def test_import_of_one_module_is_enough(start: Start, tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from child import Child
 from conftest import EXAMPLES, ROOT
+from recorded import PROGRAMS
 
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.errors import InputError, ToolNotFoundError
@@ -92,8 +93,8 @@ def test_full_disk_is_told_and_the_old_file_kept(
     output = tmp_path / 'live.yaml'
     output.write_text('what was there')
     (tmp_path / 'live.yaml.new').symlink_to('/dev/full')
-    node = str(EXAMPLES / 'default_group_only' / 'node.py')
-    status, told = run_here([rclpy_python, node, '--seconds', '1'], output, ros_env)
+    node = str(PROGRAMS / 'own_classes.py')
+    status, told = run_here([rclpy_python, node], output, ros_env)
     assert status == 2
     assert told == f'{output}: cannot be written: No space left on device\n'
     assert output.read_text() == 'what was there'
@@ -104,14 +105,14 @@ def test_shell_script_with_two_nodes_gives_a_file_each(
 ) -> None:
     script = tmp_path / 'both.sh'
     script.write_text(
-        f'{rclpy_python} {EXAMPLES}/paper_publisher/node.py --seconds 1 &\n'
-        f'{rclpy_python} {EXAMPLES}/default_group_only/node.py --seconds 1\nwait\n'
+        f'{rclpy_python} {PROGRAMS}/churning.py &\n'
+        f'{rclpy_python} {PROGRAMS}/own_classes.py\nwait\n'
     )
     folder = tmp_path / 'specs'
     folder.mkdir()
     assert run_here(['sh', str(script)], folder, ros_env) == (0, '')
     units = [spec.name for path in folder.glob('*.spec.yaml') for spec in load_specs(path)]
-    assert sorted(units) == ['battery_watch', 'paper_publisher']
+    assert sorted(units) == ['careful', 'churning']
 
 
 def test_command_without_a_node_is_told(ros_env: dict[str, str], tmp_path: Path) -> None:
@@ -138,12 +139,31 @@ def test_nodes_switched_on_by_env_are_collected_by_the_command_line(
     folder, output, trace = tmp_path / 'recordings', tmp_path / 'live.yaml', tmp_path / 'run.jsonl'
     said = io.StringIO()
     assert main(['env', '--trace', '-o', str(folder)], said, io.StringIO()) == 0
-    node = f'{rclpy_python} {EXAMPLES}/default_group_only/node.py --seconds 2'
+    node = f'{rclpy_python} {PROGRAMS}/own_classes.py'
     subprocess.run(['sh', '-c', f'{said.getvalue()}{node}'], env=ros_env, check=True)
     collect = ['collect', str(folder), '-o', str(output), '--trace', str(trace)]
     assert main(collect, io.StringIO(), io.StringIO()) == 0
-    assert [unit.name for unit in load_specs(output)] == ['battery_watch']
+    assert [unit.name for unit in load_specs(output)] == ['careful']
     assert '"event": "begin"' in trace.read_text()
+
+
+def test_units_of_files_that_were_not_scanned_are_no_difference(
+    ros_env: dict[str, str],
+    tmp_path: Path,
+    rclpy_python: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name, value in ros_env.items():
+        monkeypatch.setenv(name, value)
+    names = ('own_classes.py', 'moving_nodes.py', 'own_classes.py')
+    nodes = [f'{rclpy_python} {PROGRAMS / name}' for name in names]
+    said = io.StringIO()
+    checked = ['run', '-o', str(tmp_path / 'live.yaml'), '--check', str(PROGRAMS / names[0])]
+    assert main([*checked, '--', 'sh', '-c', ' & '.join([*nodes, 'wait'])], said, said) == 0
+    assert said.getvalue().splitlines()[-2:] == [
+        'not scanned: moving_nodes of tests/live/programs/moving_nodes.py',
+        'not scanned: base of tests/live/programs/moving_nodes.py',
+    ]
 
 
 def test_directory_without_recordings_is_told(tmp_path: Path) -> None:

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Mapping, Sequence
+import signal
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
+from child import Child
 from conftest import EXAMPLES
+from recorded import recordings_in
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live.run import run_command
+from ros2cc_extract.extract.live.run import collect_directory, run_command
+from ros2cc_extract.extract.live.trace import read_trace
 
 PROGRAMS = Path(__file__).with_name('programs')
 Lines = Sequence[Mapping[str, Any]]
 
 
-def trace_of(
-    program: Path, arguments: Sequence[str], env: Mapping[str, str], folder: Path, python: str
-) -> Lines:
+def trace_of(program: Path, env: Mapping[str, str], folder: Path, python: str) -> Lines:
     trace = folder / 'run.jsonl'
     status = run_command(
-        [python, str(program), *arguments],
+        [python, str(program)],
         folder / 'live.yaml',
         io.StringIO(),
         trace=trace,
@@ -34,9 +36,17 @@ def trace_of(
 
 
 @pytest.fixture
-def two_groups(rclpy_python: str, ros_env: dict[str, str], tmp_path: Path) -> Lines:
+def two_groups(start: Callable[..., Child], tmp_path: Path) -> Lines:
+    """Trace an example until it has planned twice; its other timer is ten times as fast."""
+    folder, trace = tmp_path / 'recordings', tmp_path / 'run.jsonl'
+    folder.mkdir()
     node = EXAMPLES / 'two_groups' / 'node.py'
-    return trace_of(node, ['--seconds', '1.5'], ros_env, tmp_path, rclpy_python)
+    child = start(node, recorded_into=folder, traced=True)
+    child.read_until(lambda lines: sum('planned' in line for line in lines) == 2)
+    child.end_well(signal.SIGINT)
+    stderr = io.StringIO()
+    assert collect_directory(folder, tmp_path / 'live.yaml', stderr, trace=trace) == 0
+    return [json.loads(line) for line in trace.read_text().splitlines()]
 
 
 def events_of(lines: Lines, name: str) -> list[str]:
@@ -48,7 +58,7 @@ def events_of(lines: Lines, name: str) -> list[str]:
 
 def test_callback_is_collected_begun_taken_ended(two_groups: Lines) -> None:
     steps = events_of(two_groups, 'plan')
-    assert steps[:4] == ['collect', 'begin', 'take', 'end']
+    assert steps[:5] == ['collect', 'submit', 'begin', 'take', 'end']
 
 
 def test_two_members_of_an_exclusive_group_never_overlap(two_groups: Lines) -> None:
@@ -77,9 +87,43 @@ def test_work_outside_every_group_is_traced(
     rclpy_python: str, ros_env: dict[str, str], tmp_path: Path
 ) -> None:
     program = PROGRAMS / 'everything_hidden.py'
-    lines = trace_of(program, [], ros_env, tmp_path, rclpy_python)
+    lines = trace_of(program, ros_env, tmp_path, rclpy_python)
     assert events_of(lines, 'work_later') == ['task', 'run', 'pause']
     assert events_of(lines, 'on_answer') == ['task', 'run', 'pause']
+
+
+def test_executor_waits_and_is_woken_in_turn(two_groups: Lines) -> None:
+    (executor,) = [line for line in two_groups if line.get('kind') == 'executor']
+    assert (executor['name'], executor['threads']) == ('MultiThreadedExecutor', 2)
+    number = executor['entity']
+    steps = [x['event'] for x in two_groups if 'event' in x and x['entity'] == number]
+    assert steps[:4] == ['wait>', 'wait<', 'wait>', 'wait<']
+    assert set(zip(steps[::2], steps[1::2], strict=False)) == {('wait>', 'wait<')}
+
+
+def test_waits_of_each_process_are_traced(start: Callable[..., Child], tmp_path: Path) -> None:
+    child = start(PROGRAMS / 'forking.py', recorded_into=tmp_path, traced=True)
+    assert child.end() == 4, child.text
+    traces = [read_trace(recording) for recording in recordings_in(tmp_path)]
+    waited = ['wait>' in {event.event for event in trace.events} for trace in traces if trace]
+    assert waited == [True] * 3
+
+
+def test_coroutine_is_suspended_and_resumed_once_however_often_it_is_asked(
+    rclpy_python: str, ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    lines = trace_of(PROGRAMS / 'awaiting.py', ros_env, tmp_path, rclpy_python)
+    steps = events_of(lines, 'await_readiness')
+    assert steps == ['collect', 'submit', 'begin', 'take', 'suspend', 'resume', 'end']
+
+
+def test_handler_that_another_thread_holds_is_not_paused(
+    ros_env: Mapping[str, str], rclpy_python: str, tmp_path: Path
+) -> None:
+    lines = trace_of(PROGRAMS / 'called_in_vain.py', ros_env, tmp_path, rclpy_python)
+    told = [line for line in lines if 'event' in line]
+    assert {'begin', 'end'} <= {line['event'] for line in told}
+    assert not [line for line in told if line['event'] in ('suspend', 'resume')]
 
 
 def test_trace_into_a_directory_is_refused(tmp_path: Path) -> None:

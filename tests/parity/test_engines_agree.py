@@ -69,7 +69,7 @@ def models_of(block: int) -> Iterator[tuple[int, RandomModel]]:
         network = read_model(model.text, 'random.xml')
         invariant = [Query('A[] not deadlock or deadlock', '', None)]
         size = check(network, invariant, reduction=False, limits=Limits(states=SMALL))
-        if size.states <= SMALL:
+        if size.complete:
             yield seed, model
 
 

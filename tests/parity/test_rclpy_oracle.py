@@ -167,6 +167,8 @@ def steps_of_the_model(unit: ClosedSpec, arrivals: int) -> set[Step]:
     semantics = Semantics(network)
     place = {variable.name: index for index, variable in enumerate(network.variables)}
     numbers = range(len(unit.spec.callbacks))
+    # An executor without a pool has one, however many its unit names.
+    threads = range(sum(name.startswith('thread_running[') for name in place))
 
     def is_whole(state: State) -> bool:
         locations = zip(network.processes, state.locations, strict=True)
@@ -176,7 +178,6 @@ def steps_of_the_model(unit: ClosedSpec, arrivals: int) -> set[Step]:
         def value(name: str) -> int:
             return state.values[place[name]]
 
-        threads = range(len(unit.spec.executor.threads))
         queue, size = QUEUES.get(str(unit.spec.executor.kind), ('', ''))
         queued = range(value(size)) if size else ()
         view = View(

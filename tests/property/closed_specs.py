@@ -7,6 +7,7 @@ from random import Random
 
 from hypothesis import strategies
 
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.model import (
     Blocking,
@@ -79,3 +80,45 @@ def _enrich(callback: Callback, names: list[str], random: Random) -> Callback:
             for _ in range(waits)
         ),
     )
+
+
+def random_spinning_unit(
+    random: Random, *, callbacks: int, groups: int, threads: int
+) -> ClosedSpec:
+    """Draw a unit in which some also spin an executor, or wait for what no callback gives."""
+    unit = random_rclpy_unit(random, callbacks=callbacks, groups=groups, threads=threads)
+    spec = unit.spec
+    kind = random.choice(_EXECUTORS[:2])
+    spun = random.choice(('rclpy.spin', 'spin')) if kind == _EXECUTORS[0] else 'spin'
+    rclpy = random.choice(('7.1.6', '7.1.6', '7.1.6', '7.1.9'))
+    served = [_with_spin(callback, spec, random) for callback in spec.callbacks]
+    return replace(
+        unit,
+        spec=replace(
+            spec,
+            callbacks=tuple(served),
+            executor=replace(spec.executor, kind=kind, spun=spun),
+            rclpy=rclpy,
+        ),
+    )
+
+
+def _with_spin(callback: Callback, spec: Spec, random: Random) -> Callback:
+    """One of two callbacks does so, at most once."""
+    source = Place(f'{callback.name}.py', 1)
+    other = random.choice(spec.callbacks)
+    seconds = random.choice((None, 0.5))
+    spun = random.choice((('rclpy', callback.node), ('executor', spec.executor.name)))
+    how, on = f'{spun[0]}.', spun[1]
+    until = Blocking(call=f'{how}spin_until_future_complete', on=on, source=source)
+    choices = (
+        (until, Blocking(call='spin for future', on=other.name, seconds=seconds, source=source)),
+        (until, Blocking(call='spin for future', on=other.name, seconds=seconds, source=source)),
+        (Blocking(call=f'{how}spin_once', on=on, seconds=seconds, source=source),),
+        (Blocking(call=f'{how}spin', on=on, source=source),),
+        (Blocking(call='wait_for_service', on=other.name, source=source),),
+        (Blocking(call='await', on='future', foreign=True, source=source),),
+    )
+    if random.random() < 0.5:
+        return callback
+    return replace(callback, blocking=random.choice(choices))

@@ -1,86 +1,102 @@
 """
 The compact text of a profile gives the verdicts of its plain text: shown unit by unit.
 
-Units are drawn by number, so that one that disagrees can be drawn again. Where the plain text
-is too large to be explored in full, the queries it decided are compared.
+The same on thousands of units: ``make texts``.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from dataclasses import dataclass
-from random import Random
+from pathlib import Path
 
 import pytest
-from closed_specs import random_rclpy_unit, random_unit
+from compared_texts import (
+    Case,
+    Comparison,
+    Effort,
+    compare,
+    compare_series,
+    digest,
+    paper_case,
+    rclpy_case,
+    read_record,
+    sum_up,
+)
 
-from ros2cc_extract.checker.api import Fairness, Limits, Verdict, check, read_model
-from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.generator import build
 
-
-@dataclass(frozen=True)
-class Case:
-    """A drawn unit; without a bound on arrivals only fair runs count."""
-
-    unit: ClosedSpec
-    profile: Profile
-    max_cycle: int | None
-
-
-def paper_case(number: int) -> Case:
-    random = Random(number)
-    max_cycle = random.choice((1, 2, 3, None))
-    unit = random_unit(random, callbacks=4, groups=3, threads=3)
-    return Case(unit, Profile.PAPER, max_cycle)
-
-
-def rclpy_case(number: int) -> Case:
-    random = Random(number)
-    max_cycle = random.choice((1, 1, 2, None))
-    unit = random_rclpy_unit(random, callbacks=4, groups=3, threads=3)
-    return Case(unit, Profile.RCLPY, max_cycle)
-
-
-def verdicts(case: Case, text: Text, states: int) -> dict[str, Verdict]:
-    """Verdict by formula, from an exploration of at most so many states."""
-    model = render(case.unit, profile=case.profile, text=text, max_cycle=case.max_cycle)
-    read = read_model(model.xml, f'{model.name}.xml')
-    fairness = Fairness.WEAK if case.max_cycle is None else Fairness.NONE
-    limits = Limits(states=states)
-    result = check(read, read.queries, limits=limits, fairness=fairness, reduction=False)
-    return {answer.query.formula: answer.verdict for answer in result.answers}
-
-
-def disagreements(case: Case, states: int) -> tuple[bool, dict[str, tuple[str, str]]]:
-    """Whether the unit was decided in full, and formula to plain and compact verdict."""
-    plain, compact = (verdicts(case, text, states) for text in Text)
-    decided = {f: v for f, v in plain.items() if v is not Verdict.UNDECIDED}
-    return len(decided) == len(plain), {
-        formula: (verdict.value, compact[formula].value)
-        for formula, verdict in decided.items()
-        if verdict is not compact[formula]
-    }
-
-
-def assert_agreement(
-    draw: Callable[[int], Case], numbers: range, enough: int, states: int
-) -> None:
-    """Compare units until ``enough`` of them were decided in full."""
-    full = 0
-    for number in numbers:
-        is_full, differing = disagreements(draw(number), states)
-        assert not differing, f'unit {number}: {differing}'
-        full += is_full
-        if full == enough:
-            return
-    pytest.fail(f'only {full} of {enough} units were small enough')
+SMALL = Effort(states=8_000)
+#: A unit of profile rclpy whose texts differ if only one callback may get data.
+OVERLAPPING = 1_019
+NUMBERS = range(1_000, 1_004)
 
 
 @pytest.mark.parametrize('draw', [paper_case, rclpy_case])
-def test_texts_agree_on_small_units(draw: Callable[[int], Case]):
-    assert_agreement(draw, range(1_000), enough=40, states=8_000)
+def test_texts_agree_on_small_units(draw: Callable[[int], Case]) -> None:
+    decided, number = 0, 0
+    while decided < 50:
+        found = compare(number, draw(number), SMALL)
+        assert not found.differing, f'unit {number}: {found.differing}'
+        decided += not found.open
+        number += 1
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize('draw', [paper_case, rclpy_case])
-def test_texts_agree_on_two_thousand_units(draw: Callable[[int], Case]):
-    assert_agreement(draw, range(1_000, 10_000), enough=2_000, states=400_000)
+def test_texts_that_differ_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = rclpy_case(OVERLAPPING)
+    assert not compare(OVERLAPPING, case, SMALL).differing
+    monkeypatch.setattr(build, 'CALLBACKS_IN_PLAY', 1)
+    found = compare(OVERLAPPING, case, SMALL)
+    assert ('not satisfied', 'satisfied') in found.differing.values()
+    assert f'units that differ: {{{OVERLAPPING}: ' in sum_up('rclpy', [found])
+
+
+def test_what_limits_leave_open_is_no_agreement() -> None:
+    found = compare(OVERLAPPING, rclpy_case(OVERLAPPING), Effort(states=5))
+    assert found.open
+    assert not found.differing
+    told = sum_up('rclpy', [found])
+    assert f'0 decided in full (0 with reductions), 1 not [{OVERLAPPING}]; ' in told
+
+
+def test_a_series_goes_on_where_it_was_cut(tmp_path: Path) -> None:
+    record = tmp_path / 'record.jsonl'
+    whole = compare_series('rclpy', NUMBERS, SMALL, record, float('inf'))
+    lines = record.read_text().strip().splitlines()
+    record.write_text('\n'.join([*lines[:2], lines[2][:-5]]))
+    assert compare_series('rclpy', NUMBERS, SMALL, record, seconds=-1) == whole[:2]
+    again = compare_series('rclpy', NUMBERS, SMALL, record, float('inf'))
+    assert sorted(again, key=lambda each: each.number) == whole
+    assert list(read_record(record).values()) == whole
+
+
+def test_a_record_of_other_texts_counts_for_nothing(tmp_path: Path) -> None:
+    record = tmp_path / 'record.jsonl'
+    compare_series('rclpy', NUMBERS, SMALL, record, float('inf'))
+    record.write_text(record.read_text().replace(digest(rclpy_case(1_002)), 'of another'))
+    kept = compare_series('rclpy', NUMBERS, SMALL, record, seconds=-1)
+    assert [each.number for each in kept] == [1_000, 1_001, 1_003]
+
+
+def test_only_what_was_left_open_is_tried_again_with_more_states(tmp_path: Path) -> None:
+    record = tmp_path / 'record.jsonl'
+    numbers = range(OVERLAPPING - 3, OVERLAPPING + 1)
+    few, more = Effort(states=50), Effort(states=100)
+    found = compare_series('rclpy', numbers, few, record, float('inf'))
+    is_open = {each.number: bool(each.open) for each in found}
+    assert set(is_open.values()) == {True, False}
+    kept = {each.number for each in compare_series('rclpy', numbers, more, record, seconds=-1)}
+    assert kept == {number for number in numbers if not is_open[number]}
+    fewer = compare_series('rclpy', numbers, Effort(states=40), record, seconds=-1)
+    assert fewer == found
+
+
+def test_what_came_of_a_series_is_told() -> None:
+    found = [
+        Comparison(1, 'a', 9, queries=8),
+        Comparison(2, 'b', 9, queries=10, is_reduced=True),
+        Comparison(3, 'c', 9, queries=7, is_reduced=True, open=['A[] p', 'E<> q']),
+    ]
+    assert sum_up('rclpy', found) == (
+        'profile rclpy, plain and compact text of 3 units: 2 decided in full (1 with reductions), '
+        '1 not [3]; 23 of 25 verdicts compared, units that differ: none'
+    )

@@ -46,7 +46,7 @@ if __name__ == '__main__':
 #     writes A.value update under lock @21
 #     writes A.value under lock, other @23
 #     locks lock @20
-#     locks other @22
+#     locks other holding lock @22
 #   subscription on_in in a_default key=in
 #     writes A.value under lock @28
 #     writes A.value @30

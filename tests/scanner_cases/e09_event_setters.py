@@ -55,4 +55,4 @@ if __name__ == '__main__':
 #     changes done_callback @27
 #   subscription on_in in a_default key=in
 #   client go_client in a_default key=go
-#   done_callback lambda_set in no_group (A.wait.<locals>.<lambda>) conditional when=callback
+#   done_callback lambda_set in no_group (A.wait.<locals>.<lambda>) key=go conditional when=callback

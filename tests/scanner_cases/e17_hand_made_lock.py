@@ -93,12 +93,12 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer read in a_default every 1
 #     reads A.rw @63
-#     reads A.value under rw @64
-#     reads A.rw under rw @66
+#     reads A.value under rw (shared) @64
+#     reads A.rw under rw (shared) @66
 #     reads A.value @67
 #     writes ReadWriteLock.readers update under free @63>16
-#     writes A.seen @65
-#     writes ReadWriteLock.readers update under free @66>20
+#     writes A.seen under rw (shared) @65
+#     writes ReadWriteLock.readers update under rw (shared), free @66>20
 #     locks free @63>15
 #     locks free @66>19
 #   timer write in a_default every 1

@@ -43,6 +43,6 @@ if __name__ == '__main__':
 #   timer send in a_default every 1
 #     changes done_callback @18
 #   action_client fibonacci_action_client in a_default (A.on_feedback) key=fibonacci
-#   done_callback on_goal in no_group conditional when=callback
+#   done_callback on_goal in no_group key=fibonacci conditional when=callback
 #     changes done_callback @25
-#   done_callback on_result in no_group conditional when=callback
+#   done_callback on_result in no_group key=fibonacci conditional when=callback

@@ -34,4 +34,4 @@ if __name__ == '__main__':
 #   timer ask in a_default every 1
 #     changes done_callback @16
 #   client go_client in a_default key=go
-#   done_callback on_answer in no_group conditional when=callback
+#   done_callback on_answer in no_group key=go conditional when=callback

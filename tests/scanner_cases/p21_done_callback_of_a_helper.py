@@ -43,5 +43,5 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   client other_client in a_default key=other
-#   done_callback on_done in no_group conditional when=later
-#   done_callback on_other in no_group conditional when=later
+#   done_callback on_done in no_group key=other conditional when=later
+#   done_callback on_other in no_group key=other conditional when=later

@@ -35,5 +35,5 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   client go_client in a_default key=go
-#   done_callback on_answer in no_group
-#   done_callback lambda_on_other in no_group (A.__init__.<locals>.<lambda>)
+#   done_callback on_answer in no_group key=go
+#   done_callback lambda_on_other in no_group (A.__init__.<locals>.<lambda>) key=go

@@ -1,4 +1,5 @@
 """P33: looking a transform up with a timeout holds the thread; without one it does not."""
+# live: no, tf2 is not among the wheels
 
 import rclpy
 from rclpy.duration import Duration
@@ -43,7 +44,7 @@ if __name__ == '__main__':
 #   subscription tf_callback in tf key=/tf library=tf2_ros.TransformListener
 #   subscription tf_static_callback in tf key=/tf_static library=tf2_ros.TransformListener
 #   service where in a_default key=where
-#     blocks Buffer.lookup_transform on tf 2.0 s @20
-#     blocks Buffer.can_transform on tf 1.5 s @22
-#     blocks Buffer.transform on tf ? s @23
-#     blocks Buffer.transform on tf 1e-06 s @24
+#     blocks Buffer.lookup_transform on tf_callback 2.0 s @21
+#     blocks Buffer.can_transform on tf_callback 1.5 s @23
+#     blocks Buffer.transform on tf_callback ? s @24
+#     blocks Buffer.transform on tf_callback 1e-06 s @25

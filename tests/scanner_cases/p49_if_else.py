@@ -33,5 +33,5 @@ if __name__ == '__main__':
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
-#   timer on_timer in a_default every 0.1 conditional alternative@13
-#   subscription on_clock in a_default key=/clock conditional alternative@13
+#   timer on_timer in a_default every 0.1 conditional alternative@13.1
+#   subscription on_clock in a_default key=/clock conditional alternative@13.0

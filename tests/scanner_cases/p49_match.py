@@ -33,5 +33,5 @@ if __name__ == '__main__':
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
-#   timer x in a_default every 0.1 conditional alternative@12
-#   timer y in a_default every 0.2 conditional alternative@12
+#   timer x in a_default every 0.1 conditional alternative@12.0
+#   timer y in a_default every 0.2 conditional alternative@12.1

@@ -31,7 +31,7 @@ if __name__ == '__main__':
 #   timer ask in a_default every 1
 #     blocks rclpy.spin_until_future_complete on a @16
 #     blocks spin for future on other_client @16
-#     blocks rclpy.spin_once on a @17
+#     blocks rclpy.spin_once on a 0.1 s @17
 #     changes rclpy.spin_until_future_complete @16
 #     changes rclpy.spin_once @17
 #   client other_client in a_default key=other

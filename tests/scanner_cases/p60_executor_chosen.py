@@ -29,9 +29,9 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit a: MultiThreadedExecutor x2 spin, main
+# unit a: MultiThreadedExecutor x2 spin alternative@25.0, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
-# unit a: SingleThreadedExecutor x1 spin, main
+# unit a: SingleThreadedExecutor x1 spin alternative@25.1, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5

@@ -41,10 +41,10 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit a: MultiThreadedExecutor x2 spin, main
+# unit a: MultiThreadedExecutor x2 spin alternative@32.0, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
-# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+# unit a: SingleThreadedExecutor x1 rclpy.spin alternative@32.1, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
 # unit b: no executor

@@ -59,11 +59,11 @@ if __name__ == '__main__':
 # unit replaced_and_read: MultiThreadedExecutor x3 spin, main
 #   nodes replaced, read
 #   group replaced_default EXCLUSIVE default
-#   group default_callback_group REENTRANT
+#   group _default_callback_group REENTRANT
 #   group read_default EXCLUSIVE default
 #   timer before in replaced_default every 1 node=replaced
-#   timer tick in default_callback_group every 1 node=replaced
-#   subscription on_in in default_callback_group key=in node=replaced
-#   subscription on_none in default_callback_group key=none node=replaced
+#   timer tick in _default_callback_group every 1 node=replaced
+#   subscription on_in in _default_callback_group key=in node=replaced
+#   subscription on_none in _default_callback_group key=none node=replaced
 #   timer plain in read_default every 1 node=read
 #   timer named in read_default every 1 node=read

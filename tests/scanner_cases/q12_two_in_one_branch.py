@@ -38,6 +38,6 @@ if __name__ == '__main__':
 # expect:
 # unit a: MultiThreadedExecutor x2 spin, main
 #   group a_default EXCLUSIVE default
-#   timer one in a_default every 0.1 conditional alternative@12
-#   timer two in a_default every 0.2 conditional alternative@12
-#   timer three in a_default every 0.3 conditional alternative@12
+#   timer one in a_default every 0.1 conditional alternative@12.0
+#   timer two in a_default every 0.2 conditional alternative@12.0
+#   timer three in a_default every 0.3 conditional alternative@12.1

@@ -42,12 +42,12 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit first: SingleThreadedExecutor x1 rclpy.spin, main
+# unit first: SingleThreadedExecutor x1 rclpy.spin alternative@38.0, main
 #   group first_default EXCLUSIVE default
 #   timer tick in first_default every 1
 #   subscription x_print in first_default (print) key=x conditional
 #   subscription y_print in first_default (print) key=y conditional
-# unit first: SingleThreadedExecutor x1 rclpy.spin, main
+# unit first: SingleThreadedExecutor x1 rclpy.spin alternative@38.1, main
 #   group first_default EXCLUSIVE default
 #   timer tick in first_default every 1
 #   subscription x_print in first_default (print) key=x conditional

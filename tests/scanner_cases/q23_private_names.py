@@ -25,5 +25,5 @@ if __name__ == '__main__':
 
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
-#   group group REENTRANT
-#   timer cb in group (A.__cb) every 0.5
+#   group __group REENTRANT
+#   timer __cb in __group every 0.5

@@ -40,5 +40,5 @@ if __name__ == '__main__':
 
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
-#   group group REENTRANT
-#   subscription on_in in group key=in
+#   group _group REENTRANT
+#   subscription on_in in _group key=in

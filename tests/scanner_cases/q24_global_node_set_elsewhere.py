@@ -31,7 +31,7 @@ class Later:
 # expect:
 # unit params: SingleThreadedExecutor x1 rclpy.spin_until_future_complete
 #   group params_default EXCLUSIVE default
-#   client one_x_client in params_default key=one/x
+#   client one_x_client in params_default key=one/x conditional when=later
 # unit node: no executor
 #   group node_default EXCLUSIVE default
 #   timer print in node_default every 1 node=? conditional when=later

@@ -38,9 +38,9 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit a: SingleThreadedExecutor x1 rclpy.spin, main
+# unit a: SingleThreadedExecutor x1 rclpy.spin alternative@34.0, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
-# unit b: SingleThreadedExecutor x1 rclpy.spin, main
+# unit b: SingleThreadedExecutor x1 rclpy.spin alternative@34.1, main
 #   group b_default EXCLUSIVE default
 #   timer tock in b_default every 0.7

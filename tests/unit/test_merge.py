@@ -147,6 +147,18 @@ def test_units_pair_by_the_nodes_they_share() -> None:
     assert (left, right) == ([], [])
 
 
+def test_node_started_under_another_name_is_the_same_node() -> None:
+    callbacks = tuple(replace(c, node='left_arm') for c in LIVE.callbacks)
+    renamed = replace(LIVE, name='left_arm', nodes=('left_arm',), callbacks=callbacks)
+    (difference,) = diff([STATIC], [renamed])
+    told = (difference.fact, difference.left, difference.right, difference.marked)
+    assert told == ('node', 'arm', 'left_arm', True)
+    assert merge_units(STATIC, renamed).nodes == ('arm',)
+    other = replace(renamed, callbacks=(replace(callbacks[0], function='leg.Leg.kick'),))
+    bare = replace(renamed, callbacks=())
+    assert match_units([STATIC], [other, bare])[0] == []
+
+
 def test_merging_fills_what_the_source_does_not_know() -> None:
     static = replace(
         STATIC,

@@ -1,19 +1,73 @@
-"""Runs a program of this folder with a hook whose every recording function raises."""
+"""Runs a program of this folder with a hook that is broken: WHAT PROGRAM, see ``BREAKS``."""
 
+import gc
 import runpy
 import sys
+from collections import deque
 from pathlib import Path
 
-hook = sys.modules['_ros2cc_live.hook']
-recorder = sys.modules['_ros2cc_live.record'].Recorder
+modules = {name: sys.modules[f'_ros2cc_live.{name}'] for name in ('hook', 'record', 'writer')}
+(hook,) = [each for each in gc.get_objects() if type(each) is modules['hook'].Hook]
 
 
 def fail(*arguments: object, **named: object) -> None:
     raise RuntimeError('broken on purpose')
 
 
-for name in ('note_added', 'note_removed', 'note_entity', 'note_task', 'look_around'):
-    setattr(recorder, name, fail)
-hook.trace_creation = fail
-program = Path(__file__).with_name(sys.argv[1])
+class BrokenEvents(deque):  # type: ignore[type-arg]
+    """Takes nothing in."""
+
+    append = fail
+
+
+class BrokenEntities(dict):  # type: ignore[type-arg]
+    """Knows nobody."""
+
+    get = fail
+
+
+class BrokenLock:
+    """Can never be had."""
+
+    __enter__ = __exit__ = fail
+
+
+def break_notes() -> None:
+    for name in ('note_added', 'note_removed', 'note_entity', 'note_task', 'look_around'):
+        setattr(modules['record'].Recorder, name, fail)
+    modules['hook'].trace_creation = fail
+
+
+def break_events() -> None:
+    hook.recorder.events = BrokenEvents()
+
+
+def break_entities() -> None:
+    hook.recorder.entities = BrokenEntities()
+
+
+def break_lock() -> None:
+    hook.recorder.lock = BrokenLock()
+
+
+def break_clock() -> None:
+    modules['hook'].get_ident = sys.modules['_ros2cc_live.steps'].get_ident = fail
+
+
+def break_writer() -> None:
+    modules['writer'].snapshot = fail
+
+
+BREAKS = {
+    'notes': break_notes,
+    'events': break_events,
+    'entities': break_entities,
+    'lock': break_lock,
+    'clock': break_clock,
+    'writer': break_writer,
+}
+what, name = sys.argv[1:]
+BREAKS[what]()
+program = Path(__file__).with_name(name)
 runpy.run_path(str(program), run_name='__main__')
+print('lost', bool(hook.recorder.loss_count))

@@ -17,6 +17,7 @@ work_done: list[int] = []
 
 def tick() -> None:
     ticks.append(1)
+    assert timer.callback is tick
 
 
 def work() -> None:

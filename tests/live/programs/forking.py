@@ -3,8 +3,17 @@
 import multiprocessing
 import os
 import sys
+import time
+import warnings
+from pathlib import Path
 
 import rclpy
+
+# The hook wraps it when it is imported; what is forked has it wrapped already.
+import rclpy.executors
+
+# Python 3.12 and later name the process when there are threads, and rclpy has some.
+warnings.simplefilter('ignore', DeprecationWarning)
 
 
 def run(name: str) -> None:
@@ -17,12 +26,21 @@ def run(name: str) -> None:
     rclpy.shutdown()
 
 
+def await_recording() -> None:
+    """With the hook, wait for its files: nothing is written after ``os._exit``."""
+    folder = os.environ.get('ROS2CC_LIVE_DIR')
+    kinds = ['json', 'jsonl'] if os.environ.get('ROS2CC_LIVE_TRACE') == '1' else ['json']
+    while folder and not all(list(Path(folder).glob(f'{os.getpid()}-*.{k}')) for k in kinds):
+        time.sleep(0.01)
+
+
 if __name__ == '__main__':
     spawned = multiprocessing.get_context('spawn').Process(target=run, args=('spawned',))
     spawned.start()
     child = os.fork()
     if not child:
         run('forked')
+        await_recording()
         os._exit(3)
     run('parent')
     spawned.join()

@@ -35,5 +35,7 @@ print('camera is in its executor:', camera in pool.get_nodes())
 print('arm is in its executor:', arm in pool.get_nodes())
 base.destroy_node()
 print('base is in its executor:', base in single.get_nodes())
+# rclpy waits for no callback here, and one that is late would complain.
+pool._executor.shutdown()
 pool.shutdown()
 rclpy.shutdown()

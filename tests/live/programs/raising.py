@@ -1,6 +1,9 @@
-"""A callback that raises: the program ends with its traceback."""
+"""A callback that raises: the program ends with its traceback. Its argument: threads."""
+
+import sys
 
 import rclpy
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 
 
 def tick() -> None:
@@ -10,4 +13,6 @@ def tick() -> None:
 rclpy.init()
 node = rclpy.create_node('stuck')
 node.create_timer(0.01, tick)
-rclpy.spin(node)
+threads = int(sys.argv[1])
+executor = MultiThreadedExecutor(threads) if threads > 1 else SingleThreadedExecutor()
+rclpy.spin(node, executor)

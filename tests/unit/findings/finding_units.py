@@ -19,7 +19,7 @@ from ros2cc_extract.spec.model import (
     Spec,
     Unresolved,
 )
-from ros2cc_extract.verify import Verification
+from ros2cc_extract.verify.unit import Verification
 
 FILE = 'arm.py'
 ONE_THREAD = Executor(name='executor', kind=SINGLE, threads=('thread_0',))

@@ -25,12 +25,15 @@ from finding_units import (
     threads,
     timer,
     unit,
+    updates,
+    writes,
 )
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
+from ros2cc_extract.spec.model import Access, EntityKind, Executor, Spec, When
 
 
 def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:
@@ -74,6 +77,26 @@ def test_message_of_a_call_into_the_own_group() -> None:
         "default group of 'arm', which is closed while drive runs: it waits for ever"
     )
     assert finding.subjects == ('drive', 'plan_client')
+
+
+def test_callbacks_that_wait_at_one_line_are_one_finding() -> None:
+    ways = tuple(at(line) for line in (50, 60))
+    spec = unit(
+        threads(4),
+        *(
+            timer(name, blocking=calls('plan_client', chain=(way,)))
+            for name, way in zip(('drive', 'turn'), ways, strict=True)
+        ),
+        client('plan_client'),
+    )
+    finding = only(spec, 'CC101')
+    assert finding.message == (
+        "drive, turn wait in client.call for the answer of service 'plan', but the client is in "
+        "the default group of 'arm', which is closed while one of them runs: they wait for ever"
+    )
+    assert finding.subjects == ('drive', 'turn', 'plan_client')
+    assert [remark.place for remark in finding.chain] == [ways[0]]
+    assert finding.related[-1] == Remark(ways[1], 'turn calls from here')
 
 
 def test_a_time_out_makes_a_warning() -> None:
@@ -167,7 +190,9 @@ def test_an_event_that_a_member_of_the_group_sets() -> None:
         subscription('on_stop', 'other'),
     )
     assert found(spec) == ['CC101:40', 'CC403:90 note']
-    assert only(spec, 'CC101').message.endswith('waits for ever, unless the event was set before')
+    finding = only(spec, 'CC101')
+    assert finding.message.endswith('waits for ever, unless the event was set before')
+    assert finding.help == 'give the subscription a callback group of its own'
 
 
 def test_a_done_callback_needs_the_client_of_its_answer() -> None:
@@ -222,6 +247,14 @@ def test_exclusive_branches_count_once() -> None:
     assert 'CC103:40' not in found(blockers(4, threads(2), alternative='either'))
 
 
+@pytest.mark.parametrize(('branches', 'expected'), [((0, 0, 1), True), ((0, 1, 2), False)])
+def test_waiters_of_one_branch_count_together(branches: tuple[int, ...], expected: bool) -> None:
+    spec = blockers(3, threads(2), alternative='either')
+    timers = [replace(c, branch=n) for c, n in zip(spec.callbacks, branches, strict=False)]
+    spec = replace(spec, callbacks=(*timers, *spec.callbacks[len(timers) :]))
+    assert ('CC103:40' in found(spec)) is expected
+
+
 def test_entities_that_a_callback_makes_do_not_count() -> None:
     assert found(blockers(2, threads(2), when=When.CALLBACK)) == []
 
@@ -230,6 +263,52 @@ def test_reentrant_waiters_overlap_themselves_so_no_number_is_enough() -> None:
     finding = only(blockers(4, threads(4), group='free'), 'CC103')
     assert finding.severity is Severity.ERROR
     assert 'no number is surely enough' in finding.help
+
+
+@pytest.mark.parametrize(
+    ('executor', 'runs'), [(threads(4), '4 runs'), (default_threads(4), 'as many runs')]
+)
+def test_sleeps_by_a_rate_that_overlap_hold_every_thread(executor: Executor, runs: str) -> None:
+    """Measured on 7.1.6: a timer of 10 Hz, a rate of 2 Hz, 4 threads: no sleep ends in 6 s."""
+    wait = calls('rate_timer', call='Rate.sleep')
+    finding = only(unit(executor, subscription('on_scan', 'free', blocking=wait)), 'CC103')
+    assert finding.severity is Severity.WARNING
+    assert finding.message.startswith(f'on_scan may overlap itself in Rate.sleep; {runs} ')
+    assert found(unit(executor, subscription('on_scan', 'other', blocking=wait))) == []
+    goals = outside('execute', EntityKind.ACTION_EXECUTE, blocking=wait)
+    assert only(unit(executor, goals), 'CC103').severity is Severity.NOTE
+
+
+def test_overlapping_waits_on_the_default_pool_are_a_note() -> None:
+    caller = subscription('on_goal', 'free', blocking=calls('plan_client'))
+    spec = unit(default_threads(4), caller, client('plan_client', 'other'))
+    assert only(spec, 'CC103').severity is Severity.NOTE
+
+
+@pytest.mark.parametrize(
+    ('claim', 'expected'),
+    [
+        pytest.param(writes('Arm.busy', 31, 'Arm.lock'), [], id='claimed'),
+        pytest.param(writes('Arm.busy', 31), ['CC103:40 note'], id='without the lock'),
+        pytest.param(writes('Arm.busy', 29, 'Arm.lock'), ['CC103:40 note'], id='not looked at'),
+        pytest.param(writes('Arm.busy', 41, 'Arm.lock'), ['CC103:40 note'], id='after the wait'),
+        pytest.param(updates('Arm.busy', 31, 'Arm.lock'), ['CC103:40 note'], id='counted'),
+        pytest.param(writes('Arm.goal', 31, 'Arm.lock'), ['CC103:40 note'], id='another'),
+    ],
+)
+def test_a_state_claimed_under_a_lock_lets_one_run_wait(
+    claim: tuple[Access, ...], expected: list[str]
+) -> None:
+    look, given_back = writes('Arm.busy', 30, 'Arm.lock'), writes('Arm.busy', 50, 'Arm.lock')
+    caller = service(
+        'on_go', 'free', reads=look, writes=(*claim, *given_back), blocking=calls('plan_client')
+    )
+    spec = unit(threads(4), caller, client('plan_client', 'other'))
+    assert [line for line in found(spec) if 'CC103' in line] == expected
+    looks_again = replace(caller, reads=(*look, *writes('Arm.busy', 45, 'Arm.lock')))
+    waits_again = replace(caller, blocking=(*caller.blocking, *calls('plan_client', 60)))
+    for other in (looks_again, waits_again):
+        assert 'CC103:40 note' in found(unit(threads(4), other, client('plan_client', 'other')))
 
 
 def test_the_default_thread_count_is_that_of_the_machine() -> None:
@@ -256,7 +335,10 @@ def test_await_within_the_own_group_never_resumes() -> None:
     assert found(spec(ONE_THREAD, 'arm_default')) == ['CC104:40']
     assert 'CC104:40' in found(spec(threads(4), 'arm_default'))
     assert found(spec(NOT_FOUND, 'arm_default')) == ['CC104:40 warning']
-    assert found(spec(EVENTS_EXECUTOR, 'arm_default')) == []
+    events = spec(EVENTS_EXECUTOR, 'arm_default')
+    assert found(events) == ['CC113:0 warning']
+    assert found(replace(events, rclpy='7.1.6')) == ['CC113:0']
+    assert found(replace(events, rclpy='9.1.2')) == []
     assert found(spec(ONE_THREAD, 'other')) == []
 
 
@@ -356,6 +438,16 @@ def test_the_help_for_a_full_pool_names_no_group_for_what_is_in_none(
     runner = outside('run', kind, blocking=calls('plan_client'))
     finding = only(unit(threads(4), runner, client('plan_client', 'other')), 'CC103')
     assert finding.help == f'{remedy}; then 2 threads are enough'
+
+
+@pytest.mark.parametrize('kind', [EntityKind.TASK, EntityKind.DONE_CALLBACK])
+def test_a_task_made_once_never_overlaps_itself(kind: EntityKind) -> None:
+    plan = client('plan_client', 'other')
+    once = outside('run', kind, blocking=calls('plan_client'), source=at(80))
+    assert found(unit(threads(2), once, plan)) == []
+    many = replace(once, count=Unknown('made in a loop')), replace(once, source=None)
+    for each in many:
+        assert found(unit(threads(2), each, plan)) == ['CC103:40 note']
 
 
 def test_the_help_for_a_full_pool_names_the_group_of_others() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from finding_units import (
     FILE,
@@ -24,10 +26,10 @@ from finding_units import (
 )
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Access, Callback, EntityKind, Executor, Spec
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
 RUN = Evidence(
     start={'thread_0': 'idle'},
@@ -120,6 +122,17 @@ def test_branches_of_which_only_one_is_taken_do_not_race() -> None:
     assert races(spec) == []
 
 
+@pytest.mark.parametrize(('branch', 'expected'), [(0, ['CC301:30 warning']), (1, [])])
+def test_callbacks_of_one_branch_may_race(branch: int, expected: list[str]) -> None:
+    update, write = updates('Arm.count', 30), writes('Arm.count', 35)
+    spec = unit(
+        threads(2),
+        timer('tick', alternative='either', branch=0, writes=update),
+        subscription('on_reset', 'other', alternative='either', branch=branch, writes=write),
+    )
+    assert races(spec) == expected
+
+
 def test_the_run_of_the_model_is_the_evidence() -> None:
     verification = verified(Verdict.SATISFIED, 'tick', 'on_reset')
     finding = only(counter(threads(2)), 'CC301', verification)
@@ -143,6 +156,24 @@ def test_a_common_lock_protects_and_two_locks_do_not() -> None:
 
     assert races(spec('Arm.lock')) == []
     assert races(spec('Arm.other_lock')) == ['CC301:30 warning']
+
+
+@pytest.mark.parametrize(
+    ('one', 'other', 'expected'),
+    [
+        ('rw', 'rw (shared)', []),
+        ('rw (shared)', 'rw', []),
+        ('rw (shared)', 'rw (shared)', ['CC301:30 warning']),
+        ('rw (shared)', 'mode', ['CC301:30 warning']),
+    ],
+)
+def test_readers_hold_a_lock_together(one: str, other: str, expected: list[str]) -> None:
+    spec = unit(
+        threads(2),
+        timer('tick', writes=updates('Arm.count', 30, one)),
+        subscription('on_reset', 'other', writes=writes('Arm.count', 35, other)),
+    )
+    assert races(spec) == expected
 
 
 def test_an_unresolved_group_gives_nothing() -> None:
@@ -234,6 +265,26 @@ def test_one_finding_for_one_attribute() -> None:
     assert finding.subjects == ('Arm.count', 'on_a', 'on_b', 'on_c')
 
 
+def test_others_are_those_that_disturb_the_first() -> None:
+    """``tick`` and ``reset`` hold one lock, ``peek`` holds none."""
+    tick = timer('tick', 'a', writes=updates('Arm.n', 30, 'lock'))
+    reset = subscription('reset', 'b', writes=writes('Arm.n', 35, 'lock'))
+    peek = subscription('peek', 'c', writes=writes('Arm.n', 37))
+    groups = tuple(exclusive(name) for name in 'abc')
+    spec = unit(threads(4), tick, reset, peek, groups=groups)
+    assert only(spec, 'CC301').subjects == ('Arm.n', 'tick', 'peek')
+
+
+def test_one_function_of_two_entities() -> None:
+    one = subscription('on_left', 'a', function='Arm.on_joint', writes=writes('Arm.joint', 30))
+    other = subscription('on_right', 'b', function='Arm.on_joint', writes=writes('Arm.joint', 30))
+    spec = unit(threads(2), one, other, groups=(exclusive('a'), exclusive('b')))
+    assert only(spec, 'CC302').message == (
+        'on_joint and on_joint of another entity may write Arm.joint at the same time: the last '
+        'one wins'
+    )
+
+
 def test_attributes_of_the_same_callbacks_are_one_finding() -> None:
     tick = timer('tick', writes=(*updates('Arm.b', 31), *updates('Arm.a', 30)))
     reset = subscription('reset', 'other', writes=(*writes('Arm.a', 35), *writes('Arm.b', 36)))
@@ -243,6 +294,16 @@ def test_attributes_of_the_same_callbacks_are_one_finding() -> None:
         'tick updates Arm.a, Arm.b from their old values, and reset may write them at the same '
         'time: one of the changes can get lost'
     )
+
+
+def test_one_function_of_several_entities_is_named_once() -> None:
+    tick = timer('tick', writes=updates('Arm.a', 30))
+    done = [
+        outside(name, EntityKind.DONE_CALLBACK, function='Arm.on_done', writes=writes('Arm.a', 35))
+        for name in ('plan_on_done', 'home_on_done')
+    ]
+    finding = only(unit(threads(2), tick, *done), 'CC303')
+    assert [remark.text for remark in finding.related] == ['on_done writes Arm.a here']
 
 
 def test_work_outside_every_group_overlaps_the_exclusive_group_too() -> None:
@@ -284,3 +345,24 @@ def test_the_help_names_no_group_for_what_is_in_none() -> None:
     assert only(unit(threads(2), tick, done), 'CC302').help == help_text
     tock = timer('tock', 'other', writes=writes('Arm.goal', 35))
     assert 'one mutually exclusive group' in only(unit(threads(2), tick, tock), 'CC302').help
+
+
+@pytest.mark.parametrize(
+    ('collection', 'expected'),
+    [('dict', ['CC301:30 warning']), ('set', ['CC301:30 warning']), ('list', [])],
+)
+def test_a_collection_that_changes_while_another_callback_goes_over_it(
+    collection: str, expected: list[str]
+) -> None:
+    def loop(*locks: str) -> Callback:
+        place = Place(FILE, 30)
+        read = Access(name='Arm.table', source=place, iterates=collection, locks=locks)
+        return timer('tick', reads=(read,))
+
+    other = subscription('on_set', 'other', writes=appends('Arm.table', 35))
+    assert races(unit(threads(2), loop(), other)) == expected
+    assert races(unit(threads(2), other, loop())) == expected
+    locked = replace(appends('Arm.table', 35)[0], locks=('lock',))
+    other = subscription('on_set', 'other', writes=(locked,))
+    assert races(unit(threads(2), loop('lock'), other)) == []
+    assert races(unit(threads(1), loop(), other)) == []

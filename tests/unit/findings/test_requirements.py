@@ -9,11 +9,12 @@ from finding_units import at, exclusive, subscription, threads, timer, unit
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements, read_requirements
 from ros2cc_extract.places import Place
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
 TABLE = Place('pyproject.toml', 12)
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends=None)
@@ -59,6 +60,15 @@ def check(table: dict[str, object], verdict: Verdict) -> tuple[Finding, ...]:
         ('starvation', ('stop',), verdict),
     )
     return check_requirements(read_requirements(table, TABLE), [ARM], [verification])
+
+
+def test_an_action_server_is_meant_by_its_function_too() -> None:
+    server = EntityKind.ACTION_SERVER
+    stop = replace(ARM.callbacks[1], entity=server, function='node.Arm.on_goal')
+    served = replace(ARM, callbacks=(ARM.callbacks[0], stop))
+    table = read_requirements({'never_starves': ['on_goal']}, TABLE)
+    asked = verdicts(('starvation', ('stop',), Verdict.SATISFIED))
+    assert check_requirements(table, [served], [asked]) == ()
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from finding_units import (
     DEFAULT,
@@ -28,6 +30,7 @@ from finding_units import (
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Unresolved, When
 
@@ -54,6 +57,47 @@ def test_a_short_sleep_or_one_in_a_group_of_its_own_is_left_alone() -> None:
 def test_a_long_sleep_on_one_thread_stops_everything() -> None:
     spec = unit(ONE_THREAD, timer('a', 'other', blocking=sleeps(5.0)), timer('b'))
     assert 'the only thread of the SingleThreadedExecutor' in only(spec, 'CC201').message
+
+
+def test_a_callback_with_many_sleeps_is_one_finding_at_the_longest() -> None:
+    lines = reversed(range(50, 57))
+    naps = sleeps(0.5, 40) + sleeps(3.0, 60) + sum((sleeps(2.0, line) for line in lines), ())
+    spec = unit(ONE_THREAD, timer('a', blocking=naps), timer('b'))
+    finding = only(spec, 'CC201')
+    assert finding.place == at(60)
+    assert finding.message == (
+        'a sleeps 3 s here, 1 s or longer at 7 more places, and holds the only thread of the '
+        'SingleThreadedExecutor: b and the parameter services of the node wait that long'
+    )
+    assert finding.related == tuple(Remark(at(n), 'a sleeps 2 s here') for n in range(50, 55))
+
+
+def test_two_callers_of_one_sleep_are_two_findings() -> None:
+    spec = unit(ONE_THREAD, timer('a', blocking=sleeps(2.0)), timer('b', blocking=sleeps(2.0)))
+    assert found(spec) == ['CC201:50 warning', 'CC201:50 warning']
+
+
+def test_a_class_under_an_executor_of_another_file_names_it() -> None:
+    spun = replace(ONE_THREAD, source=Place('test_arm.py', 30, 5))
+    execute = outside('execute', EntityKind.ACTION_EXECUTE, blocking=sleeps(5.0))
+    for spec, code in (
+        (unit(spun, timer('a', blocking=sleeps(5.0))), 'CC201'),
+        (unit(spun, execute), 'CC203'),
+    ):
+        assert only(spec, code).related[-1] == Remark(
+            Place('test_arm.py', 30, 5), 'the SingleThreadedExecutor of this run is here'
+        )
+    same = replace(ONE_THREAD, source=at(90))
+    assert only(unit(same, execute), 'CC203').related == ()
+
+
+def test_of_two_programs_the_one_in_the_file_of_the_class_is_told() -> None:
+    spun = replace(ONE_THREAD, source=Place('a_test.py', 30, 5))
+    other = replace(unit(spun, timer('a', blocking=sleeps(5.0))), name='a_test')
+    own = unit(replace(ONE_THREAD, source=at(90)), timer('a', blocking=sleeps(5.0)))
+    (finding,) = findings_of([own, other], [])
+    assert finding.related == ()
+    assert findings_of([other, own], []) == (finding,)
 
 
 def test_an_execute_callback_that_sleeps_hides_the_cancel_request() -> None:
@@ -92,6 +136,54 @@ def test_message_of_waiting_for_a_service() -> None:
     )
 
 
+def test_callbacks_that_wait_at_one_line_for_the_same_service_are_one_finding() -> None:
+    callers = [
+        timer(name, blocking=calls('plan_client', call='wait_for_service', chain=(at(line),)))
+        for name, line in (('drive', 20), ('turn', 25))
+    ]
+    home = timer('go_home', blocking=calls('home_client', call='wait_for_service'))
+    clients = client('plan_client'), client('home_client')
+    spec = unit(ONE_THREAD, *callers, home, *clients)
+    messages = [f.message for f in findings_of([spec], [], [None]) if f.code == 'CC204']
+    assert [message.partition(' in ')[0] for message in messages] == [
+        'drive, turn wait',
+        'go_home waits',
+    ]
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'severity', 'end'),
+    [
+        (2.0, Severity.WARNING, 'everything waits 2 s for nothing'),
+        (0.1, Severity.WARNING, 'everything waits 0.1 s for nothing'),
+        (0.003, Severity.NOTE, 'everything waits 0.003 s for nothing'),
+        (None, Severity.WARNING, 'everything waits'),
+    ],
+)
+def test_a_short_wait_for_a_transform_is_a_note(
+    seconds: float | None, severity: Severity, end: str
+) -> None:
+    look = calls('on_tf', call='Buffer.lookup_transform', seconds=seconds)
+    listener = subscription('on_tf', key='/tf')
+    finding = only(unit(ONE_THREAD, timer('look', blocking=look), listener), 'CC205')
+    assert (finding.severity, finding.message.rpartition(', and ')[2]) == (severity, end)
+
+
+@pytest.mark.parametrize(
+    ('kind', 'call', 'question'),
+    [
+        (EntityKind.CLIENT, 'wait_for_service', 'service_is_ready'),
+        (EntityKind.ACTION_CLIENT, 'wait_for_server', 'server_is_ready'),
+    ],
+)
+def test_what_may_be_asked_instead_of_waiting(kind: EntityKind, call: str, question: str) -> None:
+    asked = replace(client('plan_client'), entity=kind)
+    spec = unit(ONE_THREAD, timer('drive', blocking=calls('plan_client', call=call)), asked)
+    assert only(spec, 'CC204').help == (
+        f'wait before the node is spun, or ask {question} and come back by a timer'
+    )
+
+
 def test_an_overloaded_group_starves_who_is_served_later() -> None:
     def codes(period: float, *callbacks: object) -> list[str]:
         busy = timer('camera', period_s=period, blocking=sleeps(0.2))
@@ -110,6 +202,31 @@ def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:
     assert only(unit(threads(2), late, early, free), 'CC202').message.endswith(
         'so early, served after it, may never run'
     )
+
+
+def test_message_of_a_timer_that_takes_longer_than_its_period() -> None:
+    late = timer('late', period_s=0.1, blocking=sleeps(0.2))
+    finding = only(unit(threads(2), late, timer('early'), timer('free', 'other')), 'CC202')
+    assert finding.message == (
+        "late in the default group of 'arm' takes at least 0.2 s and is due every 0.1 s: whenever "
+        'the group opens it is due, so early, served after it, may never run'
+    )
+
+
+def test_message_of_timers_that_leave_no_time_together() -> None:
+    one = timer('one', period_s=0.1, blocking=sleeps(0.06))
+    two = timer('two', period_s=0.1, duration_s=0.05, defined=at(70))
+    finding = only(unit(threads(2), one, two, timer('last'), timer('free', 'other')), 'CC202')
+    assert finding.message == (
+        "one, two in the default group of 'arm' together ask for 110% of the time: whenever the "
+        'group opens one of them is due, so last, served after them, may never run'
+    )
+    assert finding.place == at(70)
+
+
+def test_who_is_made_only_at_times_keeps_no_group_busy() -> None:
+    late = timer('late', period_s=0.1, blocking=sleeps(0.2), conditional=True)
+    assert found(unit(threads(2), late, timer('early'), timer('free', 'other'))) == []
 
 
 def test_one_exclusive_group_makes_many_threads_useless() -> None:

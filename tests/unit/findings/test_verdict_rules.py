@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from finding_units import (
     at,
     calls,
@@ -16,11 +18,12 @@ from finding_units import (
     unit,
 )
 
-from ros2cc_extract.evidence import Evidence
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec, Unresolved
-from ros2cc_extract.verify import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
+NOBODY = 'which nobody here offers'
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')
 
 
@@ -77,10 +80,25 @@ def test_a_wait_that_the_model_proves_to_end_is_no_finding() -> None:
     assert found(own_group(), progress(Verdict.UNDECIDED, 'drive')) == ['CC101:40']
 
 
-def test_what_is_not_in_the_model_is_not_refuted_by_it() -> None:
+def test_that_a_wait_ends_by_its_time_out_is_no_proof_that_its_answer_comes() -> None:
     proven = progress(Verdict.SATISFIED, 'drive')
     assert found(own_group(seconds=1.0), proven) == ['CC101:40 warning']
-    assert found(own_group(call='spin for future'), proven) == ['CC101:40']
+
+
+def test_a_nested_spin_is_in_the_model_too() -> None:
+    spins = own_group(call='spin for future')
+    assert found(spins, progress(Verdict.SATISFIED, 'drive')) == []
+    assert found(spins, progress(Verdict.UNDECIDED, 'drive')) == ['CC101:40']
+    assert only(spins, 'CC101', progress(Verdict.NOT_SATISFIED, 'drive')).run is RUN
+
+
+def test_a_hang_that_rests_on_an_absent_service_is_no_finding_of_the_model() -> None:
+    """Another program may offer it; whoever waits is told so by the verdict."""
+    waits = Sentence('thread_0', 'on_left waits on thread_0 for the service of a, ' + NOBODY)
+    moment = Moment(number=1, sentences=(waits,), places=(), changes={})
+    stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
+    results = (replace(result, run=replace(RUN, moments=(moment,))) for result in stuck.results)
+    assert found(circle(), replace(stuck, results=tuple(results))) == []
 
 
 def test_the_run_of_the_model_is_the_evidence() -> None:

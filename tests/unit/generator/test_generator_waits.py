@@ -12,7 +12,7 @@ from generator_units import closed_unit
 from ros2cc_extract.checker.api import Limits, Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Family, Profile, render
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Blocking
+from ros2cc_extract.spec.model import Blocking, EntityKind
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'
 
@@ -84,6 +84,17 @@ def test_an_event_that_another_callback_sets(
     assert stuck(unit) == (['wait'] if is_stuck else [])
 
 
+@pytest.mark.parametrize(('client', 'is_stuck'), [('g', True), ('h', False)])
+def test_an_event_that_a_done_callback_sets_needs_the_client(client: str, is_stuck: bool):
+    callbacks = f'ask:TMR:g reply:CLT:{client} done:CLT:free'
+    groups = 'g:EXCLUSIVE h:EXCLUSIVE free:REENTRANT'
+    unit = closed_unit(callbacks, groups, 2, MULTI, waits='ask:done:Event.wait')
+    ask, reply, done = unit.spec.callbacks
+    done = replace(done, entity=EntityKind.DONE_CALLBACK, groupless=True)
+    unit = replace(unit, spec=replace(unit.spec, callbacks=(ask, reply, done)))
+    assert stuck(unit) == (['ask'] if is_stuck else [])
+
+
 def test_a_wait_with_a_time_out_ends_by_itself():
     unit = closed_unit('ask:TMR:g reply:CLT:g', 'g:EXCLUSIVE', 2, MULTI)
     ask, reply = unit.spec.callbacks
@@ -92,12 +103,16 @@ def test_a_wait_with_a_time_out_ends_by_itself():
     assert stuck(unit) == []
 
 
-@pytest.mark.parametrize('call', ['wait_for_service', 'wait_for_server', 'rclpy.spin_once'])
-def test_a_wait_that_needs_no_callback_of_the_unit(call: str):
-    unit = closed_unit('ask:TMR:g reply:CLT:g', 'g:EXCLUSIVE', 1, SINGLE)
-    ask, reply = unit.spec.callbacks
+@pytest.mark.parametrize('call', ['wait_for_service', 'wait_for_server'])
+@pytest.mark.parametrize('service', ['plan', 'home'])
+def test_a_service_may_be_absent_that_nobody_of_the_unit_offers(call: str, service: str):
+    unit = closed_unit('ask:TMR:g reply:CLT:g serve:SRV:g', 'g:EXCLUSIVE', 1, SINGLE)
+    ask, reply, serve = unit.spec.callbacks
     ask = replace(ask, blocking=(Blocking(call=call, on='reply'),))
-    assert stuck(replace(unit, spec=replace(unit.spec, callbacks=(ask, reply)))) == []
+    reply = replace(reply, entity=EntityKind.CLIENT, key='plan')
+    serve = replace(serve, entity=EntityKind.SERVICE, key=service)
+    unit = replace(unit, spec=replace(unit.spec, callbacks=(ask, reply, serve)))
+    assert stuck(unit) == ([] if service == 'plan' else ['ask'])
 
 
 def test_an_answer_is_for_the_callback_that_asked():
@@ -125,6 +140,24 @@ def test_an_awaited_call(reply: str, threads: int, executor: str, is_stuck: bool
         waits='ask:reply:await',
     )
     assert stuck(unit) == (['ask'] if is_stuck else [])
+
+
+@pytest.mark.parametrize('rclpy', [None, '7.1.6', '9.1.2'])
+@pytest.mark.parametrize('executor', [SINGLE, MULTI])
+def test_coroutines_outside_every_group_go_on(executor: str, rclpy: str | None):
+    """Measured on rclpy 7.1.6: an execute callback that awaits a client ended, 5 goals of 5."""
+    callbacks = 'execute:SUB:none other:SUB:none reply:CLT:g tick:TMR:g'
+    awaited = 'execute:reply:await other:reply:await'
+    unit = closed_unit(callbacks, 'none:REENTRANT g:EXCLUSIVE', 1, executor, awaited)
+    tasks = [replace(c, entity=EntityKind.TASK, groupless=True) for c in unit.spec.callbacks[:2]]
+    spec = replace(unit.spec, callbacks=(*tasks, *unit.spec.callbacks[2:]), rclpy=rclpy)
+    unit = replace(unit, spec=spec)
+    assert stuck(unit) == []
+    read = read_model(render(unit, profile=Profile.RCLPY, max_cycle=2).xml, 'arm.xml')
+    both_at_once = 'E<> (cb_suspended[0] > 0 and cb_waiting[0] > 0 and cb_answers[2] > 0)'
+    all_end = 'A[] (deadlock imply cb_all_served())'
+    answers = check(read, [Query(text, '', None) for text in (both_at_once, all_end)]).answers
+    assert [answer.verdict for answer in answers] == [Verdict.SATISFIED] * 2
 
 
 def test_an_event_of_a_timer_that_the_awaiting_callback_keeps_out():

@@ -93,3 +93,25 @@ def test_stretch_is_drawn_on_its_thread_and_its_group(tmp_path: Path) -> None:
     assert drawn == [(7, 11, 'tick', 0.03), (-7, 3, 'tick', 0.03)]
     names = {e['args']['name'] for e in events if e['ph'] == 'M'}
     assert {'MainThread', 'default group of arm (exclusive)'} <= names
+
+
+PAUSED = """[100,11,"begin",4]
+[110,11,"suspend",4]
+[120,11,"wait>",1]
+[150,11,"wait<",1]
+[160,12,"resume",4]
+[180,12,"end",4]"""
+
+
+def test_paused_coroutine_leaves_its_thread_and_stays_in_its_group(tmp_path: Path) -> None:
+    recorded = recording(tmp_path, groups=[group(3)], entities=[timer(4, 2, 3, 'arm.Arm.tick')])
+    Path(f'{recorded.file}l').write_text(PAUSED, encoding='utf-8')
+    trace = read_trace(recorded)
+    assert trace is not None
+    drawn = [e for e in to_chrome([trace])['traceEvents'] if e['ph'] == 'X']
+    assert [(e['pid'], e['tid'], e['name'], e['ts'], e['dur']) for e in drawn] == [
+        (7, 11, 'tick', 0.1, 0.01),
+        (7, 11, '? waits', 0.12, 0.03),
+        (7, 12, 'tick', 0.16, 0.02),
+        (-7, 3, 'tick', 0.1, 0.08),
+    ]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from report_samples import CALL, FINDINGS, RACE, at
+from report_samples import CALL, NOTE, RACE, at
 
-from ros2cc_extract.report.github import step_summary, workflow_commands
+from ros2cc_extract.report.github import MOST_ROWS, step_summary, workflow_commands
 
 
 def test_an_annotation_is_one_escaped_line() -> None:
@@ -34,12 +34,33 @@ def test_ten_of_a_kind_the_most_important_first() -> None:
     assert 'line=11,' in lines[2]
 
 
-def test_the_summary_holds_all_findings() -> None:
-    text = step_summary(FINDINGS, {'files': 2, 'errors': 1})
-    assert '2 files, 1 error\n' in text
-    assert 'CC101: 1, CC301: 1, CC501: 1' in text
-    assert '| 🟠 | CC301 | `src/arm node.py:30` | tick updates Arm.count \\| too |  |' in text
-    assert len([line for line in text.splitlines() if line.startswith('| ')]) == 4
+def test_the_summary_holds_all_findings_with_the_notes_folded() -> None:
+    assert step_summary([NOTE, RACE, CALL], {'files': 2, 'errors': 1}) == (
+        '## ros2cc-extract\n\n'
+        '2 files, 1 error\n\n'
+        'CC101: 1, CC301: 1\n\n'
+        '| | code | place | what | help |\n'
+        '|---|---|---|---|---|\n'
+        '| 🔴 | CC101 | `src/arm node.py:40` | drive waits for "plan": &lt;for ever>, 100 % | '
+        'give the client a group |\n'
+        '| 🟠 | CC301 | `src/arm node.py:30` | tick updates Arm.count \\| too |  |\n\n'
+        '<details><summary>1 note: CC501: 1</summary>\n\n'
+        '| | code | place | what | help |\n'
+        '|---|---|---|---|---|\n'
+        '| 🔵 | CC501 | `other.py` | topic of tick not resolved: a parameter\x00 |  |\n\n'
+        '</details>\n'
+    )
+
+
+def test_a_summary_too_long_for_github_ends_with_a_number() -> None:
+    races = [replace(RACE, place=at(line)) for line in range(1, 600)]
+    text = step_summary([*races, NOTE], {'files': 2})
+    assert text.count('\n| 🟠 |') == MOST_ROWS
+    assert '\n99 more: see the log, or --output-format json.\n' in text
+    assert text.endswith(
+        '<details><summary>1 note: CC501: 1</summary>\n\n'
+        '1 more: see the log, or --output-format json.\n\n</details>\n'
+    )
 
 
 def test_the_summary_says_when_there_is_nothing() -> None:

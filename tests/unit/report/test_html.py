@@ -8,9 +8,9 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from typing import Any
 
-from report_samples import CALL, FINDINGS, RACE, RUN
+import pytest
+from report_samples import CALL, FINDINGS, NOTE, RACE, RUN
 
-from ros2cc_extract.evidence import Sentence
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.html import html_report
 from ros2cc_extract.report.run_lanes import Lane, Stay, lanes_of
@@ -24,6 +24,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
+from ros2cc_extract.verify.evidence import Sentence
 
 ARM = Spec(
     name='arm',
@@ -111,6 +112,14 @@ def test_findings_stand_by_weight_and_callbacks_link_to_them() -> None:
     links = [a['href'] for name, a in tree.elements if name == 'a']
     assert cards == ['finding-2', 'finding-1']
     assert links == ['#finding-1']
+
+
+@pytest.mark.parametrize(('notes', 'folded'), [(10, []), (11, ['11 notes'])])
+def test_many_notes_are_folded_below_what_weighs_more(notes: int, folded: list[str]) -> None:
+    page = html_report([ARM], [], [*[NOTE] * notes, CALL], {'files': 2}, SOURCES)
+    assert re.findall(r'<details class="notes"><summary>(.*?)</summary>', page) == folded
+    kinds = re.findall(r'data-kind="(\w+)"', page)
+    assert kinds == ['error', *['note'] * notes]
 
 
 def test_the_picture_holds_groups_callbacks_and_waits() -> None:

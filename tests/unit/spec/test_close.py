@@ -76,3 +76,39 @@ def test_a_missing_executor_is_told() -> None:
 def test_a_unit_without_callbacks_cannot_be_modelled() -> None:
     with pytest.raises(IncompleteSpecError, match="unit 'arm' has no callback"):
         close(replace(UNIT, callbacks=UNIT.callbacks[1:]))
+
+
+def test_every_hole_is_told_in_the_order_of_the_unit() -> None:
+    callbacks = (
+        Callback(name='loop', type=CallbackType.TMR, group='g', count=Unknown('a range')),
+        Callback(name='three', type=CallbackType.TMR, group='g', count=3),
+        Callback(name='perhaps', type=CallbackType.TMR, group='h', conditional=True),
+        Callback(name='either', type=CallbackType.TMR, group='h', alternative='a.py:3'),
+        Callback(name='sure', type=CallbackType.TMR, group='h', assumed='its type (--assume)'),
+    )
+    groups = (
+        CallbackGroup(
+            name='g', type=GroupType.EXCLUSIVE, unresolved=Unknown('it comes from a parameter')
+        ),
+        CallbackGroup(name='h', type=GroupType.REENTRANT, assumed='REENTRANT (--assume)'),
+    )
+    executor = Executor(
+        name='ex', kind='Own', threads=('t',), unresolved=Unknown('a class of somebody else')
+    )
+    unit = replace(UNIT, callbacks=callbacks, groups=groups, executor=executor)
+    assert close(unit).assumptions == (
+        'executor Own not resolved (a class of somebody else)',
+        'group g not resolved (it comes from a parameter); modelled as a group of its own, '
+        'EXCLUSIVE',
+        'group h: REENTRANT (--assume)',
+        'loop is created an unknown number of times; modelled once',
+        'three is created 3 times; modelled once',
+        'perhaps is created under a condition; modelled as present',
+        'either is created under a condition; modelled as present',
+        'sure: its type (--assume)',
+    )
+
+
+def test_nothing_is_assumed_of_a_unit_without_holes() -> None:
+    unit = replace(UNIT, executor=Executor(name='ex', kind='Own', threads=('t',)))
+    assert close(unit).assumptions == ()

@@ -18,6 +18,9 @@ from ros2cc_extract.spec.identifiers import complaint, mend
         ('A', 'A_'),
         ('größe', 'gr_e'),
         ('!?', 'unnamed'),
+        ('_tick', '_tick'),
+        ('__on', '__on'),
+        ('~/image', 'image'),
     ],
 )
 def test_mended_names_are_usable(text: str, name: str) -> None:

@@ -153,6 +153,7 @@ def test_what_is_read_fits_the_schema(text: str) -> None:
         ('"SUB1"', 'on', 7, 'must be a text, it is true or false'),
         ('"SUB1"', '"2nd"', 7, "'2nd' is no UPPAAL identifier"),
         ('"SUB1"', '"clock"', 7, "'clock' is a UPPAAL keyword"),
+        ('"executor"', '"A"', 16, "'A' is a word of UPPAAL queries"),
         ('"SUB1"', '"NUM_CB"', 7, "'NUM_CB' is a name of the model itself"),
         ('      type: "TMR"\n', '', 4, "key 'type' is missing in 'node.callbacks[0]'"),
         ('"TMR"', '"TMR"\n      type: "SUB"', 6, "key 'type' stands twice"),

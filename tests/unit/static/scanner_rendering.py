@@ -54,6 +54,8 @@ def _executor(executor: Executor) -> str:
         words[0] = f'{executor.name}={words[0]}'
     if executor.in_thread:
         words.append('in thread')
+    if executor.alternative:
+        words.append(_alternative(executor))
     return ' '.join(words) + (' UNRESOLVED' if executor.unresolved else '')
 
 
@@ -98,7 +100,7 @@ def _flags(callback: Callback) -> list[str]:
         if getattr(callback, name)
     ]
     if callback.alternative:
-        words.append(f'alternative@{Place.parse(callback.alternative).line}')
+        words.append(_alternative(callback))
     if callback.count != 1:
         words.append(_count(callback.count))
     if callback.when is not When.START:
@@ -110,6 +112,10 @@ def _flags(callback: Callback) -> list[str]:
     if callback.unresolved:
         words.append('UNRESOLVED')
     return words
+
+
+def _alternative(made: Callback | Executor) -> str:
+    return f'alternative@{Place.parse(made.alternative or "").line}.{made.branch}'
 
 
 def _count(count: int | Unknown) -> str:
@@ -145,12 +151,14 @@ def _blocking(block: Blocking) -> str:
 
 def _access(access: Access) -> str:
     update = (' update' if access.update else '') + (' in_place' if access.in_place else '')
+    update += f' iterates {access.iterates}' if access.iterates else ''
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
 
 
 def _act(act: Act) -> str:
-    return f'{_known(act.name)}{_trail(act.source, act.chain)}'
+    held = f' holding {", ".join(act.held)}' if act.held else ''
+    return f'{_known(act.name)}{held}{_trail(act.source, act.chain)}'
 
 
 def _trail(source: Place | None, chain: tuple[Place, ...]) -> str:

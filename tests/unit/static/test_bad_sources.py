@@ -32,7 +32,9 @@ def slugs(extraction_of: bytes | str, folder: Path) -> list[tuple[str, int]]:
         (b'import rclpy\nx = "\xe9"\n', [('undecodable-file', 2)]),
         (b'# coding: nonsense\nimport rclpy\n', [('undecodable-file', 1)]),
         (HEAD + 'x = ' + '(' * 5000 + ')' * 5000, [('nested-too-deeply', 2)]),
-        (HEAD + 'x = 1\n' * 200_000, [('file-too-large', 0)]),
+        (HEAD + 'x = 1\n' * 290_000, []),
+        (HEAD + 'x = 1\n' * 310_000, [('file-too-large', 0)]),
+        (HEAD + f'# {" " * 70}\n' * 120_000, [('file-too-large', 0)]),
         (HEAD + 'x = ' + '+'.join(['a'] * 10_000) + '\n', []),
         (HEAD + 'x = a' + '.b' * 5_000 + '\n', []),
         (HEAD + 'x = a' + '()' * 2_000 + '\n', []),
@@ -56,6 +58,21 @@ def test_unusual_encodings_are_read(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / 'node.py'
     path.write_bytes(content)
     assert [unit.name for unit in scan([path]).units] == ['a']
+
+
+def test_program_without_end_is_cut_off_once(tmp_path: Path) -> None:
+    """Callbacks share one budget: what is left over is missing, and one place tells why."""
+    callbacks = ''.join(
+        f'    def on_{n}(self):\n' + '        self.x = 1\n' * 1_000 for n in range(40)
+    )
+    made = ''.join(f'        self.create_timer(1.0, self.on_{n % 40})\n' for n in range(600))
+    init = '    def __init__(self):\n        super().__init__("a")\n'
+    program = f'{HEAD}class A(rclpy.node.Node):\n{init}{made}{callbacks}\nrclpy.spin(A())\n'
+    path = tmp_path / 'node.py'
+    path.write_text(program)
+    found = scan([path])
+    assert [d.slug for d in found.diagnostics] == ['not-followed']
+    assert [len(unit.callbacks) for unit in found.units] == [600]
 
 
 def test_missing_path_is_an_input_error(tmp_path: Path) -> None:

@@ -39,6 +39,23 @@ def test_package_of_the_workspace_is_found(tmp_path: Path, package: str, script:
     assert names_of(tmp_path, f'{deeper}{script}') == ['tick']
 
 
+DEPENDING = '<package><name>app</name><exec_depend>arm</exec_depend></package>'
+STRANGER = '<package><name>app</name><!-- <depend>arm</depend> --></package>'
+
+
+@pytest.mark.parametrize(('manifest', 'expected'), [(DEPENDING, ['tick']), (STRANGER, [])])
+def test_package_elsewhere_in_the_repository_is_found_by_its_manifest(
+    tmp_path: Path, manifest: str, expected: list[str]
+) -> None:
+    (tmp_path / '.git').mkdir()
+    write(tmp_path / 'core' / 'arm_driver' / 'package.xml', '<package><name>arm</name></package>')
+    write(tmp_path / 'core' / 'arm_driver' / 'arm' / '__init__.py')
+    write(tmp_path / 'core' / 'arm_driver' / 'arm' / 'nodes.py', NODE)
+    write(tmp_path / 'apps' / 'app' / 'package.xml', manifest)
+    write(tmp_path / 'apps' / 'app' / 'run.py', SCRIPT.format('arm.nodes'))
+    assert names_of(tmp_path, 'apps/app/run.py') == expected
+
+
 def test_folder_without_a_manifest_is_no_package(tmp_path: Path) -> None:
     write(tmp_path / 'arm' / 'arm' / '__init__.py')
     write(tmp_path / 'arm' / 'arm' / 'nodes.py', NODE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -37,7 +38,17 @@ def test_scanner_case(path: Path) -> None:
 
 
 def test_every_row_of_the_pattern_table_has_a_case() -> None:
-    texts = [path.read_text(encoding='utf-8').split('\n', 1)[0] for path in CASES.glob('*.py')]
-    mentioned = {word.strip('".,:;') for text in texts for word in text.split()}
-    missing = [f'P{row}' for row in range(1, 63) if f'P{row}' not in mentioned]
+    missing = [f'P{row}' for row in range(1, 63) if f'P{row}' not in _mentioned()]
     assert missing == []
+
+
+def test_each_thing_that_must_never_be_wrong_silently_has_a_case() -> None:
+    missing = [f'Point {point}' for point in range(1, 24) if f'Point {point}' not in _mentioned()]
+    assert missing == []
+
+
+def _mentioned() -> set[str]:
+    """What the first lines of the cases say that they show."""
+    heads = [path.read_text(encoding='utf-8').split('\n', 1)[0] for path in CASES.glob('*.py')]
+    words = [found for head in heads for found in re.findall(r'P\d+\b|[Pp]oint \d+\b', head)]
+    return {word.capitalize() for word in words}

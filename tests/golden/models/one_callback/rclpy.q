@@ -27,3 +27,8 @@ blink never starves: once something has arrived for it, it runs
 blink never overlaps itself
 */
 A[] cb_runs(0) <= 1
+
+/*
+no two callbacks ever run at the same time: groups and threads have no effect
+*/
+A[] forall (a : ThreadId) forall (b : ThreadId) (thread_running[a] and thread_running[b] imply a == b)

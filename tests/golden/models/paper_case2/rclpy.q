@@ -147,3 +147,8 @@ A[] cb_runs(2) <= 1
 SUB2 never overlaps itself
 */
 A[] cb_runs(3) <= 1
+
+/*
+no two callbacks ever run at the same time: groups and threads have no effect
+*/
+A[] forall (a : ThreadId) forall (b : ThreadId) (thread_running[a] and thread_running[b] imply a == b)

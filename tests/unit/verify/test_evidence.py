@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ros2cc_extract.checker.api import Query, Run, check, read_model
-from ros2cc_extract.evidence import Names, Sentence, tell
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
+from ros2cc_extract.verify.evidence import Names, Sentence, tell
 
 COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
 <nta><declaration>int[0,2] n; chan go;</declaration>
@@ -96,6 +96,17 @@ def test_mermaid_draws_an_arrow_from_sender_to_receiver() -> None:
     )
 
 
+def test_mermaid_gets_other_names_for_what_it_would_read_as_signs() -> None:
+    indexed = COMMENTED.replace('const int id', 'const int[0,0] id').replace('t0 = T(0); ', '')
+    indexed = indexed.replace('system t0, r;', 'system T, r;').replace('{', '').replace('}', '')
+    chart = mermaid(tell(run_of('E<> T(0).busy', indexed), Names()), 'why')
+    assert chart.splitlines()[4:] == [
+        '    participant p0 as T(0)',
+        '    participant r',
+        '    p0->>r: 1. T(0): callback mine starts on thread id<br/>r: w -> w (go)',
+    ]
+
+
 def test_chrome_trace_has_a_track_per_process_and_a_slice_per_stay() -> None:
     trace = chrome_trace(tell(run_of('E<> t0.busy'), NAMES), 'title')
     slices = [
@@ -105,7 +116,7 @@ def test_chrome_trace_has_a_track_per_process_and_a_slice_per_stay() -> None:
     ]
     assert slices == [
         (1, 'idle', 0, STEP_US),
-        (1, 'busy', STEP_US, STEP_US),
+        (1, 'busy: b', STEP_US, STEP_US),
         (2, 'w', 0, 2 * STEP_US),
     ]
     names = [e['args']['name'] for e in trace['traceEvents'] if e['name'] == 'thread_name']

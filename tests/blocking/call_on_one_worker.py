@@ -1,0 +1,39 @@
+"""A synchronous call into another group, on a pool of one worker."""
+
+import rclpy
+from answering import answer_elsewhere
+from rclpy import executors
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Caller(Node):
+    def __init__(self):
+        super().__init__('caller')
+        self.client = self.create_client(
+            Trigger, 'answer', callback_group=MutuallyExclusiveCallbackGroup()
+        )
+        self.client.wait_for_service()
+        self.timer = self.create_timer(0.1, self.ask)
+
+    def ask(self):
+        self.timer.cancel()
+        print('asks', flush=True)
+        self.client.call(Trigger.Request())
+        print('goes on', flush=True)
+
+
+def main():
+    rclpy.init()
+    answer_elsewhere()
+    node = Caller()
+    executor = executors.MultiThreadedExecutor(num_threads=1)
+    executor.add_node(node)
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
+
+# multi: blocks

@@ -1,0 +1,40 @@
+"""C8: the slow service has a group of its own."""
+
+import time
+
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+class Feeder(Node):
+    def __init__(self):
+        super().__init__('feeder')
+        self.alarms = 0
+        self.create_subscription(String, 'watchdog', self.on_watchdog, 10)
+        self.create_service(
+            Trigger, 'choose', self.on_choose, callback_group=MutuallyExclusiveCallbackGroup()
+        )
+
+    def on_watchdog(self, msg):
+        self.alarms += 1
+
+    def on_choose(self, request, response):
+        time.sleep(2.0)
+        return response
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(Feeder())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
+
+# finds: nothing

@@ -1,0 +1,30 @@
+"""D6: a service raises, since the events executor does not run its coroutine."""
+
+import rclpy
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Gate(Node):
+    def __init__(self):
+        super().__init__('gate')
+        self.create_service(Trigger, 'open', self.on_open)
+
+    async def on_open(self, request, response):
+        return response
+
+
+def main():
+    rclpy.init()
+    executor = EventsExecutor()
+    executor.add_node(Gate())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
+
+# rclpy: 7.1.6
+
+# finds: CC113:14

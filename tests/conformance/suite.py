@@ -1,0 +1,125 @@
+"""
+The conformance suite: random node programs on real executors, each trace a path of its model.
+
+``python -m tests.conformance.suite --python PYTHON --programs 1000`` runs programs in processes
+of some dozens and says how many of them and of their events conform, and which seeds do not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ros2cc_extract.conform.search import Outcome
+from ros2cc_extract.conform.trace import Trace, read_traces
+from ros2cc_extract.conform.unit import Comparison
+from ros2cc_extract.extract.live.run import record, write_traces
+from tests.conformance.checking import Ran, compare_in_time, read_ran
+from tests.support.domains import free_domain
+
+DRIVER = Path(__file__).with_name('driver.py')
+CHUNK = 40
+
+
+@dataclass
+class Tally:
+    """What came of many programs."""
+
+    outcomes: Counter[Outcome] = field(default_factory=Counter)
+    events: int = 0
+    reordered: int = 0
+    told: int = 0
+    delayed: int = 0
+    run_s: float = 0.0
+    check_s: float = 0.0
+    failed: list[int] = field(default_factory=list)
+
+    def add(self, ran: Ran, comparison: Comparison, was_delayed: bool) -> None:
+        """Count one program."""
+        answer = comparison.answer
+        self.outcomes[answer.outcome] += 1
+        self.events += len(comparison.observations)
+        self.reordered += answer.slack_ns > 0
+        self.told += bool(ran.arrivals)
+        self.delayed += was_delayed
+        if answer.outcome is not Outcome.CONFORMS:
+            self.failed.append(ran.seed)
+
+    def __str__(self) -> str:
+        told = ', '.join(f'{self.outcomes[o]} {o.value}' for o in Outcome)
+        return (
+            f'{self.outcomes.total()} programs: {told}; {self.events} events, '
+            f'{self.reordered} traces with threads put in order; '
+            f'of {self.told} with arrivals {self.delayed} were delayed; '
+            f'run {self.run_s:.0f} s, checked {self.check_s:.0f} s; failed {self.failed}'
+        )
+
+
+def run_programs(
+    python: str, seeds: Sequence[int], environment: dict[str, str], folder: Path
+) -> tuple[Trace, list[Ran]]:
+    """Run programs in one process and give its trace."""
+    out, trace_file = folder / 'ran.jsonl', folder / 'trace.jsonl'
+    command = [python, str(DRIVER), str(out), *map(str, seeds)]
+    recorded = record(command, environment, sys.stderr, traced=True)
+    assert recorded.status == 0, f'the driver ended with {recorded.status}'
+    write_traces(recorded.traces, trace_file)
+    (trace,) = read_traces(trace_file)
+    return trace, read_ran(out)
+
+
+@contextmanager
+def own_environment() -> Iterator[dict[str, str]]:
+    """Give an environment with a domain of its own, and nothing beyond this machine."""
+    with free_domain() as number:
+        yield {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(number),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        }
+
+
+def run_suite(python: str, first: int, programs: int, keep: Path | None) -> Tally:
+    """Run programs in chunks, compare them, and print what fails."""
+    tally = Tally()
+    for start in range(first, first + programs, CHUNK):
+        seeds = range(start, min(start + CHUNK, first + programs))
+        with tempfile.TemporaryDirectory(prefix='ros2cc-conformance-') as folder:
+            begun = time.monotonic()
+            with own_environment() as environment:
+                trace, ran = run_programs(python, seeds, environment, Path(folder))
+            tally.run_s += time.monotonic() - begun
+            begun, failed = time.monotonic(), len(tally.failed)
+            for each in ran:
+                tally.add(each, *compare_in_time(trace, each))
+            tally.check_s += time.monotonic() - begun
+            if keep is not None and len(tally.failed) > failed:
+                for name in ('ran.jsonl', 'trace.jsonl'):
+                    (keep / f'{start}_{name}').write_bytes((Path(folder) / name).read_bytes())
+        print(tally, flush=True)
+    return tally
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[1] if __doc__ else '')
+    parser.add_argument('--python', default=sys.executable, help='an interpreter with rclpy')
+    parser.add_argument('--first', type=int, default=0, help='first seed')
+    parser.add_argument('--programs', type=int, default=1000)
+    parser.add_argument('--keep', type=Path, help='folder for the traces of failing chunks')
+    args = parser.parse_args()
+    if args.keep is not None:
+        args.keep.mkdir(parents=True, exist_ok=True)
+    tally = run_suite(args.python, args.first, args.programs, args.keep)
+    return 0 if set(tally.outcomes) <= {Outcome.CONFORMS} else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

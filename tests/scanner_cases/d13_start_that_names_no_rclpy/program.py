@@ -1,0 +1,8 @@
+from robot import Robot, serve
+
+
+class Other(Robot):
+    pass
+
+
+main = serve(Other)

@@ -1,0 +1,3 @@
+from setuptools import setup
+
+setup(entry_points={'console_scripts': ['program = program:main']})

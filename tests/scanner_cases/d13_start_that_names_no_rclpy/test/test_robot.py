@@ -1,0 +1,9 @@
+from robot import Robot, serve
+
+
+class FakeRobot(Robot):
+    pass
+
+
+def test_robot():
+    serve(FakeRobot)()

@@ -1,0 +1,6 @@
+from handler import Handler
+
+
+class ArmHandler(Handler):
+    def setup(self):
+        self.forward('arm')

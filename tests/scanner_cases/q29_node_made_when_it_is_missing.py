@@ -1,0 +1,62 @@
+"""A node that is made only while there is none is one node, whoever asks for it first."""
+# live: no, nobody in sight turns the lamp on
+
+import threading
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+shared = None
+ready = threading.Event()
+
+
+def spin():
+    executor = SingleThreadedExecutor()
+    executor.add_node(shared)
+    executor.spin()
+
+
+def get_node():
+    global shared
+    if not ready.is_set():
+        rclpy.init()
+        shared = Node('backend')
+        threading.Thread(target=spin, daemon=True).start()
+        ready.set()
+    return shared
+
+
+class Lamp:
+    def __init__(self):
+        self.pub = None
+
+    def show(self):
+        if self.pub is None:
+            self.pub = get_node().create_publisher(String, 'lamp', 1)
+            get_node().create_timer(0.5, self.show)
+        self.pub.publish(String())
+
+    def turn_on(self):
+        self.show()
+
+
+class Door:
+    def listen(self):
+        get_node().create_subscription(String, 'door', self.heard, 10)
+
+    def heard(self, msg):
+        get_node().get_logger().info('knock')
+
+
+lamp = Lamp()
+door = Door()
+
+# expect:
+# unit backend: SingleThreadedExecutor x1 spin in thread, spin
+#   group backend_default EXCLUSIVE default
+#   timer show in backend_default every 0.5 when=later
+#     publishes lamp @39
+#     changes timer @38
+#   subscription heard in backend_default key=door conditional when=later

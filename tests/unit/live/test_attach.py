@@ -1,0 +1,62 @@
+"""A process is entered by the first way that it lets in."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.errors import ToolNotFoundError
+from ros2cc_extract.extract.live.attach import Injector, inject
+
+SCRIPT = Path('record.py')
+
+
+class Door:
+    """A way in, which refuses if it is told why; keeps who came."""
+
+    def __init__(self, name: str, refusal: str | None = None) -> None:
+        self.entered: list[tuple[int, Path]] = []
+        self._refusal = refusal
+        self.injector = Injector(name, self._enter, (RuntimeError,))
+
+    def _enter(self, pid: int, script: Path) -> None:
+        if self._refusal is not None:
+            raise RuntimeError(self._refusal)
+        self.entered.append((pid, script))
+
+
+def test_the_next_way_is_tried_when_one_is_refused() -> None:
+    shut, opened = Door('sys.remote_exec', 'another version'), Door('hypno')
+    inject(7, SCRIPT, (shut.injector, opened.injector))
+    assert opened.entered == [(7, SCRIPT)]
+
+
+def test_a_process_is_entered_once() -> None:
+    first, second = Door('sys.remote_exec'), Door('hypno')
+    inject(7, SCRIPT, (first.injector, second.injector))
+    assert (first.entered, second.entered) == ([(7, SCRIPT)], [])
+
+
+@pytest.mark.parametrize(
+    ('names', 'told'),
+    [
+        (('sys.remote_exec', 'hypno'), 'sys.remote_exec: no; hypno: no; '),
+        (('sys.remote_exec',), 'sys.remote_exec: no; .*pip install "ros2cc-extract\\[attach\\]"'),
+    ],
+)
+def test_what_each_way_was_told_is_said_when_none_is_let_in(
+    names: tuple[str, ...], told: str
+) -> None:
+    with pytest.raises(ToolNotFoundError) as raised:
+        inject(7, SCRIPT, [Door(name, 'no').injector for name in names])
+    assert re.match(f'process 7 cannot be entered: {told}', str(raised.value))
+
+
+def test_other_errors_are_nobodys_refusal() -> None:
+    def break_down(pid: int, script: Path) -> None:
+        raise KeyError(pid)
+
+    with pytest.raises(KeyError):
+        inject(7, SCRIPT, [Injector('hypno', break_down, (OSError,)), Door('other').injector])

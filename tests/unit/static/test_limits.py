@@ -1,0 +1,35 @@
+"""A scan leaves the collector of the process as it was."""
+
+from __future__ import annotations
+
+import gc
+
+from ros2cc_extract.extract.static.limits import scanning_limits
+
+
+def test_the_collector_is_on_again_and_nothing_is_kept_from_it() -> None:
+    frozen = gc.get_freeze_count()
+    with scanning_limits():
+        assert not gc.isenabled()
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == frozen
+
+
+def test_what_the_process_keeps_from_the_collector_stays_kept() -> None:
+    gc.freeze()
+    try:
+        with scanning_limits():
+            pass
+        assert gc.get_freeze_count() > 0
+    finally:
+        gc.unfreeze()
+
+
+def test_a_collector_that_was_off_stays_off() -> None:
+    gc.disable()
+    try:
+        with scanning_limits():
+            pass
+        assert not gc.isenabled()
+    finally:
+        gc.enable()

@@ -1,0 +1,36 @@
+"""Which slices may share their verdicts."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.close import close
+from ros2cc_extract.spec.model import (
+    Blocking,
+    Callback,
+    CallbackGroup,
+    CallbackType,
+    Executor,
+    GroupType,
+    Spec,
+)
+from ros2cc_extract.verify import narrowing
+from ros2cc_extract.verify.unit import Options, verify_unit
+
+
+def subscription(name: str, *blocking: Blocking) -> Callback:
+    return Callback(name=name, type=CallbackType.SUB, group=f'{name}_group', blocking=blocking)
+
+
+def test_a_wait_that_no_model_has_tells_slices_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only of who waits is asked whether it ends; a slice of who does not knows no such query."""
+    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    wait = Blocking(call='Event.wait', on=Unknown('not followed'))
+    callbacks = (subscription('scan'), subscription('stop', wait))
+    groups = [CallbackGroup(name=c.group, type=GroupType.EXCLUSIVE) for c in callbacks]
+    executor = Executor(name='executor', kind='MultiThreadedExecutor', threads=('one', 'two'))
+    unit = Spec(name='arm', callbacks=callbacks, groups=tuple(groups), executor=executor)
+    results = verify_unit(close(unit), Options(profile=Profile.RCLPY, structural=False)).results
+    assert [r.callbacks for r in results if r.family == 'progress'] == [('stop',)]
