@@ -4,23 +4,59 @@
 
 PYTHON ?= python3
 VENV := .venv
+# Real rclpy from PyPI, an environment for each distribution.
 JAZZY := .venv-jazzy
+KILTED := .venv-kilted
 BIN := $(VENV)/bin
 # mypy does not know setuptools' package-dir: it is shown the installed layout by links.
 TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
+pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long lint schema paper clean
+.PHONY: demo test test-long texts conformance lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
 
-test: $(VENV)/developed $(JAZZY)/installed
-	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -n auto $(PYTEST_FLAGS)
+# The whole suite with Jazzy; before it, that source and live run agree on Kilted too.
+test: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(call pytest_with,$(KILTED)) -q -n auto tests/live/test_live_examples_hold.py -k static_and_live
+	ROS2CC_KILTED_PYTHON=$(CURDIR)/$(KILTED)/bin/python $(call pytest_with,$(JAZZY)) -n auto $(PYTEST_FLAGS)
 
-# Random comparisons in the numbers of record; hours on the pure Python checker.
-test-long: $(VENV)/developed $(JAZZY)/installed
-	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python -m pytest -m slow $(PYTEST_FLAGS)
+# Random comparisons in the numbers of record, hours on the pure Python checker; before them all
+# live tests on Kilted.
+test-long: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(call pytest_with,$(KILTED)) -n auto -m 'slow or not slow' tests/live
+	$(call pytest_with,$(JAZZY)) -m slow $(PYTEST_FLAGS)
+	$(MAKE) texts
+
+# Plain and compact texts of random units: the same verdicts. Goes on where it was cut.
+UNITS ?= 2000
+compare_texts = $(BIN)/python tests/property/compared_texts.py $(1) --units $(UNITS) --record build/texts_$(1).jsonl
+texts: $(VENV)/developed
+	@mkdir -p build
+	$(call compare_texts,paper) --reduced-states 100000000 --memory-mb 8000
+	$(call compare_texts,rclpy)
+
+# Random node programs on real executors of both distributions: each trace a path of its model.
+PROGRAMS ?= 1000
+# Seeds from which on all programs run on the EventsExecutor: tests/conformance/programs.py.
+ON_EVENTS ?= --first 10000000 --programs 300
+conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(BIN)/python -m tests.conformance.suite --python $(JAZZY)/bin/python --programs $(PROGRAMS)
+	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
+	$(BIN)/python -m tests.conformance.suite --python $(JAZZY)/bin/python $(ON_EVENTS)
+	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python $(ON_EVENTS)
+
+# Mutated scanner cases: 2,000 in continuous integration, 100,000 before a release.
+FUZZ_RUNS ?= 2000
+fuzz: $(VENV)/developed
+	$(BIN)/python scripts/fuzz-scanner --runs $(FUZZ_RUNS)
+
+# The same texts, chosen by atheris as coverage grows.
+fuzz-guided: $(VENV)/developed
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[fuzz]'
+	$(BIN)/python scripts/fuzz-scanner --runs $(FUZZ_RUNS) --atheris
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .
@@ -41,6 +77,10 @@ schema: $(VENV)/installed
 rules: $(VENV)/installed
 	$(BIN)/python scripts/write-rule-pages
 
+# The picture of the README, where there is a chromium.
+screenshot: $(VENV)/installed
+	$(BIN)/python scripts/draw-report
+
 # The published SARIF schema, with which a test validates ours; a 43 MB npm package carries it.
 sarif-schema:
 	mkdir -p .cache && cd .cache && npm pack --silent @microsoft/sarif-multitool-linux@5.7.0 > /dev/null
@@ -50,8 +90,8 @@ sarif-schema:
 $(VENV)/bin/python:
 	@./scripts/make-venv $(PYTHON) $(VENV)
 
-$(JAZZY)/bin/python:
-	@./scripts/make-venv $(PYTHON) $(JAZZY)
+$(JAZZY)/bin/python $(KILTED)/bin/python:
+	@./scripts/make-venv $(PYTHON) $(@:/bin/python=)
 
 $(VENV)/installed: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e .
@@ -61,9 +101,9 @@ $(VENV)/developed: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[dev]'
 	@touch $(VENV)/installed $@
 
-$(JAZZY)/installed: $(JAZZY)/bin/python pyproject.toml
-	$(JAZZY)/bin/python -m pip install $(PIP_FLAGS) -e '.[jazzy]'
+.venv-%/installed: .venv-%/bin/python pyproject.toml
+	.venv-$*/bin/python -m pip install $(PIP_FLAGS) -e '.[$*]'
 	@touch $@
 
 clean:
-	rm -rf $(VENV) $(JAZZY) build dist *.egg-info
+	rm -rf $(VENV) $(JAZZY) $(KILTED) build dist *.egg-info

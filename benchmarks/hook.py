@@ -1,90 +1,132 @@
 """
-What the live hook costs: paired runs of one load without it, with it, and with a trace.
+What the live hook costs: one load without it, with it, and with a trace.
 
-    python benchmarks/hook.py [--seconds 10] [--rounds 5] [--kinds single,multi]
+    python benchmarks/hook.py                     CPU time and latency, 2.5 minutes
+    python benchmarks/hook.py --processes 5       the same from processes of their own, 4 minutes
+    python benchmarks/hook.py --memory 10         memory over ten minutes
 
-The interpreter with rclpy is that of ``ROS2CC_RCLPY_PYTHON``, else this one. Runs of a round
-follow each other directly; the table gives the median over the rounds, and for the cost the
-median of the differences within a round.
+The interpreter with rclpy is that of ``ROS2CC_RCLPY_PYTHON``, else this one. The first form puts
+the hook on and off in slices of half a second within one process; what it costs is the median over
+all slices of the ratio to the slice without the hook beside it, with the interval that holds the
+true median in 95 of 100 measurements. Processes of their own are as a user has them, but differ
+among themselves by more than the hook costs.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import math
 import os
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from ros2cc_extract.extract.live.environment import hooked_environment
 
-LOAD = Path(__file__).with_name('hook_load.py')
+HERE = Path(__file__).resolve().parent
 WAYS = ('without', 'spec', 'trace')
+COSTS = {'cpu_us_per_callback': 'cost of CPU', 'latency_median_us': 'of latency'}
+PYTHON = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
+SAMPLE_EVERY_S = 5.0
+# The allocator takes what it needs in the first minute.
+WARM_UP_SHARE = 0.2
 Result = Mapping[str, float]
 
 
-def run_load(kind: str, seconds: float, way: str) -> Result:
+def environment_of(way: str, folder: str) -> dict[str, str]:
+    # A domain for each way: side by side they would hear each other's messages.
+    domain = int(os.environ.get('ROS_DOMAIN_ID', os.getpid() % 90 + 1)) + WAYS.index(way)
     environment = {
         **os.environ,
         'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_DOMAIN_ID': os.environ.get('ROS_DOMAIN_ID', str(os.getpid() % 100 + 1)),
+        'ROS_DOMAIN_ID': str(domain),
     }
-    python = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
-    with tempfile.TemporaryDirectory() as folder:
-        if way != 'without':
-            environment = hooked_environment(environment, Path(folder), traced=way == 'trace')
-        done = subprocess.run(
-            [python, str(LOAD), kind, str(seconds)],
-            env=environment,
-            stdout=subprocess.PIPE,
-            check=True,
-            timeout=seconds + 60,
-        )
-    return json.loads(done.stdout)
+    if way == 'without':
+        return environment
+    return hooked_environment(environment, Path(folder), traced=way == 'trace')
 
 
-def measure(kind: str, seconds: float, rounds: int) -> dict[str, list[Result]]:
+def measure_slices(kind: str, seconds: float) -> dict[str, list[Result]]:
+    environment = environment_of('without', '')
+    done = subprocess.run(
+        [PYTHON, str(HERE / 'hook_slices.py'), kind, str(seconds)],
+        env={**environment, 'PYTHONPATH': str(HERE.parent)},
+        stdout=subprocess.PIPE,
+        check=True,
+        timeout=3 * seconds + 60,
+    )
+    results: dict[str, list[Result]] = json.loads(done.stdout)
+    return results
+
+
+def measure_processes(kind: str, seconds: float, rounds: int) -> dict[str, list[Result]]:
     results: dict[str, list[Result]] = {way: [] for way in WAYS}
     for number in range(rounds):
         # Another order in each round, so that no way always follows the same one.
         for way in WAYS[number % 3 :] + WAYS[: number % 3]:
-            results[way].append(run_load(kind, seconds, way))
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run(
+                    [PYTHON, str(HERE / 'hook_load.py'), kind, str(seconds)],
+                    env=environment_of(way, folder),
+                    stdout=subprocess.PIPE,
+                    check=True,
+                    timeout=seconds + 60,
+                )
+            results[way].append(json.loads(done.stdout))
     return results
 
 
 def print_table(kind: str, results: Mapping[str, Sequence[Result]]) -> None:
     names = list(results['without'][0])
-    print(f'\n{kind}-threaded' + ''.join(f'{name:>22}' for name in names) + f'{"cost":>9}')
+    heads = ''.join(f'{name:>22}' for name in names)
+    costs = ''.join(f'{what:>28}' for what in COSTS.values())
+    print(f'\n{kind}-threaded{heads}{costs}   of {len(results["spec"])} pairs')
     for way in WAYS:
         medians = [statistics.median(each[name] for each in results[way]) for name in names]
-        shares = [
-            with_hook['cpu_us_per_callback'] / without['cpu_us_per_callback'] - 1
-            for with_hook, without in zip(results[way], results['without'], strict=True)
-        ]
         cells = ''.join(f'{median:22.1f}' for median in medians)
-        print(f'{way:<{len(kind) + 9}}{cells}{statistics.median(shares):+9.1%}')
+        print(f'{way:<{len(kind) + 9}}{cells}{"".join(changes(results, way))}')
+
+
+def changes(results: Mapping[str, Sequence[Result]], way: str) -> Iterator[str]:
+    """Tell the median of what each slice costs beside its neighbour, and how well it is known."""
+    pairs = list(zip(results[way], results['without'], strict=True))
+    for name in COSTS:
+        costs = [hooked[name] / bare[name] - 1 for hooked, bare in pairs]
+        low, high = median_interval(costs)
+        yield f'{statistics.median(costs):+10.1%} ({low:+.1%} to {high:+.1%})'.rjust(28)
+
+
+def median_interval(values: Sequence[float]) -> tuple[float, float]:
+    """Give what holds the median in 95 of 100 samples like this one, whatever the distribution."""
+    ordered, count = sorted(values), len(values)
+    ranks = 1.96 * count**0.5 / 2
+    return (
+        ordered[max(0, math.floor(count / 2 - ranks))],
+        ordered[min(count - 1, math.ceil(count / 2 + ranks))],
+    )
 
 
 def print_event_cost() -> None:
     """Time the wrapper of a group's two methods alone, against the bare methods."""
-    python = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
-    source = Path(__file__).resolve().parents[1]
     hooked = subprocess.run(
-        [python, '-c', _EVENT_COST],
-        env={**os.environ, 'PYTHONPATH': str(source)},
+        [PYTHON, '-c', _EVENT_COST],
+        env={**os.environ, 'PYTHONPATH': str(HERE.parent)},
         stdout=subprocess.PIPE,
         check=True,
         text=True,
     )
-    print('\ncost of one event (begin or end of a callback):', hooked.stdout.strip())
+    print('cost of one event (begin or end of a callback):', hooked.stdout.strip())
 
 
 _EVENT_COST = """
-import tempfile, timeit
+import tempfile, time, timeit
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup as Group
 class Entity:
     callback = None
@@ -93,26 +135,86 @@ group.add_entity(entity)
 def both():
     group.beginning_execution(entity)
     group.ending_execution(entity)
-bare = min(timeit.repeat(both, number=20000, repeat=7)) / 40000
+bare = min(timeit.repeat(both, number=2000, repeat=70)) / 4000
 from ros2cc_extract.extract.live.hook import Hook
 import rclpy.executors
 hook = Hook(tempfile.mkdtemp())
 hook.wrap(rclpy.executors)
-hooked = min(timeit.repeat(both, number=20000, repeat=7)) / 40000
+# The hook's own thread would have taken them.
+empty = hook.recorder.events.clear
+hooked = min(timeit.repeat(both, empty, number=2000, repeat=70)) / 4000
+empty()
+for _ in range(500):
+    both()
+begun = time.perf_counter()
+taken = len(hook.recorder.take_events())
+take = (time.perf_counter() - begun) / taken
 hook.unwrap()
-print(f'{bare * 1e6:.2f} us without, {hooked * 1e6:.2f} us with the hook')
+print(f'{bare * 1e6:.2f} us without, {hooked * 1e6:.2f} us with the hook, '
+      f'{take * 1e6:.2f} us later in its own thread')
 """
 
 
+def measure_memory(kind: str, minutes: float) -> None:
+    """Print how the memory of three processes of ``minutes`` each, side by side, grows."""
+    until = time.monotonic() + 60 * minutes
+    samples: dict[str, list[tuple[float, float]]] = {way: [] for way in WAYS}
+    with contextlib.ExitStack() as stack:
+        pids = {way: stack.enter_context(_running(kind, 60 * minutes + 60, way)) for way in WAYS}
+        begun = time.monotonic()
+        while time.monotonic() < until:
+            time.sleep(SAMPLE_EVERY_S)
+            for way, pid in pids.items():
+                samples[way].append(((time.monotonic() - begun) / 60, rss_kb(pid)))
+    print(f'\n{kind}-threaded        RSS begin      end (KB)    slope after a fifth of the time')
+    for way, all_of_way in samples.items():
+        settled = [each for each in all_of_way if each[0] >= WARM_UP_SHARE * minutes]
+        minute, kb = zip(*settled, strict=True)
+        slope = statistics.linear_regression(minute, kb).slope
+        print(f'{way:<17}{kb[0]:12.0f}{kb[-1]:12.0f}{slope:+17.1f} KB per minute')
+
+
+@contextlib.contextmanager
+def _running(kind: str, seconds: float, way: str) -> Iterator[int]:
+    with tempfile.TemporaryDirectory() as folder:
+        load = subprocess.Popen(
+            [PYTHON, str(HERE / 'hook_load.py'), kind, str(seconds)],
+            env=environment_of(way, folder),
+            stdout=subprocess.DEVNULL,
+        )
+        try:
+            yield load.pid
+        finally:
+            load.send_signal(signal.SIGKILL)
+            load.wait()
+
+
+def rss_kb(pid: int) -> float:
+    pages = int(Path(f'/proc/{pid}/statm').read_text().split()[1])
+    return pages * os.sysconf('SC_PAGE_SIZE') / 1024
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('--seconds', type=float, default=10.0)
-    parser.add_argument('--rounds', type=int, default=5)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument('--seconds', type=float, help='of each kind (70), or process (10)')
+    parser.add_argument('--processes', type=int, metavar='ROUNDS', default=0)
+    parser.add_argument('--memory', type=float, metavar='MINUTES', default=0)
     parser.add_argument('--kinds', default='single,multi')
     options = parser.parse_args()
+    kinds = options.kinds.split(',')
+    if options.memory:
+        for kind in kinds:
+            measure_memory(kind, options.memory)
+        return
     print_event_cost()
-    for kind in options.kinds.split(','):
-        print_table(kind, measure(kind, options.seconds, options.rounds))
+    for kind in kinds:
+        if options.processes:
+            results = measure_processes(kind, options.seconds or 10.0, options.processes)
+        else:
+            results = measure_slices(kind, options.seconds or 70.0)
+        print_table(kind, results)
 
 
 if __name__ == '__main__':

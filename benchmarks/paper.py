@@ -1,12 +1,12 @@
 """
 Reproduce the publication with our own tools and write ``docs/paper.md``.
 
-    make paper          # or: python benchmarks/paper.py [--without-live]
+    make paper          # or: python benchmarks/paper.py [--without-live | --growth]
 
 Shin et al., "Modeling and Verification of ROS 2 Callback Concurrency Using UPPAAL Model Checker",
 IJSEKE 2026, DOI 10.1142/S0218194026500439. Verdicts and costs are measured by this program; the
 published figures stand beside them. The logs come from the example nodes under real rclpy (the
-interpreter named by ROS2CC_RCLPY_PYTHON).
+interpreter named by ROS2CC_RCLPY_PYTHON). Spin's figures are left out where it is not installed.
 """
 
 from __future__ import annotations
@@ -23,12 +23,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import checker
+import spin_rate
 from growth import Series, draw_growth
 from published import CALLBACKS, COSTS, THREADS, VERDICTS
 
-from ros2cc_extract.checker.api import Limits
-from ros2cc_extract.evidence import Evidence
+from ros2cc_extract.checker.api import Limits, Query, check, read_model
 from ros2cc_extract.extract.static.api import scan
+from ros2cc_extract.generator import build
 from ros2cc_extract.generator.build import Text
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import (
@@ -39,7 +41,8 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify import Options, QueryResult, Verdict, Verification, verify_unit
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.unit import Options, QueryResult, Verdict, Verification, verify_unit
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / 'docs' / 'paper.md'
@@ -50,6 +53,9 @@ SIGNS = {Verdict.SATISFIED: 'yes', Verdict.NOT_SATISFIED: '**no**', Verdict.UNDE
 TIME_SCALE = 0.1
 LIVE_SECONDS = 2.5
 PLAIN_LIMIT_S = 60.0
+GROWTH_TITLE = '## Growth'
+FULL_SEARCHES = (1, 2, 3, 4)
+"""Sizes n x n whose full plain text fits in memory; 4 x 4 has 40 million states."""
 
 
 @dataclass(frozen=True)
@@ -64,22 +70,34 @@ class Case:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--without-live', action='store_true', help='leave the rclpy logs out')
+    parser.add_argument('--growth', action='store_true', help='renew the section on growth alone')
     options = parser.parse_args()
+    if options.growth:
+        return renew_growth()
     cases = [verify_case(number) for number in CASES]
     started = time.monotonic()
-    cells = dict(measure_cells(Text.COMPACT, None))
+    cells = dict(measure_cells())
     seconds = time.monotonic() - started
-    plain = dict(measure_cells(Text.PLAIN, Limits(seconds=PLAIN_LIMIT_S)))
-    PICTURE.write_text(draw_growth(growth_series(cells, plain)), encoding='utf-8')
+    growth = growth_series()
+    PICTURE.write_text(draw_growth(growth), encoding='utf-8')
     sections = [
         introduction(),
         query_section(cases),
         case_section(cases),
         behaviour_section(cases, live=not options.without_live),
         cost_section(cells, seconds),
+        growth_section(growth),
     ]
     PAGE.write_text('\n'.join(sections), encoding='utf-8')
     print(f'wrote {PAGE.relative_to(ROOT)} and {PICTURE.relative_to(ROOT)}')
+    return 0
+
+
+def renew_growth() -> int:
+    growth = growth_series()
+    PICTURE.write_text(draw_growth(growth), encoding='utf-8')
+    before = PAGE.read_text(encoding='utf-8').partition(GROWTH_TITLE)[0]
+    PAGE.write_text(before + growth_section(growth), encoding='utf-8')
     return 0
 
 
@@ -97,9 +115,9 @@ def verify_case(number: int) -> Case:
 Cell = tuple[int, int, GroupType]
 
 
-def measure_cells(text: Text, limits: Limits | None) -> Iterator[tuple[Cell, Verification]]:
-    """Verify every cell of the published cost table, all query families."""
-    options = Options(text=text, limits=limits or Limits())
+def measure_cells() -> Iterator[tuple[Cell, Verification]]:
+    """Verify every cell of the published cost table, all query families, compact text."""
+    options = Options(text=Text.COMPACT)
     for kind in (GroupType.EXCLUSIVE, GroupType.REENTRANT):
         for threads in THREADS:
             for callbacks in CALLBACKS:
@@ -312,7 +330,6 @@ def cost_section(cells: dict[Cell, Verification], seconds: float) -> str:
             )
             lines.append(f'| {threads} | ' + ' | '.join(shown) + ' |')
         lines.append('')
-    lines += ['![growth of cost with callbacks and threads](images/growth.svg)', '']
     return '\n'.join(lines)
 
 
@@ -321,21 +338,82 @@ def published_cost(callbacks: int, threads: int, kind: GroupType) -> str:
     return 'not finished' if cost is None else f'{cost}'
 
 
-def growth_series(
-    compact: dict[Cell, Verification], plain: dict[Cell, Verification]
-) -> list[Series]:
-    """Seconds along the diagonal of the reentrant table: n callbacks on n threads."""
-    diagonal = [(n, n, GroupType.REENTRANT) for n in CALLBACKS]
+def growth_series() -> list[Series]:
+    """CPU seconds along the diagonal of the reentrant table: n callbacks on n threads."""
+    full = [search(n, Text.PLAIN, reduction=False, all_queries=False) for n in FULL_SEARCHES]
+    plain = [search(n, Text.PLAIN, reduction=True, all_queries=True) for n in CALLBACKS]
+    compact = [search(n, Text.COMPACT, reduction=False, all_queries=True) for n in CALLBACKS]
+    series = [
+        Series('UPPAAL, as published (Q1)', [COSTS[n][n - 1][1] for n in CALLBACKS]),
+        Series('ours, plain text, no reduction (Q1)', [run.seconds for run in full]),
+        Series('ours, plain text (all queries)', [run.seconds for run in plain]),
+        Series('ours, compact text (all queries)', [run.seconds for run in compact]),
+    ]
+    if spin_rate.missing() is None:
+        runs = [spin_rate.fastest(n, n, exclusive=False) for n in FULL_SEARCHES]
+        agree = [run.states for run in runs] == [run.states for run in full]
+        assert agree, 'Spin and the embedded checker search different models'
+        series.insert(1, Series('Spin, plain text (Q1)', [run.seconds for run in runs]))
+    return series
+
+
+@dataclass(frozen=True)
+class Search:
+    """States, and CPU seconds; ``None`` when a limit ended it."""
+
+    states: int
+    seconds: float | None
+
+
+def search(size: int, text: Text, *, reduction: bool, all_queries: bool) -> Search:
+    """Check ``size`` callbacks of a reentrant group on as many threads, within a time limit."""
+    row = checker.Row('', size, size, 'reentrant', text.value, reduction, '')
+    rendered = build.render(close(checker.unit(row)), text=text)
+    model = read_model(rendered.xml, 'model.xml')
+    queries = [Query(query.formula, '', None) for query in rendered.queries]
+    started = time.process_time()
+    found = check(
+        model,
+        queries if all_queries else queries[:1],
+        reduction=reduction,
+        limits=Limits(seconds=PLAIN_LIMIT_S),
+    )
+    seconds = time.process_time() - started
+    return Search(found.states, seconds if found.complete else None)
+
+
+def growth_section(growth: Sequence[Series]) -> str:
+    lines = [
+        GROWTH_TITLE,
+        '',
+        'CPU seconds for n callbacks in one reentrant group on n threads. Q1 asks for dead-locks;',
+        'every search of the plain text without reduction stores the same states. An empty cell',
+        'did not finish, or was not tried as it would need more memory than a desktop has.',
+        '',
+        '| | ' + ' | '.join(f'{n} x {n}' for n in CALLBACKS) + ' |',
+        '|---' * (len(CALLBACKS) + 1) + '|',
+    ]
+    for series in growth:
+        cells = [f'{s:.3f}' if s is not None else '' for s in series.seconds]
+        cells += [''] * (len(CALLBACKS) - len(cells))
+        lines.append(f'| {series.label} | ' + ' | '.join(cells) + ' |')
+    lines += ['', *spin_lines(), '']
+    lines += ['![growth of cost with callbacks and threads](images/growth.svg)', '']
+    return '\n'.join(lines)
+
+
+def spin_lines() -> list[str]:
+    """States a second of both programs on the case that both hold with ease."""
+    if reason := spin_rate.missing():
+        return [f'Spin: {reason}.']
+    row = checker.Row('', 4, 3, 'reentrant', 'plain', False, '', all_families=False)
+    ours = min((checker.measure(row) for _ in spin_rate.HASH_BITS), key=lambda run: run.cpu_s)
+    spin = spin_rate.fastest(4, 3, exclusive=False)
     return [
-        Series(
-            'UPPAAL, as published (Q1)',
-            [COSTS[n][n - 1][1] for n in CALLBACKS],
-        ),
-        Series(
-            'ours, plain text',
-            [plain[c].seconds if plain[c].complete else None for c in diagonal],
-        ),
-        Series('ours, compact text', [compact[c].seconds for c in diagonal]),
+        f'4 callbacks on 3 threads, {ours.states:,} states, one core: ours',
+        f'{ours.states / ours.cpu_s / 1e6:.1f} million states/s, Spin'
+        f' {spin.states / spin.seconds / 1e6:.1f} million (`benchmarks/spin_rate.py`; the best of',
+        'three runs each, Spin with three sizes of its hash table; its compiling not counted).',
     ]
 
 

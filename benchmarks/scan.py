@@ -1,15 +1,18 @@
 """
 Cost of the static scanner: lines per second, growth with the number of files, warm runs.
 
-``python benchmarks/scan.py [--files 10,100,1000] [TREE…]``; without trees on generated files.
+``python benchmarks/scan.py [--files 10,100,1000,10000] [TREE…]``; without trees on generated
+files. Each scan runs in a process of its own.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+import os
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from ros2cc_extract.extract.static.api import scan
@@ -77,11 +80,12 @@ if __name__ == '__main__':
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('--files', default='10,100,1000')
+    parser.add_argument('--files', default='10,100,1000,10000')
     parser.add_argument('trees', nargs='*', type=Path)
     args = parser.parse_args()
     for tree in args.trees:
-        print(f'{tree}: {described(tree)}')
+        print(f'{tree}: {rate(tree, timed(tree))}')
+        print(f'{tree}: {shared(tree)}')
     if not args.trees:
         counts = [int(text) for text in args.files.split(',')]
         with tempfile.TemporaryDirectory() as folder:
@@ -112,31 +116,51 @@ def warm(folder: Path) -> None:
     tree, cache = folder / 'nodes' / '1000', folder / 'cache'
     if not tree.is_dir():
         return
-    scan([tree], cache=cache)
+    print(f'1000 nodes: {shared(tree)}')
+    in_child(lambda: scan([tree], cache=cache))
+    seconds, wall, _ = in_child(lambda: scan([tree], cache=cache))
+    print(f'warm run of 1000 unchanged files: {seconds:.2f} s of CPU, {wall:.2f} s')
+
+
+def timed(tree: Path) -> tuple[float, float]:
+    """Seconds of CPU on one core, which hold under load too, and MB."""
+    seconds, _, megabytes = in_child(lambda: scan([tree], processes=1))
+    return seconds, megabytes
+
+
+def shared(tree: Path) -> str:
+    """How much sooner several cores are ready; only true on an idle machine."""
+    _, alone, _ = in_child(lambda: scan([tree], processes=1))
+    _, together, _ = in_child(lambda: scan([tree]))
+    cores = len(os.sched_getaffinity(0))
+    return f'{alone:.2f} s on one core, {together:.2f} s on {cores}: {alone / together:.2f} times'
+
+
+def in_child(work: Callable[[], object]) -> tuple[float, float, float]:
+    """Seconds of CPU, seconds and MB of ``work`` in a fresh copy of this process."""
     start = time.perf_counter()
-    scan([tree], cache=cache)
-    print(f'warm run of 1000 unchanged files: {time.perf_counter() - start:.2f} s')
+    child = os.fork()
+    if not child:
+        work()
+        os._exit(0)
+    _, status, usage = os.wait4(child, 0)
+    if status:
+        raise SystemExit(f'a scan ended with status {status}')
+    wall = time.perf_counter() - start
+    return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
-def described(tree: Path) -> str:
-    return rate(tree, timed(tree))
-
-
-def timed(tree: Path) -> float:
-    start = time.process_time()
-    scan([tree])
-    return time.process_time() - start
-
-
-def rate(tree: Path, seconds: float) -> str:
+def rate(tree: Path, cost: tuple[float, float]) -> str:
+    seconds, megabytes = cost
     files = [tree] if tree.is_file() else list(tree.rglob('*.py'))
     lines = sum(path.read_bytes().count(b'\n') for path in files)
-    return f'{lines} lines in {seconds:.2f} s of CPU, {lines / seconds:,.0f} lines/s'
+    told = f'{lines} lines in {seconds:.2f} s of CPU, {lines / seconds:,.0f} lines/s'
+    return f'{told}, {megabytes:.0f} MB'
 
 
-def exponent(points: list[tuple[int, float]]) -> float:
-    """Slope between the two largest points, in logarithms."""
-    (n1, t1), (n2, t2) = points[-2:]
+def exponent(points: list[tuple[int, tuple[float, float]]]) -> float:
+    """Slope of time over number of files in logarithms, the smallest tree left out."""
+    (n1, (t1, _)), (n2, (t2, _)) = points[min(1, len(points) - 2)], points[-1]
     return math.log(t2 / t1) / math.log(n2 / n1)
 
 
