@@ -262,18 +262,18 @@ def _rivals(seed: int) -> Program:
         _entity(seed, 1, SUBSCRIPTION, 0, work_s=0.004),
         _entity(seed, 2, SUBSCRIPTION, 0, work_s=0.004),
     )
-    return _by_hand(seed, 2, groups, entities, (1, 2) * 30)
+    return _by_hand(seed, 2, groups, entities, (1, 2) * 12)
 
 
 def _busy_pool(seed: int) -> Program:
     """Callbacks are collected while the only worker is busy."""
     groups = (Group(0, True),)
     entities = (
-        _entity(seed, 0, SUBSCRIPTION, 0, work_s=0.004),
-        _entity(seed, 1, SUBSCRIPTION, 0, work_s=0.004),
+        _entity(seed, 0, SUBSCRIPTION, 0, work_s=0.008),
+        _entity(seed, 1, SUBSCRIPTION, 0, work_s=0.008),
         _entity(seed, 2, TIMER, 0, period_s=0.02, work_s=0.001),
     )
-    return _by_hand(seed, 1, groups, entities, (0, 1) * 30)
+    return _by_hand(seed, 1, groups, entities, (0, 1) * 8)
 
 
 def _two_tasks(seed: int) -> Program:
