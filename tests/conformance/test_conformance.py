@@ -114,7 +114,7 @@ def test_programs_written_by_hand_are_paths_of_the_model(by_hand: Recordings) ->
 def test_a_wrong_model_is_rejected(
     plant: Callable[[str], str], seed: int, by_hand: Recordings
 ) -> None:
-    """By one of a few runs: on a machine that stood still, one may look as the wrong model has it."""
+    """By one of a few runs: one of a machine that stood still may look as the wrong model says."""
     assert Outcome.DIVERGES in (outcome_under(plant, seed, recorded) for recorded in by_hand)
 
 
