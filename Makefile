@@ -24,10 +24,11 @@ test: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	ROS2CC_KILTED_PYTHON=$(CURDIR)/$(KILTED)/bin/python $(call pytest_with,$(JAZZY)) -n auto $(PYTEST_FLAGS)
 
 # Random comparisons in the numbers of record, hours on the pure Python checker; before them all
-# live tests on Kilted.
+# live tests on Kilted, after them the examples of hypothesis drawn anew.
 test-long: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(call pytest_with,$(KILTED)) -n auto -m 'slow or not slow' tests/live
 	$(call pytest_with,$(JAZZY)) -m slow $(PYTEST_FLAGS)
+	$(call pytest_with,$(JAZZY)) -n auto --hypothesis-profile=new tests/property tests/unit
 	$(MAKE) texts
 
 # Plain and compact texts of random units: the same verdicts. Goes on where it was cut.

@@ -25,12 +25,11 @@ FORKED = Path(__file__).with_name('forked.py')
 AT_ONCE = 8
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if Path(__file__).parent in item.path.parents:
             item.add_marker(pytest.mark.live)
-            # Real processes and real middleware: one lost race is theirs, three are ours.
-            item.add_marker(pytest.mark.flaky(reruns=2))
 
 
 @pytest.fixture(scope='session')
