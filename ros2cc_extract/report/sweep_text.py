@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+
 from rich.console import Console
 from rich.text import Text
 
@@ -17,7 +20,7 @@ _SIGNS = {
 
 
 def print_sweep(sweep: Sweep, console: Console) -> None:
-    """Print one column per point, then from which thread count on a verdict is another one."""
+    """Print one column per point, then what follows from it."""
     bounds = {point.max_cycle for point in sweep.points}
     rows = table('  #', 'query', *(_head(point, len(bounds) > 1) for point in sweep.points))
     first = sweep.verifications[0]
@@ -31,16 +34,46 @@ def print_sweep(sweep: Sweep, console: Console) -> None:
     console.print(rows)
     for note in dict.fromkeys(note for v in sweep.verifications for note in v.notes):
         console.print(f'  note: {note}', soft_wrap=True)
-    for turn in sweep.turns():
-        words = first.results[turn.query - 1].words
-        bound = f' (max-cycle {turn.max_cycle})' if len(bounds) > 1 else ''
-        console.print(
-            f'  from {turn.threads} threads on{bound}: {words}: {turn.before.value} -> '
-            f'{turn.after.value}'
-        )
+    for line in _conclusion(sweep, with_bound=len(bounds) > 1):
+        console.print(f'  {line}', soft_wrap=True)
+
+
+def _conclusion(sweep: Sweep, *, with_bound: bool) -> Iterator[str]:
+    """What to do first, then which rows turn: one line per thread count and direction."""
     least = sweep.least_threads()
     if least is not None:
-        console.print(f'  smallest number of threads without a dead-lock: {least}')
+        yield f'smallest number of threads without a dead-lock: {least}'
+    elif sweep.asks_for_progress:
+        yield 'none of these numbers of threads is shown to be free of a dead-lock'
+    families = [result.family or 'query' for result in sweep.verifications[0].results]
+    by_count = groupby(sweep.turns(), key=lambda turn: (turn.threads, turn.max_cycle))
+    for (threads, max_cycle), turns in by_count:
+        yield f'from {threads} threads on{f" (max-cycle {max_cycle})" if with_bound else ""}:'
+        by_direction: dict[str, list[int]] = {}
+        for turn in turns:
+            direction = f'{turn.before.value} -> {turn.after.value}'
+            by_direction.setdefault(direction, []).append(turn.query)
+        for direction, queries in by_direction.items():
+            yield f'  {direction}: {_rows_by_family(queries, families)}'
+
+
+def _rows_by_family(queries: Sequence[int], families: Sequence[str]) -> str:
+    """Rows of the table, as spans, with the family that they are of."""
+    by_family: dict[str, list[int]] = {}
+    for query in queries:
+        by_family.setdefault(families[query - 1].replace('_', ' '), []).append(query)
+    return '; '.join(f'{family} {_spans(rows)}' for family, rows in by_family.items())
+
+
+def _spans(rows: Sequence[int]) -> str:
+    """Ascending numbers, neighbours drawn together: ``5-7, 9``."""
+    spans: list[tuple[int, int]] = []
+    for row in rows:
+        if spans and spans[-1][1] == row - 1:
+            spans[-1] = (spans[-1][0], row)
+        else:
+            spans.append((row, row))
+    return ', '.join(str(a) if a == b else f'{a}-{b}' for a, b in spans)
 
 
 def _head(point: Point, with_bound: bool) -> str:

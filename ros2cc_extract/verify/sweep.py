@@ -51,6 +51,11 @@ class Sweep:
     points: tuple[Point, ...]
     verifications: tuple[Verification, ...]
 
+    @property
+    def asks_for_progress(self) -> bool:
+        """Whether any callback waits, and the profile asks whether it may wait for ever."""
+        return any(r.family == PROGRESS for v in self.verifications for r in v.results)
+
     def least_threads(self) -> int | None:
         """
         Give the smallest thread count from which on nobody waits for ever.
@@ -61,9 +66,8 @@ class Sweep:
         stuck = [
             p.threads for p, v in zip(self.points, self.verifications, strict=True) if _hangs(v)
         ]
-        asked = any(r.family == PROGRESS for v in self.verifications for r in v.results)
         enough = [p.threads for p in self.points if p.threads > max(stuck, default=0)]
-        return min(enough) if asked and enough else None
+        return min(enough) if self.asks_for_progress and enough else None
 
     def turns(self) -> tuple[Turn, ...]:
         """List where a verdict changes from one thread count to the next."""
