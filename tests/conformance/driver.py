@@ -169,7 +169,7 @@ class Built:
 
         Of more requests at a time than are kept, the answers of some would never come.
         """
-        if self.spinning >= programs.REQUESTS_KEPT - 2:
+        if self.spinning >= programs.SPINS_AT_A_TIME:
             return
         self.spinning += 1
         future = client.call_async(Service.Request())

@@ -23,6 +23,8 @@ EVENTS_FIRST = 10_000_000
 SPINS_FIRST = 20_000_000
 #: What rclpy keeps of requests that nobody took, and of messages in such a program.
 REQUESTS_KEPT, MESSAGES_KEPT = 10, 200
+#: How many callbacks spin for answers at a time, at most; so many requests of others are kept too.
+SPINS_AT_A_TIME = 8
 #: What runs as a callback that somebody wrote; a client has none.
 WRITTEN = (TIMER, SUBSCRIPTION, GUARD, SERVICE)
 
@@ -117,22 +119,24 @@ def draw(seed: int) -> Program:
         kinds = [kind for kind in kinds if kind != CLIENT] + [CLIENT]
     entities = [_draw_entity(random, seed, n, kind, groups) for n, kind in enumerate(kinds)]
     entities = [_with_deeds(random, entity, entities, executor) for entity in entities]
-    if tells_arrivals:
+    if tells_arrivals or spins:
         entities = [_without_requests(entity, entities) for entity in entities]
     if spins:
         entities = [_spinning(entity) for entity in entities]
     fed = [e.number for e in entities if e.kind in (SUBSCRIPTION, GUARD, SERVICE)]
-    feeds = _draw_feeds(random, fed)
-    return Program(
+    program = Program(
         seed=seed,
         executor=executor,
         threads=1 if executor != MULTI else random.randint(1, 6),
         nodes=nodes,
         groups=tuple(groups),
         entities=tuple(entities),
-        feeds=_kept(feeds, entities) if tells_arrivals else feeds,
+        feeds=_draw_feeds(random, fed),
         tells_arrivals=tells_arrivals,
     )
+    if tells_arrivals or spins:
+        return replace(program, feeds=_kept(program))
+    return program
 
 
 def _draw_kinds(random: Random, executor: str) -> list[str]:
@@ -223,15 +227,22 @@ def _without_requests(entity: Entity, entities: list[Entity]) -> Entity:
     return replace(entity, deeds=tuple(deeds))
 
 
-def _kept(
-    feeds: tuple[tuple[float, int], ...], entities: list[Entity]
-) -> tuple[tuple[float, int], ...]:
-    """Ask no service more often than its queue is long, however slow it is."""
+def _kept(program: Program) -> tuple[tuple[float, int], ...]:
+    """
+    Ask no service more often than its queue is long, however slow it is.
+
+    Where callbacks spin for answers of a service their requests have most of the room.
+    """
+    room = {e.number: REQUESTS_KEPT for e in program.entities if e.kind == SERVICE}
+    for client in program.entities:
+        server = server_of(program, client) if client.kind == CLIENT else None
+        if server is not None:
+            room[server.number] = REQUESTS_KEPT - SPINS_AT_A_TIME
     asked: Counter[int] = Counter()
     kept = []
-    for pause, number in feeds:
+    for pause, number in program.feeds:
         asked[number] += 1
-        is_lost = entities[number].kind == SERVICE and asked[number] > REQUESTS_KEPT
+        is_lost = asked[number] > room.get(number, asked[number])
         kept.append((pause, -1 if is_lost else number))
     return tuple(kept)
 
