@@ -25,7 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'trace', type=Path, metavar='TRACE', help='what `run --trace` wrote (JSON lines)'
     )
     parser.add_argument(
-        'spec', type=Path, metavar='SPEC', help='a YAML specification, or Python source'
+        'spec',
+        type=Path,
+        metavar='SPEC',
+        help='a YAML specification (- is a pipe), or Python source',
     )
     parser.add_argument(
         '--events',

@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name in ('left', 'right'):
         parser.add_argument(
-            name, type=Path, metavar=name.upper(), help='a YAML specification, or Python source'
+            name,
+            type=Path,
+            metavar=name.upper(),
+            help='a YAML specification (- is a pipe), or Python source',
         )
     parser.add_argument('--output-format', choices=['text', 'json', 'mermaid'], default='text')
 

@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        'path', type=Path, metavar='PATH|SPEC', help='a Python file, a directory or a YAML file'
+        'path',
+        type=Path,
+        metavar='PATH|SPEC',
+        help='a Python file, a directory, or a YAML file (- is a pipe)',
     )
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder to write to'

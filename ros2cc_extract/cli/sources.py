@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
+STANDARD_INPUT = Path('-')
 RECORDING_SUFFIX = '.json'
 NOT_FOLLOWED = 'not-followed'
 """Slug of what may hide callbacks and stands in no unit."""
@@ -72,9 +74,15 @@ def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
     """
     Read a YAML file or a recording of the live hook, or scan anything else as source.
 
+    What comes through a pipe, ``-`` or a named one, is YAML.
+
     :raises InputError: when there is no unit in it.
     """
-    if path.suffix in SPEC_SUFFIXES:
+    if path == STANDARD_INPUT:
+        from ros2cc_extract.spec.yaml_io import read_specs
+
+        return read_specs(_read_standard_input(), '<stdin>')
+    if path.suffix in SPEC_SUFFIXES or path.is_fifo():
         from ros2cc_extract.spec.yaml_io import load_specs
 
         return load_specs(path)
@@ -88,6 +96,13 @@ def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
     if not extraction.units:
         raise InputError('no rclpy node found', Place(str(path)), 'nothing to model')
     return extraction.units
+
+
+def _read_standard_input() -> str:
+    try:
+        return sys.stdin.buffer.read().decode('utf-8')
+    except UnicodeDecodeError as error:
+        raise InputError(f'no UTF-8 text (byte {error.start})', Place('<stdin>')) from None
 
 
 def read_input(path: Path) -> str:

@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'path',
         type=Path,
         metavar='SPEC|MODEL.xml',
-        help='a YAML specification, a UPPAAL model, or Python source',
+        help='a YAML specification (- is a pipe), a UPPAAL model, or Python source',
     )
     parser.add_argument(
         'queries',

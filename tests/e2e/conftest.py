@@ -41,11 +41,14 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def run(tmp_path: Path, cache: Path) -> Run:
-    def runner(*arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = ()) -> Outcome:
+    def runner(
+        *arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = (), given: bytes = b''
+    ) -> Outcome:
         done = subprocess.run(
             [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
             cwd=cwd,
             env=environment(cache),
+            input=given,
             capture_output=True,
             timeout=120,
             check=False,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 from pathlib import Path
 
 import jsonschema
@@ -111,6 +113,35 @@ def test_verify_reads_the_model_that_model_wrote(run: Run) -> None:
     assert [q['verdict'] for q in from_model['queries']] == [
         q['verdict'] for q in from_source['queries']
     ]
+
+
+def test_a_pipe_gives_what_a_file_gives(run: Run, tmp_path: Path) -> None:
+    written = run('spec', CASE_1).out
+    (tmp_path / 'arm.yaml').write_text(written)
+    os.mkfifo(tmp_path / 'pipe')
+    with subprocess.Popen(['cp', 'arm.yaml', 'pipe'], cwd=tmp_path):
+        statuses = [
+            run('model', 'arm.yaml', '-o', 'of_a_file').status,
+            run('model', '-', '-o', 'of_standard_input', given=written.encode()).status,
+            run('model', 'pipe', '-o', 'of_a_pipe').status,
+        ]
+    assert statuses == [0, 0, 0]
+    expected = texts_in(tmp_path / 'of_a_file')
+    assert 'paper_case1.xml' in expected
+    assert texts_in(tmp_path / 'of_standard_input') == expected
+    assert texts_in(tmp_path / 'of_a_pipe') == expected
+
+
+def texts_in(folder: Path) -> dict[str, str]:
+    return {path.name: path.read_text() for path in folder.iterdir()}
+
+
+def test_a_pipe_that_gives_no_text_is_told(run: Run) -> None:
+    refused = run('verify', '-', given=b'\xff')
+    assert (refused.status, refused.err) == (
+        2,
+        'ros2cc-extract: error: <stdin>: no UTF-8 text (byte 0)\n',
+    )
 
 
 def test_check_prints_units_verdicts_and_runs(run: Run) -> None:
