@@ -1,8 +1,10 @@
 """
 Operator precedence: a flat list of operands and operators becomes one tree.
 
-Order of the operators: UPPAAL documentation, page "Expressions", section on precedence; ``not``,
-``and``, ``or`` and ``imply`` bind weaker than the assignments. Works without recursion.
+Order of the operators: that of UPPAAL 4.1 and 5 (documentation, page "Expressions", section on
+precedence; the parser library utap from 0.92 on): ``not`` is ``!``, ``and`` is ``&&``, and ``or``,
+``xor`` and ``imply`` bind like ``||``. UPPAAL 4.0 had the words weaker than the assignments.
+Works without recursion.
 """
 
 from __future__ import annotations
@@ -33,13 +35,10 @@ class Operator:
 
 _ASSIGNMENTS = ('=', ':=', '+=', '-=', '*=', '/=', '%=', '&=', '|=', '^=', '<<=', '>>=')
 _LEVELS: tuple[tuple[str, ...], ...] = (
-    ('or', 'imply', 'xor'),
-    ('and',),
-    (),  # the prefix ``not``
     _ASSIGNMENTS,
     ('?',),
-    ('||',),
-    ('&&',),
+    ('||', 'or', 'xor', 'imply'),
+    ('&&', 'and'),
     ('|',),
     ('^',),
     ('&',),
@@ -52,7 +51,7 @@ _LEVELS: tuple[tuple[str, ...], ...] = (
 )
 _INFIX = {text: level for level, texts in enumerate(_LEVELS, 1) for text in texts}
 _RIGHT_ASSOCIATIVE = {_INFIX['='], _INFIX['?']}
-_PREFIX = {'forall': 0, 'exists': 0, 'sum': 0, 'not': 3}
+_PREFIX = {'forall': 0, 'exists': 0, 'sum': 0}
 _TIGHT_PREFIX = len(_LEVELS) + 1
 _CHAINED = ('&&', '||', 'and', 'or')
 _SPELLING = {'and': '&&', 'or': '||', 'not': '!'}

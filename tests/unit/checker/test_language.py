@@ -38,7 +38,13 @@ def value_of(expression: str, declaration: str = '', engine: EngineKind = Engine
         ('x < 3', 1),
         ('x == -2 ? 5 : 6', 5),
         ('1 + (x > 0)', 1),
-        ('not x == 3', 1),
+        ('not x == 3', 0),
+        ('not (x == 3)', 1),
+        ('false and true || true', 1),
+        ('true || true and false', 1),
+        ('true or true imply false', 0),
+        ('true ? 0 : 1 or 1', 0),
+        ('(z = 1 and 0) + 10 * z', 0),
         ('!x', 0),
         ('true and false', 0),
         ('x > 0 imply false', 1),
@@ -60,7 +66,7 @@ def test_expression_has_the_value_of_uppaal(
     expression: str, value: int, engine: EngineKind
 ) -> None:
     declaration = """
-        int x = -2; bool y = true; typedef int[0, 3] T; const int t[3] = {10, 30, 40};
+        int x = -2, z; bool y = true; typedef int[0, 3] T; const int t[3] = {10, 30, 40};
         int[0, 9] m[2][3] = {{1, 2, 3}, {4, 5, 6}};
     """
     assert value_of(expression, declaration, engine) == value
