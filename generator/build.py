@@ -177,6 +177,8 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         'drops_harvest': unit.has_own_spins and not has_pool,
         'pool_spins': pool_spins,
         'gathers': freedom.observed and has_pool,
+        # A worker may go on with a coroutine unasked; what is asked would only make more states.
+        'polls': unit.has_awaits and has_pool and (unit.has_foreign or not freedom.observed),
         'foreign_answers': freedom.observed and bool(unit.called),
         'signals': signals,
         'queued_again': len(ranks) if pool_spins else ranks.count(GUARD_RANK) + tasks,
