@@ -15,6 +15,7 @@ from enum import Enum
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.spec.model import Blocking, Callback, Spec
+from ros2cc_extract.spec.moves import named_executor
 from ros2cc_extract.spec.partners import client_before
 from ros2cc_extract.spec.releases import NODE_STAYS, SPIN_REFUSED_TWICE, has_change
 
@@ -22,7 +23,11 @@ _BUSY_WAIT, _FOR_FUTURE = 'busy wait', 'spin for future'
 
 
 class Spun(Enum):
-    """Which executor is spun, by its number in the model."""
+    """
+    Which executor is spun, by its number in the model.
+
+    Another one that is single-threaded and has no node does as the global one.
+    """
 
     OWN = 1
     GLOBAL = 2
@@ -119,7 +124,7 @@ def _futures_of(spin: Blocking, callback: Callback) -> list[Blocking]:
 def _nested_spin(
     block: Blocking, future: Blocking | None, callback: Callback, spec: Spec
 ) -> NestedSpin | None:
-    spun = _spun(block, spec)
+    spun = _spun(block, callback, spec)
     how = block.call.rpartition('.')[2]
     if spun is None or how not in ('spin', 'spin_once', 'spin_until_future_complete'):
         return None
@@ -148,7 +153,7 @@ def _setter(future: Blocking, callback: Callback, spec: Spec) -> str | None:
     return found.name if found and is_other and not client_before(found, spec.callbacks) else None
 
 
-def _spun(block: Blocking, spec: Spec) -> Spun | None:
+def _spun(block: Blocking, callback: Callback, spec: Spec) -> Spun | None:
     executor = spec.executor
     if executor.kind not in (
         ExecutorKind.SINGLE_THREADED.value,
@@ -159,7 +164,10 @@ def _spun(block: Blocking, spec: Spec) -> Spun | None:
         return Spun.OWN if block.on == executor.name else None
     if block.on not in {callback.node for callback in spec.callbacks}:
         return None
-    if not _is_global(spec):
+    moves_to = named_executor(block, callback)
+    if moves_to not in (None, ExecutorKind.SINGLE_THREADED.value):
+        return None
+    if moves_to or not _is_global(spec):
         # Which executor goes on with a coroutine of a node that moves is not modelled.
         awaits = any(b.call == 'await' for c in spec.callbacks for b in c.blocking)
         return None if awaits else Spun.GLOBAL

@@ -23,6 +23,6 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit a: MultiThreadedExecutor xdefault rclpy.spin, main
+# unit a: MultiThreadedExecutor xdefault spin, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5

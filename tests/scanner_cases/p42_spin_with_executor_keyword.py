@@ -24,6 +24,6 @@ if __name__ == '__main__':
     main()
 
 # expect:
-# unit a: MultiThreadedExecutor x3 rclpy.spin, main
+# unit a: MultiThreadedExecutor x3 spin, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5

@@ -45,7 +45,7 @@ if __name__ == '__main__':
 #     blocks spin for future on ? @28>17
 #     blocks rclpy.spin_once on a @29
 #     reads A.asker @28
-#     changes rclpy.spin_once @29
+#     changes SingleThreadedExecutor.add_node @29
 # unit asker: no executor, main
 #   group asker_default EXCLUSIVE default
 #   client other_client in asker_default key=other

@@ -309,6 +309,7 @@ class Effects(Machine):
         executor: Value,
         future: tuple[Value | None, Value | None],
         place: Place,
+        change: str = '',
     ) -> bool:
         """Whether a spin stands in a callback; then it is noted there and is no set-up."""
         if self.world.deeds is None:
@@ -319,7 +320,7 @@ class Effects(Machine):
         if awaited is not None:
             self.note_blocking('spin for future', awaited, timeout, place)
         if node is not None:
-            self.note_change(how, node, place)
+            self.note_change(change, node, place)
         return True
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:

@@ -269,11 +269,14 @@ class Machine(ABC):
         executor: Value,
         future: tuple[Value | None, Value | None],
         place: Place,
+        change: str = '',
     ) -> bool:
         """
         Whether a spin stands in a callback; then it is noted there and is no set-up.
 
+        :param node: the node that moves by it; without one nothing does.
         :param future: what it waits for, with the time-out.
+        :param change: how ``node`` moves, in words.
         """
 
     @abstractmethod

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static import (
     ros_helpers,
     ros_libraries,
     ros_nodes,
+    ros_spins,
     threads_library,
 )
 from ros2cc_extract.extract.static.library_table import Library, merged
@@ -49,6 +50,7 @@ def table() -> Library:
             ros_groups.TABLE,
             ros_nodes.TABLE,
             ros_executors.TABLE,
+            ros_spins.TABLE,
             ros_clients.TABLE,
             ros_actions.TABLE,
             ros_libraries.TABLE,

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
@@ -219,7 +218,7 @@ def _is_the_same(spin: Spin, other: Spin) -> bool:
     return made_anew and same_text and bool(spin.nodes) and spin.nodes == other.nodes
 
 
-def _future_of(call: Call, position: int, how: str) -> Awaited:
+def future_of(call: Call, position: int, how: str) -> Awaited:
     """The future a nested spin waits for, if it waits for one, and its time-out."""
     if how == 'spin_once':
         return None, call.argument(None if position else 0, 'timeout_sec')
@@ -229,106 +228,17 @@ def _future_of(call: Call, position: int, how: str) -> Awaited:
     return call.argument(position, 'future'), timeout
 
 
-def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
-    """``rclpy.spin`` and its kin: add the node, spin, take the node out again."""
-
-    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
-        given = call.argument(0, 'node') or NONE
-        executor = call.argument(position, 'executor')
-        place = call.place
-
-        def with_node(node_value: Value) -> Value:
-            def with_executor(executor_value: Value) -> Value:
-                future = _future_of(call, 1, how)
-                _spin_node(machine, node_value, executor_value, how, place, ever, future)
-                return NONE
-
-            return machine.each(executor if executor is not None else NONE, with_executor, place)
-
-        machine.each(given, with_node, place)
-        return machine.mystery(f'result of rclpy.{how}', place)
-
-    return spin
-
-
-def _is_apart(machine: Machine, node: Instance, given: Value) -> bool:
-    """
-    Whether a callback spins a node of no executor on an executor that it names.
-
-    Then nothing moves that was served before, and it is as if that executor were spun.
-    """
-    current = machine.world.current
-    is_named = isinstance(given, Instance) and isinstance(given.state, ExecutorState)
-    is_own = current is not None and current.node is node
-    return is_named and not is_own and node.slots.get('__executor__') in (None, NONE, given)
-
-
-def _spin_node(
-    machine: Machine,
-    node_value: Value,
-    given: Value,
-    how: str,
-    place: Place,
-    ever: bool,
-    future: Awaited,
-) -> None:
-    node = as_node(machine, node_value)
-    if node is None:
-        return
-    is_apart = _is_apart(machine, node, given)
-    call, moved = (f'executor.{how}', None) if is_apart else (f'rclpy.{how}', node)
-    if machine.note_nested_spin(call, moved, given, future, place):
-        _note_served_inside((node,), f'rclpy.{how}', place)
-        return
-    executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
-    _warn_of_theft(machine, node, executor, how, place)
-    add_node(machine, executor, node)
-    record_spin(machine, executor, f'rclpy.{how}', place, ever)
-    machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))
-    remove_node(machine, executor, node)
-
-
-def spin_in_passing(machine: Machine, node: Value, how: str, place: Place) -> None:
-    """A library spins ``node`` by the global executor until something has come."""
-    _spin_node(machine, node, NONE, how, place, False, (None, None))
-
-
-def _note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> None:
+def note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> None:
     for node in nodes:
         node.state.nested = node.state.nested or (how, place)
-
-
-def _warn_of_theft(
-    machine: Machine, node: Instance, executor: Instance, how: str, place: Place
-) -> None:
-    old = node.slots.get('__executor__')
-    for other in options_of(old) if isinstance(old, Value) else ():
-        if not isinstance(other, Instance) or other is executor:
-            continue
-        name = other.hint or 'executor'
-        machine.world.diagnostics.append(
-            Diagnostic(
-                severity=Severity.WARNING,
-                slug='executor-not-spun' if not other.state.spun else 'node-taken-out',
-                place=place,
-                message=f'rclpy.{how} takes the node out of {name} ({other.state.kind}, '
-                f'{other.place}) and runs it on '
-                + (
-                    'the global single-threaded executor'
-                    if executor.state.is_global
-                    else 'another'
-                ),
-                help=f'call {name}.{how}() or pass executor={name}',
-            )
-        )
 
 
 def _method_spin(how: str, ever: bool) -> Handler:
     def spin(machine: Machine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
-        future = _future_of(call, 0, how)
+        future = future_of(call, 0, how)
         if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
-            _note_served_inside(nodes_of(receiver), how, call.place)
+            note_served_inside(nodes_of(receiver), how, call.place)
         else:
             record_spin(machine, receiver, how, call.place, ever)
             machine.note_outside_wait(how, *future, call.place, nodes_of(receiver))
@@ -485,9 +395,6 @@ TABLE = Library(
         'rclpy.executors.NodeExecutor': LibraryClass(methods={'create_task': _node_task}),
     },
     functions={
-        'rclpy.spin': _module_spin('spin', 1, True),
-        'rclpy.spin_once': _module_spin('spin_once', None, False),
-        'rclpy.spin_until_future_complete': _module_spin('spin_until_future_complete', 2, False),
         'rclpy.get_global_executor': lambda machine, receiver, call: global_executor(machine),
     },
     aliases={

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_executors import as_node, spin_in_passing
+from ros2cc_extract.extract.static.ros_executors import as_node
 from ros2cc_extract.extract.static.ros_groups import group_of
 from ros2cc_extract.extract.static.ros_nodes import NODE, add_entity, init_node
+from ros2cc_extract.extract.static.ros_spins import spin_in_passing
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,

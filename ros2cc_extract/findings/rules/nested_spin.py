@@ -12,6 +12,7 @@ from ros2cc_extract.findings.words import made_at, served_at
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
+from ros2cc_extract.spec.moves import named_executor
 from ros2cc_extract.spec.releases import NODE_STAYS, has_change
 
 
@@ -35,10 +36,10 @@ def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{caller} calls {wait.block.call} on {node} inside a callback: '
-        f'{_consequence(wait.caller, context)}',
+        f'{_consequence(wait, context)}',
         help='do not spin in a callback: use call_async and continue in a done-callback, or await '
         'in a coroutine callback',
-        severity=_severity(unit, is_own),
+        severity=_severity(wait, unit, is_own),
         subjects=(wait.caller.name,),
         chain=wait.chain,
         related=(*made_at(wait.caller), *served_at(unit.executor, wait.place)),
@@ -46,8 +47,10 @@ def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
     )
 
 
-def _consequence(caller: Callback, context: Context) -> str:
+def _consequence(wait: Wait, context: Context) -> str:
     unit = context.unit
+    if _is_named(wait):
+        return 'the node leaves the executor it is in, and none of its callbacks runs again'
     if isinstance(unit.executor.kind, Unknown):
         return (
             'under an executor of its own the node leaves that executor and none of its '
@@ -55,8 +58,8 @@ def _consequence(caller: Callback, context: Context) -> str:
         )
     if is_global(unit) and not _loses_node(unit):
         return (
-            f'{_runs_inside(caller, context)}, and from rclpy 7.1.9 on the executor refuses to be '
-            'spun twice'
+            f'{_runs_inside(wait.caller, context)}, and from rclpy 7.1.9 on the executor refuses '
+            'to be spun twice'
         )
     return f'the node leaves its {unit.executor.kind}, and none of its callbacks runs again'
 
@@ -69,11 +72,17 @@ def _runs_inside(caller: Callback, context: Context) -> str:
     return 'callbacks of other groups run inside this one, members of its own group do not'
 
 
-def _severity(unit: Spec, is_own: bool) -> Severity | None:
+def _is_named(wait: Wait) -> bool:
+    """True where it names another executor than the one that serves the node."""
+    return named_executor(wait.block, wait.caller) is not None
+
+
+def _severity(wait: Wait, unit: Spec, is_own: bool) -> Severity | None:
     if not is_own:
         return Severity.NOTE
     is_known = not isinstance(unit.executor.kind, Unknown)
-    is_certain = is_known and (not is_global(unit) or _loses_node(unit))
+    is_lost = not is_global(unit) or _loses_node(unit) or _is_named(wait)
+    is_certain = is_known and is_lost
     return None if is_certain else Severity.WARNING
 
 

@@ -33,7 +33,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Access, EntityKind, Executor, Spec, When
+from ros2cc_extract.spec.model import Access, Act, EntityKind, Executor, Spec, When
 
 
 def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:
@@ -368,6 +368,16 @@ def test_nested_spin_takes_the_node_out_of_its_executor() -> None:
     assert nested(replace(ONE_THREAD, spun='rclpy.spin'), 'arm', call) == ['CC106:40 warning']
     assert nested(threads(4), None, call) == ['CC106:40 note']
     assert nested(threads(4), 'helper', call) == []
+
+
+def test_nested_spin_on_another_executor_that_is_named_loses_the_node_everywhere() -> None:
+    """Also under ``rclpy.spin``, whose executor is then not the one that is spun."""
+    spins = calls('arm', call='rclpy.spin_once')
+    moves = tuple(Act(name='executor.add_node', source=spin.source) for spin in spins)
+    spec = unit(
+        replace(ONE_THREAD, spun='rclpy.spin'), timer('tick', blocking=spins, changes=moves)
+    )
+    assert [f for f in found(spec) if f.startswith('CC1')] == ['CC106:40']
 
 
 def test_a_nested_spin_for_a_client_of_the_own_group_never_ends() -> None:

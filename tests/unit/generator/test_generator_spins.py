@@ -15,7 +15,7 @@ from ros2cc_extract.checker.api import Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, RenderedModel, render
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Blocking
+from ros2cc_extract.spec.model import Act, Blocking
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'
 TWO_GROUPS = 'g:EXCLUSIVE h:EXCLUSIVE'
@@ -126,6 +126,25 @@ def test_under_plain_rclpy_spin_it_is_the_same_executor_and_the_node_stays():
     assert 'node_taken' not in model_of(unit).xml
     assert not hangs(unit)
     assert decided(unit, 'A[] (deadlock imply cb_all_served())') is Verdict.SATISFIED
+
+
+def named(unit: ClosedSpec, kind: str) -> ClosedSpec:
+    """Have ``ask`` name the executor that it spins, of that kind."""
+    ask, *others = unit.spec.callbacks
+    ask = replace(ask, changes=(Act(name=f'{kind}.add_node', source=HERE),))
+    return replace(unit, spec=replace(unit.spec, callbacks=(ask, *others)))
+
+
+def test_another_executor_takes_the_node_under_plain_rclpy_spin_too():
+    unit = named(spinning(*until('rclpy', 'arm'), spun='rclpy.spin'), SINGLE)
+    assert can_be(unit, f'node_taken[0] and cb_running({ASK}) and cb_running({TICK})')
+    assert can_be(unit, f'deadlock and cb_waiting[{TICK}] == 1 and !node_spun[0]')
+
+
+def test_an_executor_of_more_nodes_or_threads_that_takes_the_node_is_left_out():
+    unit = named(spinning(*until('rclpy', 'arm')), 'executor')
+    left_out = {query.family.value for query in model_of(unit).queries if query.left_out}
+    assert {'deadlock', 'progress'} <= left_out
 
 
 def test_another_node_of_the_unit_stays_where_it_is():
