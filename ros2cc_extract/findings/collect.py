@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.model import Finding
@@ -10,6 +11,7 @@ from ros2cc_extract.findings.registry import BY_SLUG, RULES
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.rules.of_diagnostics import UNREADABLE
 from ros2cc_extract.findings.rules.unresolved import RULE as UNRESOLVED
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases import has_change
 from ros2cc_extract.verify.unit import Verification
@@ -49,11 +51,31 @@ def all_findings(
         ),
         *(finding for findings in by_unit for finding in findings),
     ]
-    by_identity = {_identity(finding): finding for finding in found}
-    alike: dict[tuple[object, ...], Finding] = {}
+    told = {(finding.place, finding.message) for finding in found if finding.unit is None}
+    by_identity = {_identity(f): f for f in found if not _is_told(f, told)}
+    alike: dict[tuple[object, ...], list[Finding]] = {}
     for identity in sorted(by_identity):
-        alike.setdefault(identity[:3], by_identity[identity])
-    return tuple(alike.values())
+        finding = by_identity[identity]
+        key = (finding.place, finding.code, finding.cause) if finding.cause else identity[:3]
+        alike.setdefault(key, []).append(finding)
+    merged = [_as_one(findings) for findings in alike.values()]
+    return tuple(sorted(merged, key=_identity))
+
+
+def _is_told(finding: Finding, told: Collection[tuple[Place, str]]) -> bool:
+    """Whether the scan itself has told at this place why something is missing."""
+    reason = finding.cause or finding.message.partition(': unit ')[0]
+    return reason != finding.message and (finding.place, reason) in told
+
+
+def _as_one(findings: Sequence[Finding]) -> Finding:
+    """Tell what has one cause once, with the number of units that it shows in."""
+    first = findings[0]
+    more = len({finding.unit for finding in findings}) - 1
+    if not first.cause or not more:
+        return first
+    others = 'another unit' if more == 1 else f'{more} more units'
+    return replace(first, message=f'{first.message}; the same in {others}')
 
 
 def _identity(finding: Finding) -> tuple[object, ...]:

@@ -31,6 +31,7 @@ class Finding:
     :param related: other places to look at, such as where a group was made.
     :param run: a run of the model that shows it.
     :param help: how to mend it, in one clause.
+    :param cause: what is behind it, where one cause may show in several units; told once.
     """
 
     code: str
@@ -43,3 +44,4 @@ class Finding:
     chain: tuple[Remark, ...] = ()
     related: tuple[Remark, ...] = ()
     run: Evidence | None = None
+    cause: str = ''

@@ -68,6 +68,7 @@ class Hit:
     A finding before its rule has signed it.
 
     :param severity: where it differs from the rule's.
+    :param cause: as that of a finding.
     """
 
     place: Place
@@ -78,6 +79,7 @@ class Hit:
     chain: tuple[Remark, ...] = ()
     related: tuple[Remark, ...] = ()
     run: Evidence | None = None
+    cause: str = ''
 
 
 Check = Callable[[Context], Iterator[Hit]]
@@ -130,4 +132,5 @@ class Rule:
                 chain=hit.chain,
                 related=tuple(dict.fromkeys(hit.related)),
                 run=hit.run,
+                cause=hit.cause,
             )

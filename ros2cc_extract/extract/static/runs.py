@@ -136,7 +136,8 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
     """Do ``act``; a program too large to be followed ends in a diagnostic."""
     world = machine.world
     if not machine.steps_left:
-        world.cut.append(Cut(TOO_LONG, place))
+        if not any(cut.reason == TOO_LONG for cut in world.cut):
+            world.cut.append(Cut(TOO_LONG, place))
         return
     machine.steps, machine.step_limit = 0, min(STEP_LIMIT, machine.steps_left)
     try:

@@ -6,16 +6,27 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.words import listing
 from ros2cc_extract.places import Place
+
+ENTITIES = 'entities'
+"""The fact that is missing where something was not followed to its end."""
 
 
 def find(context: Context) -> Iterator[Hit]:
+    """One finding for all subjects that lack a fact for one reason at one place."""
     unit = context.unit
+    unnamed = Place(unit.sources[0] if unit.sources else unit.name)
+    subjects: dict[tuple[Place, str, str], list[str]] = {}
     for fact in unit.unresolved:
+        alike = (fact.source or unnamed, fact.fact, fact.reason)
+        subjects.setdefault(alike, []).append(fact.subject)
+    for (place, what, reason), names in subjects.items():
         yield Hit(
-            place=fact.source or Place(unit.sources[0] if unit.sources else unit.name),
-            message=f'{fact.fact} of {fact.subject} not resolved: {fact.reason}',
-            subjects=(fact.subject,),
+            place=place,
+            message=f'{what} of {listing(names)} not resolved: {reason}',
+            subjects=tuple(dict.fromkeys(names)),
+            cause=reason if what == ENTITIES else f'{what}: {reason}',
         )
 
 

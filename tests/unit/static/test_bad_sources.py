@@ -73,6 +73,8 @@ def test_program_without_end_is_cut_off_once(tmp_path: Path) -> None:
     found = scan([path])
     assert [d.slug for d in found.diagnostics] == ['not-followed']
     assert [len(unit.callbacks) for unit in found.units] == [600]
+    (lacking,) = [fact.source for fact in found.units[0].unresolved if fact.fact == 'entities']
+    assert lacking == found.diagnostics[0].place
 
 
 def test_missing_path_is_an_input_error(tmp_path: Path) -> None:
