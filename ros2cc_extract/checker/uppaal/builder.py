@@ -25,6 +25,12 @@ def _line(token: Token) -> int:
     return token.line or 0
 
 
+def _numbered(count: syntax.Expression) -> tuple[syntax.Expression, syntax.Expression]:
+    """Return the bounds of ``count`` values numbered from 0."""
+    zero, one = syntax.Number(count.line, 1, 0), syntax.Number(count.line, 1, 1)
+    return zero, syntax.Binary(count.line, height(count, one), '-', count, one)
+
+
 class TreeBuilder(Transformer):  # type: ignore[type-arg]
     """One method per rule of ``grammar.lark``; tokens that carry nothing are skipped."""
 
@@ -91,6 +97,8 @@ class TreeBuilder(Transformer):  # type: ignore[type-arg]
         bounds = _of(children, tuple)
         low, high = bounds[0] if bounds else (None, None)
         token = next(t for t in children if isinstance(t, Token) and t.type != 'PREFIX')
+        if token.type == 'SCALAR':
+            low, high = _numbered(children[-1])
         return syntax.TypeExpression(
             _line(token), _texts(children, 'PREFIX'), str(token), low, high
         )
@@ -183,8 +191,10 @@ class TreeBuilder(Transformer):  # type: ignore[type-arg]
 
     def for_loop(self, children: Children) -> syntax.Loop:
         _, start, condition, steps, body = children
-        last = condition[-1] if condition else None
-        return syntax.Loop(start, last, steps, body, True, _statement_depth(body))
+        return syntax.Loop(start, condition, steps, body, True, _statement_depth(body))
+
+    def loop_condition(self, children: Children) -> syntax.Expression | None:
+        return children[0] if children else None
 
     def iteration(self, children: Children) -> syntax.Iteration:
         _, variable, over, body = children

@@ -143,6 +143,6 @@ def _element_names(name: str, declared: Type) -> list[str]:
         return [name]
     return [
         element
-        for i in range(declared.length)
+        for i in range(declared.first, declared.first + declared.length)
         for element in _element_names(f'{name}[{i}]', declared.element)
     ]

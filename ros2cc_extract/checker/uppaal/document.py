@@ -8,6 +8,7 @@ Element names: UPPAAL documentation, page "XML file format" (flat-1_x DTD).
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
@@ -16,6 +17,8 @@ from ros2cc_extract.places import Place
 
 MAX_DEPTH = 64
 _MEND_XML = 'save the model again from UPPAAL or give a .xml file that UPPAAL opens'
+_MEND_TEXTUAL = 'the textual formats .xta and .ta are not read; save it as .xml from UPPAAL'
+_TEXTUAL = re.compile(rb'\s*(//|/\*|process\b|system\b|(const|clock|int|chan|typedef)\s)')
 
 
 @dataclass(frozen=True)
@@ -69,11 +72,16 @@ class QueryNode:
 
 @dataclass(frozen=True)
 class Document:
-    """One model file."""
+    """
+    One model file.
+
+    :param instantiation: what files of before UPPAAL 4 keep apart from the system line.
+    """
 
     file: str
     declarations: Text
     templates: tuple[TemplateNode, ...]
+    instantiation: Text
     system: Text
     queries: tuple[QueryNode, ...]
 
@@ -98,6 +106,10 @@ class _Element:
         return found[0].text() if found else Text('', self.line)
 
 
+def _is_textual(data: bytes) -> bool:
+    return _TEXTUAL.match(data) is not None
+
+
 class _TreeReader:
     """Builds elements from expat's events, without recursion."""
 
@@ -116,7 +128,8 @@ class _TreeReader:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
             what = f'not well-formed XML: {expat.ErrorString(error.code)}'
-            raise ModelFormatError(what, Place(self._file, error.lineno), _MEND_XML) from None
+            mend = _MEND_TEXTUAL if _is_textual(data) else _MEND_XML
+            raise ModelFormatError(what, Place(self._file, error.lineno), mend) from None
         except (LookupError, ValueError) as error:
             raise ModelFormatError(
                 f'not readable as XML: {error}', Place(self._file), _MEND_XML
@@ -175,7 +188,7 @@ def read_document(data: bytes, file: str, encoding: str | None = None) -> Docume
             Place(file, root.line),
             _MEND_XML,
         )
-    _refuse(root, file, 'instantiation', 'imports', 'lsc', 'dynamic')
+    _refuse(root, file, 'imports', 'lsc', 'dynamic')
     if not root.all('system'):
         raise ModelFormatError(
             'the model has no <system>', Place(file, root.line), 'add the system declaration'
@@ -184,6 +197,7 @@ def read_document(data: bytes, file: str, encoding: str | None = None) -> Docume
         file=file,
         declarations=root.first_text('declaration'),
         templates=tuple(_template(node, file) for node in root.all('template')),
+        instantiation=root.first_text('instantiation'),
         system=root.first_text('system'),
         queries=_queries(root),
     )

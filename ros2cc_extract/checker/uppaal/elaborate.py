@@ -141,7 +141,8 @@ class _ModelBuilder:
 
     def _system(self, instances: Instances) -> Iterator[tuple[Instance, int]]:
         lines: list[syntax.SystemLine] = []
-        for node in self._parsed(self._document.system, Start.SYSTEM):
+        nodes = self._parsed(self._document.instantiation, Start.SYSTEM)
+        for node in nodes + self._parsed(self._document.system, Start.SYSTEM):
             if isinstance(node, syntax.Instantiation):
                 instances.define(node)
             elif isinstance(node, syntax.SystemLine):

@@ -37,6 +37,7 @@ from ros2cc_extract.checker.uppaal.arithmetic import (
 from ros2cc_extract.checker.uppaal.tables import Tables
 from ros2cc_extract.checker.uppaal.typenames import TypeReader
 from ros2cc_extract.checker.uppaal.types import (
+    RESERVED,
     ArrayType,
     IntType,
     ProcessSymbol,
@@ -399,12 +400,13 @@ class Expressions:
             raise ModelFormatError(
                 f'{array.name} is no array', scope.place(node.line), 'remove the index'
             )
-        length = array.type.length
+        length, first = array.type.length, array.type.first
+        last = first + length - 1
         what = f'index {{value}} is outside {array.name}, which has {length} elements'
-        site = Site(scope.place(node.line), what, f'use 0..{length - 1}')
+        site = Site(scope.place(node.line), what, f'use {first}..{last}')
         value = self.pure(node.index, scope, 'an array index')
-        index = self.tables.checked(value, 0, length - 1, site)
-        return self._part(array, index)
+        index = self.tables.checked(value, first, last, site)
+        return self._part(array, binary(Op.SUB, index, const(first)) if first else index)
 
     def _process(self, node: syntax.Expression, scope: Scope) -> ProcessSymbol:
         name = self._process_name(node, scope)
@@ -425,6 +427,8 @@ class Expressions:
         self, name: str, symbol: object, scope: Scope, line: int
     ) -> ModelFormatError:
         place = scope.place(line)
+        if name in RESERVED:
+            return ModelFormatError(f'{name!r} is a keyword of UPPAAL', place, _MEND_NAME)
         if symbol is None:
             return ModelFormatError(
                 f'{name!r} is not declared', place, suggestion(name, sorted(scope.visible()))

@@ -14,7 +14,6 @@ from ros2cc_extract.checker.network import (
     Assign,
     Call,
     Check,
-    Const,
     Element,
     Evaluate,
     Expr,
@@ -28,6 +27,7 @@ from ros2cc_extract.checker.network import (
     While,
 )
 from ros2cc_extract.checker.uppaal import syntax
+from ros2cc_extract.checker.uppaal.arguments import ArgumentReader, Arguments, no_function
 from ros2cc_extract.checker.uppaal.arithmetic import TRUE, choice, const, is_atomic
 from ros2cc_extract.checker.uppaal.expressions import Expressions
 from ros2cc_extract.checker.uppaal.inlining import is_expression, statements_of
@@ -75,6 +75,7 @@ class FunctionCompiler:
 
     def __init__(self, expressions: Expressions) -> None:
         self._expressions = expressions
+        self.arguments = ArgumentReader(expressions)
         self._tables = expressions.tables
         self._known: dict[tuple[object, ...], tuple[int, IntType | None]] = {}
         self._constant_calls: dict[tuple[object, ...], Expr] = {}
@@ -85,8 +86,7 @@ class FunctionCompiler:
         place = scope.place(node.line)
         symbol = scope.find(node.function.name) if isinstance(node.function, syntax.Name) else None
         if not isinstance(symbol, FunctionSymbol):
-            name = getattr(node.function, 'name', 'the expression')
-            raise ModelFormatError(f'{name!r} is no function', place, 'declare it as one')
+            raise no_function(node.function, place)
         function = symbol.function
         if len(node.arguments) != len(function.parameters):
             what = f'{function.name} takes {len(function.parameters)} arguments'
@@ -95,83 +95,19 @@ class FunctionCompiler:
             raise ModelFormatError(
                 f'{function.name} calls itself', place, 'recursion is not allowed; use a loop'
             )
-        references, values = self._arguments(node, symbol, scope)
+        arguments = self.arguments.of_call(node, symbol, scope)
         self._open.append(symbol)
         try:
-            if references or not all(isinstance(value, Const) for _, value in values.values()):
-                inlined = self._inlined(symbol, references, values)
-                return inlined or self._real_call(symbol, references, values)
+            if arguments.references or not arguments.are_constant:
+                return self._inlined(symbol, arguments) or self._real_call(symbol, arguments)
             # Queries call the same functions with the same constants by the hundred.
-            key = (symbol, *(value.low for _, value in values.values()))
+            key = (symbol, *(value.low for _, value in arguments.values.values()))
             if key not in self._constant_calls:
-                inlined = self._inlined(symbol, references, values)
-                self._constant_calls[key] = inlined or self._real_call(symbol, references, values)
+                inlined = self._inlined(symbol, arguments)
+                self._constant_calls[key] = inlined or self._real_call(symbol, arguments)
             return self._constant_calls[key]
         finally:
             self._open.pop()
-
-    def _arguments(
-        self, node: syntax.Call, symbol: FunctionSymbol, scope: Scope
-    ) -> tuple[dict[str, Reference], dict[str, tuple[IntType, Expr]]]:
-        references: dict[str, Reference] = {}
-        values: dict[str, tuple[IntType, Expr]] = {}
-        for parameter, argument in zip(symbol.function.parameters, node.arguments, strict=True):
-            declared = self.parameter_type(parameter, symbol.scope)
-            if parameter.is_reference:
-                found = self._expressions.reference(argument, scope)
-                references[parameter.name] = self.bound(parameter, declared, found, scope, node)
-            elif isinstance(declared, IntType):
-                value = self._expressions.value(argument, scope)
-                name = f'parameter {parameter.name} of {symbol.function.name}'
-                coerced = self._expressions.coerced(value, declared, name, scope, node.line)
-                values[parameter.name] = declared, coerced
-            else:
-                raise ModelFormatError(
-                    f'parameter {parameter.name} takes a copy of an array or channel',
-                    symbol.scope.place(parameter.line),
-                    'write & before its name',
-                )
-        return references, values
-
-    def parameter_type(self, parameter: syntax.Parameter, scope: Scope) -> Type:
-        """Return the declared type of a parameter."""
-        base = self._expressions.types.named(parameter.type, scope)
-        return self._expressions.types.array(base, parameter.dimensions, scope)
-
-    def bound(
-        self,
-        parameter: syntax.Parameter,
-        declared: Type,
-        argument: Reference,
-        scope: Scope,
-        node: syntax.Call | syntax.Instantiation,
-    ) -> Reference:
-        """Return what a reference parameter stands for, its type checked."""
-        is_same = type(declared) is type(argument.type) and size_of(declared) == size_of(
-            argument.type
-        )
-        mend = None if is_same else 'its type differs from the parameter'
-        if argument.storage is Storage.LOCAL:
-            mend = 'local variables cannot be passed by reference'
-        if not isinstance(argument.offset, Const):
-            mend = 'its index is not constant'
-        if mend:
-            raise ModelFormatError(
-                f'{argument.name} cannot stand for parameter {parameter.name}',
-                scope.place(node.line),
-                mend,
-            )
-        is_const = 'const' in parameter.type.prefixes
-        return Reference(
-            parameter.name,
-            argument.storage,
-            argument.type,
-            argument.base,
-            argument.length,
-            argument.offset,
-            argument.values,
-            is_const or argument.is_read_only,
-        )
 
     # -- calls ---------------------------------------------------------------------------
     def updates(self, node: syntax.Call, scope: Scope) -> list[Expr] | None:
@@ -190,12 +126,12 @@ class FunctionCompiler:
         has_all = len(node.arguments) == len(symbol.function.parameters)
         if symbol.function.type.base != 'void' or not is_plain or not has_all:
             return None
-        references, values = self._arguments(node, symbol, scope)
-        if not all(isinstance(value, Const) for _, value in values.values()):
+        arguments = self.arguments.of_call(node, symbol, scope)
+        if not arguments.are_constant:
             return None
         self._open.append(symbol)
         try:
-            inner = self._bound_scope(symbol, references, values)
+            inner = self._bound_scope(symbol, arguments)
             return [
                 update
                 for statement in body.statements
@@ -205,31 +141,21 @@ class FunctionCompiler:
         finally:
             self._open.pop()
 
-    def _bound_scope(
-        self,
-        symbol: FunctionSymbol,
-        references: dict[str, Reference],
-        values: dict[str, tuple[IntType, Expr]],
-    ) -> Scope:
+    def _bound_scope(self, symbol: FunctionSymbol, arguments: Arguments) -> Scope:
         scope = symbol.scope.inner()
-        scope.names.update(references)
-        for name, (declared, value) in values.items():
+        scope.names.update(arguments.references)
+        for name, (declared, value) in arguments.values.items():
             scope.names[name] = ValueSymbol(declared, value)
         return scope
 
-    def _inlined(
-        self,
-        symbol: FunctionSymbol,
-        references: dict[str, Reference],
-        values: dict[str, tuple[IntType, Expr]],
-    ) -> Expr | None:
+    def _inlined(self, symbol: FunctionSymbol, arguments: Arguments) -> Expr | None:
         """Return the call as one expression, where the function is one."""
         body, returns = symbol.function.body, self._return_type(symbol)
-        if returns is None or not all(is_atomic(value) for _, value in values.values()):
+        if returns is None or arguments.copies or not is_expression(body):
             return None
-        if not is_expression(body):
+        if not all(is_atomic(value) for _, value in arguments.values.values()):
             return None
-        scope = self._bound_scope(symbol, references, values)
+        scope = self._bound_scope(symbol, arguments)
         for declaration in body.declarations:
             if not self._bind_locals(declaration, scope):
                 return None
@@ -273,19 +199,14 @@ class FunctionCompiler:
             return None
         return choice(condition, then, other)
 
-    def _real_call(
-        self,
-        symbol: FunctionSymbol,
-        references: dict[str, Reference],
-        values: dict[str, tuple[IntType, Expr]],
-    ) -> Expr:
-        key = (symbol, *((r.storage, r.base, r.offset) for r in references.values()))
+    def _real_call(self, symbol: FunctionSymbol, arguments: Arguments) -> Expr:
+        bound = arguments.references
+        key = (symbol, *((r.storage, r.base, r.offset, r.values) for r in bound.values()))
         if key not in self._known:
-            self._known[key] = self._compile(symbol, references)
+            self._known[key] = self._compile(symbol, bound)
         index, returns = self._known[key]
-        arguments = tuple(value for _, value in values.values())
         low, high = (returns.low, returns.high) if returns else (0, 0)
-        return Call(low, high, index, arguments)
+        return Call(low, high, index, arguments.passed(symbol.function.parameters))
 
     def _return_type(self, symbol: FunctionSymbol) -> IntType | None:
         if symbol.function.type.base == 'void':
@@ -303,12 +224,12 @@ class FunctionCompiler:
             if parameter.name in references:
                 symbol_of = references[parameter.name]
             else:
-                declared = self.parameter_type(parameter, symbol.scope)
+                declared = self.arguments.parameter_type(parameter, symbol.scope)
                 is_const = 'const' in parameter.type.prefixes
                 symbol_of = _local(
                     frame, parameter.name, declared, scope, parameter.line, is_const
                 )
-                parameters += 1
+                parameters += size_of(declared)
             scope.declare(parameter.name, symbol_of, parameter.line)
         body = self._block(function.body, scope, frame)
         place = scope.place(function.line)

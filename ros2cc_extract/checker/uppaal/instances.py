@@ -115,7 +115,7 @@ class Instances:
         return Instance(name, definition.node, self._bind(definition, own))
 
     def _free(self, parameter: syntax.Parameter, of: Definition, line: int) -> IntType:
-        declared = self._functions.parameter_type(parameter, self._scope)
+        declared = self._functions.arguments.parameter_type(parameter, self._scope)
         if parameter.is_reference or not isinstance(declared, IntType):
             raise ModelFormatError(
                 f'parameter {parameter.name} of {of.name} has no value',
@@ -157,11 +157,11 @@ class Instances:
         scope: Scope,
     ) -> Symbol:
         assert definition.of is not None
-        declared = self._functions.parameter_type(parameter, self._scope)
+        declared = self._functions.arguments.parameter_type(parameter, self._scope)
         if parameter.is_reference:
             found = self._expressions.reference(argument, scope)
             node = syntax.Instantiation(definition.name, (), definition.of.name, (), argument.line)
-            return self._functions.bound(parameter, declared, found, scope, node)
+            return self._functions.arguments.bound(parameter, declared, found, scope, node)
         if isinstance(declared, ChannelType):
             raise ModelFormatError(
                 f'parameter {parameter.name} of {definition.of.name} takes a copy of a channel',

@@ -33,7 +33,6 @@ _OUTSIDE = {
     'import': 'external functions',
     'process': 'textual processes',
     'struct': 'structs',
-    'scalar': 'scalar sets',
     'sup': 'sup queries',
     'inf': 'inf queries',
     'bounds': 'bounds queries',
@@ -44,11 +43,14 @@ _OUTSIDE = {
     'spawn': 'dynamic templates',
     'dynamic': 'dynamic templates',
     'assert': 'assertions',
+    'switch': 'switch statements',
+    'under': 'strategies',
     '.': 'floating-point numbers',
     "'": 'clock rates',
 }
 
 
+_BEYOND = 'outside the supported subset of UPPAAL'
 _WORD = re.compile(r'\w+|\S')
 _LAST_WORD = re.compile(r'(\w+|\S)\s*$')
 
@@ -149,11 +151,17 @@ def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelForma
     word = found[0] if found else 'end of line'
     previous = _LAST_WORD.search(before)
     first = _WORD.match(line.lstrip())
+    if rest.startswith('/*'):
+        return ModelFormatError('a comment is not closed', at, 'close it with */')
+    if before.endswith('*') and rest.startswith('*'):
+        return ModelFormatError(f'the power operator ** is {_BEYOND}', at, 'multiply')
     suspects = [found, previous, first]
     for suspect in (match[0].strip() for match in suspects if match):
         if suspect in _OUTSIDE:
-            what = f'{_OUTSIDE[suspect]} are outside the supported subset of UPPAAL'
+            what = f'{_OUTSIDE[suspect]} are {_BEYOND}'
             return ModelFormatError(what, at, MEND_SUBSET)
+    if word == '"':
+        return ModelFormatError(f'strings are {_BEYOND}', at, MEND_SUBSET)
     return ModelFormatError(f'syntax error at {word!r}', at, _mend(word, line))
 
 

@@ -19,6 +19,10 @@ from ros2cc_extract.checker.uppaal.types import (
 from ros2cc_extract.errors import ModelFormatError
 
 _MEND_SUBSET = 'docs/checker.md lists the supported subset'
+_MEND_PREFIX = {
+    'meta': 'remove the word; a value that is not read again costs no state',
+    'hybrid': _MEND_SUBSET,
+}
 
 
 class TypeReader:
@@ -35,10 +39,9 @@ class TypeReader:
         """Elaborate a type; prefixes but ``const`` are for channels."""
         place = scope.place(node.line)
         for prefix in node.prefixes:
-            if prefix in ('meta', 'hybrid'):
-                raise ModelFormatError(
-                    f'{prefix} variables are not supported', place, _MEND_SUBSET
-                )
+            if prefix in _MEND_PREFIX:
+                what = f'{prefix} variables are not supported'
+                raise ModelFormatError(what, place, _MEND_PREFIX[prefix])
         if node.base == 'chan':
             return ChannelType('broadcast' in node.prefixes, 'urgent' in node.prefixes)
         if set(node.prefixes) - {'const'}:
@@ -47,12 +50,12 @@ class TypeReader:
             )
         if node.base == 'bool':
             return BOOL
-        if node.base == 'int':
+        if node.base in ('int', 'scalar'):
             return self._int_range(node, scope)
         symbol = scope.find(node.base)
         if isinstance(symbol, TypeSymbol):
             return symbol.type
-        if symbol is None and node.base not in ('clock', 'double', 'string', 'void', 'scalar'):
+        if symbol is None and node.base not in ('clock', 'double', 'string', 'void'):
             names = sorted(n for n in scope.visible() if isinstance(scope.find(n), TypeSymbol))
             what = f'there is no type {node.base!r}'
             raise ModelFormatError(what, place, suggestion(node.base, names))
@@ -80,28 +83,27 @@ class TypeReader:
         )
 
     def array(self, base: Type, dimensions: tuple[syntax.Dimension, ...], scope: Scope) -> Type:
-        """Wrap ``base`` into arrays; a dimension is a size or a type 0..n."""
+        """Wrap ``base`` into arrays; a dimension is a size or the type of the index."""
         for dimension in reversed(dimensions):
-            base = ArrayType(base, self._length(dimension, scope))
+            length, first = self._size(dimension, scope)
+            base = ArrayType(base, length, first)
         return base
 
-    def _length(self, node: syntax.Dimension, scope: Scope) -> int:
+    def _size(self, node: syntax.Dimension, scope: Scope) -> tuple[int, int]:
+        """Return how many elements there are, and the index of the first."""
         if isinstance(node, syntax.Name):
             symbol = scope.find(node.name)
             if isinstance(symbol, TypeSymbol) and isinstance(symbol.type, IntType):
-                return self._length_of(symbol.type, scope, node.line)
+                return _indices(symbol.type)
         if isinstance(node, syntax.TypeExpression):
-            return self._length_of(self.integer(node, scope), scope, node.line)
+            return _indices(self.integer(node, scope))
         length = self._constant(node, scope)
         if length < 1:
             raise ModelFormatError(
                 f'an array of {length} elements', scope.place(node.line), 'give it one or more'
             )
-        return length
+        return length, 0
 
-    def _length_of(self, index: IntType, scope: Scope, line: int) -> int:
-        if index.low != 0:
-            raise ModelFormatError(
-                f'an array is indexed from {index.low}', scope.place(line), 'index it from 0'
-            )
-        return index.high + 1
+
+def _indices(index: IntType) -> tuple[int, int]:
+    return index.high - index.low + 1, index.low

@@ -17,9 +17,9 @@ _KEYWORDS = (
     'chan clock bool int commit const urgent broadcast init process state guard sync assign '
     'system trans deadlock and or not imply true false for while do if else return typedef '
     'struct rate before_update after_update meta priority progress scalar select void '
-    'default forall exists sum hybrid double string'
+    'default forall exists sum hybrid double string switch case continue break enum'
 )
-_RESERVED = frozenset(_KEYWORDS.split())
+RESERVED = frozenset(_KEYWORDS.split())
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,11 @@ class IntType:
 
 @dataclass(frozen=True)
 class ArrayType:
-    """``length`` elements, numbered from 0."""
+    """``length`` elements, numbered from ``first``."""
 
     element: Type
     length: int
+    first: int = 0
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,7 @@ class Scope:
 
     def declare(self, name: str, symbol: Symbol, line: int) -> None:
         """Add a name; a second declaration in the same scope is an error."""
-        if name in _RESERVED:
+        if name in RESERVED:
             what = f'{name!r} is a keyword of UPPAAL and cannot be a name'
             raise ModelFormatError(what, self.place(line), 'choose another name')
         if name in self.names:

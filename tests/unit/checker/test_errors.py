@@ -34,7 +34,11 @@ def message(text: str) -> str:
     [
         ('', 'm.xml: the file is empty; '),
         (' \n ', 'm.xml: the file is empty; '),
-        ('hello', 'm.xml:1: not well-formed XML: syntax error; '),
+        ('hello', 'm.xml:1: not well-formed XML: syntax error; save the model again from UPPAAL'),
+        (
+            'clock x;\nprocess P() { state a; init a; }\nsystem P;',
+            'm.xml:1: not well-formed XML: syntax error; the textual formats .xta and .ta are not',
+        ),
         ('\0\1\2', 'm.xml: the file is binary, not XML; '),
         ('<nta>\n<template>\n', 'm.xml:3: not well-formed XML: no element found; '),
         ('<html/>', 'm.xml:1: not a UPPAAL model: the root element is <html>, not <nta>; '),
@@ -73,10 +77,19 @@ TEMPLATE = automaton('P', 'a\na -> a')
     [
         ('clock x;', 'm.xml:4: the type clock is outside the supported subset'),
         ('double d;', 'm.xml:4: the type double is outside the supported subset'),
-        ('meta int x;', 'm.xml:4: meta variables are not supported'),
+        ('meta int x;', 'm.xml:4: meta variables are not supported; remove the word; '),
         ('chan a; chan priority a < default;', 'm.xml:4: channel priorities are outside'),
         ('struct { int a; } s;', 'm.xml:4: structs are outside the supported subset'),
-        ('typedef scalar[3] s;', 'm.xml:4: scalar sets are outside the supported subset'),
+        ('const string s = "x";', 'm.xml:4: strings are outside the supported subset'),
+        ('import "x.so" { int f(); };', 'm.xml:4: external functions are outside the supported'),
+        ('const int x = 2 ** 3;', 'm.xml:4: the power operator ** is outside'),
+        ('int x; /* open', 'm.xml:4: a comment is not closed; close it with */'),
+        ('int f() { while (true) { break; } return 1; } const int y = f();',
+         "m.xml:4: 'break' is a keyword of UPPAAL; name a variable"),
+        ('int a[3]; int f(int c[2]) { return c[0]; } const int y = f(a);',
+         'm.xml:4: parameter c of f needs an array of its own size; name such an array'),
+        ('chan c; void f(chan d) { } const int y = f(c);',
+         'm.xml:4: parameter d takes a copy of a channel; write & before its name'),
         ('int x = 1.5;', 'm.xml:4: floating-point numbers are outside the supported subset'),
         ('int x\nint y;', "m.xml:5: syntax error at 'int'"),
         ('int x = y;', "m.xml:4: 'y' is not declared"),
@@ -87,7 +100,8 @@ TEMPLATE = automaton('P', 'a\na -> a')
         ('int[3, 0] x;', 'm.xml:4: the range 3..0 is empty'),
         ('int a[3] = {1, 2};', 'm.xml:4: a needs 3 initial values'),
         ('int a[0];', 'm.xml:4: an array of 0 elements'),
-        ('int a[int[1, 3]];', 'm.xml:4: an array is indexed from 1'),
+        ('const int a[int[1, 3]] = {4, 5, 6}; const int x = a[0];',
+         'm.xml:4: index 0 is outside a, which has 3 elements; use 1..3'),
         ('const int t[2] = {1, 2}; int x = t[2];', 'm.xml:4: index 2 is outside t, which has 2'),
         ('const int x = 1 / 0;', 'm.xml:4: division by zero'),
         ('const int x = 1 << 40;', 'm.xml:4: shift by 40 bits'),
@@ -179,11 +193,12 @@ def test_invariant_and_branchpoint_are_refused() -> None:
         ('E<> P.a = 1', 'q.q:7: '),
         ('P.a', 'q.q:7: syntax error: the text ends too early'),
         ('sup: P.a', 'q.q:7: sup queries are outside the supported subset'),
+        ('A[] P.f() == 1', 'q.q:7: f is called from outside its process; declare the function'),
         ('Pr[<=3](<> P.a)', 'q.q:7: statistical queries are outside the supported subset'),
     ],
 )
 def test_wrong_query(formula: str, expected: str) -> None:
-    model = single('a\na -> a')
+    model = single('a\na -> a', local='int f() { return 1; }')
     (query,) = read_queries('\n' * 6 + formula, 'q.q')
     with pytest.raises(ModelFormatError) as caught:
         check(model, [query])

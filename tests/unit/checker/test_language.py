@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros2cc_extract.checker.api import EngineKind
+from ros2cc_extract.checker.api import EngineKind, read_model
+from tests.support.published import document
 from tests.support.small import automaton, holds, network, single
 
 ENGINES = [EngineKind.REFERENCE, EngineKind.AUTO]
@@ -93,6 +94,12 @@ int total(const T &cells[4]) { return sum (i : int[0, 3]) cells[i]; }
 int fill() { set(a[1], 4); set(a[2], 5); return total(a); }
 bool as_bool(int x) { return x; }
 int shadow(int log) { log = 3; return log; }
+const int t[2] = {1, 2};
+const int u[2] = {3, 4};
+int of_table(const int &table[2]) { int s; for (i : int[0, 1]) s = 10 * s + table[i]; return s; }
+T grid[2][2] = {{1, 2}, {3, 4}};
+int of_copy(int k, T row[2], int added) { row[0] = k * row[0]; return row[0] + row[1] + added; }
+int of_copies(T rows[2][2]) { int s; for (i : int[0, 1]) s += of_copy(2, rows[i], 0); return s; }
 """
 
 
@@ -114,10 +121,58 @@ int shadow(int log) { log = 3; return log; }
         ('fill()', 9),
         ('as_bool(7)', 1),
         ('shadow(8) + log', 3),
+        ('of_table(t)', 12),
+        ('of_table(t) - of_table(u)', -22),
+        ('of_copy(2, grid[1], 1)', 11),
+        ('of_copy(2, t, 0)', 4),
+        ('of_copies(grid) + grid[0][0]', 15),
     ],
 )
 def test_function_call(call: str, value: int, engine: EngineKind) -> None:
     assert value_of(call, FUNCTIONS, engine) == value
+
+
+@pytest.mark.parametrize('engine', ENGINES)
+def test_array_is_indexed_by_the_values_of_its_index_type(engine: EngineKind) -> None:
+    sender = automaton('S', 'a b\na -> b; select: i : Id; sync: c[i]!; do: got[i] = k[i]')
+    receiver = automaton('R', 'a b\na -> b; sync: c[id]?', parameters='const Id id')
+    declaration = 'typedef int[3, 5] Id; const int k[Id] = {7, 8, 9}; chan c[Id]; int got[Id];'
+    model = network(sender, receiver, declaration=declaration, system='system S, R;')
+    assert [v.name for v in model.elaboration.network().variables] == [
+        'got[3]',
+        'got[4]',
+        'got[5]',
+    ]
+    assert holds(
+        model,
+        'A[] R(4).b imply got[4] == 8',
+        'E<> got[5] == 9 and R(5).b',
+        'A[] forall (i : Id) got[i] == 0 or R(i).b',
+        engine=engine,
+    ) == [True, True, True]
+
+
+@pytest.mark.parametrize('engine', ENGINES)
+def test_scalar_set_is_a_range_from_zero(engine: EngineKind) -> None:
+    process = automaton(
+        'P',
+        'a b\na -> b; select: s : Set; guard: s != id; do: last = s, seen[id] = true',
+        'Set id',
+    )
+    declaration = 'const int N = 3; typedef scalar[N] Set; Set last; bool seen[Set];'
+    model = network(process, declaration=declaration)
+    assert model.processes == ('P(0)', 'P(1)', 'P(2)')
+    wanted = ['E<> forall (s : Set) seen[s]', 'A[] P(0).b imply seen[0]', 'E<> last == 2']
+    assert holds(model, *wanted, engine=engine) == [True, True, True]
+
+
+def test_instances_may_stand_apart_from_the_system_line() -> None:
+    process = automaton('P', 'a\na -> a; do: x = id', parameters='const int id')
+    text = document('int x;', process, 'system A, B;')
+    older = text.replace('<system>', '<instantiation>A = P(1);\nB = P(2);</instantiation><system>')
+    model = read_model(older, 'm.xml')
+    assert model.processes == ('A', 'B')
+    assert holds(model, 'E<> x == 1', 'E<> x == 2', 'E<> x == 3') == [True, True, False]
 
 
 @pytest.mark.parametrize('engine', ENGINES)
