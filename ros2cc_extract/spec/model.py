@@ -123,6 +123,8 @@ class Blocking:
     :param foreign: true for an event or future that a thread of the user's own sets, and no
         callback: that wakes no executor.
     :param chain: places of the calls that lead from the callback to ``source``, outermost first.
+    :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
+        an ``RLock``, ends in ``RE_ENTRANT``.
     """
 
     call: str
@@ -131,8 +133,10 @@ class Blocking:
     seconds: float | Unknown | None = None
     foreign: bool = False
     chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
 
 
+RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
 
 
@@ -167,12 +171,14 @@ class Act:
     :param name: the lock, the topic, the entity or executor concerned.
     :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
         name is among them where it cannot be taken twice.
+    :param tries: of a lock that is taken only if it is free at once, or in some time.
     """
 
     name: str | Unknown
     source: Place | None = None
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
+    tries: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -64,7 +64,10 @@ BLOCKING = record(
         Plain('call', 'call', TEXT),
         Open(('waits_for',), 'on', TEXT, ('waits_for_resolved', False), 'waits_for_', None),
         Open(('seconds',), 'seconds', SECONDS, ('seconds_resolved', False), 'seconds_', None),
-        *plain_rows(Blocking, (('foreign', 'foreign', FLAG), _SOURCE, _CHAIN)),
+        *plain_rows(
+            Blocking,
+            (('foreign', 'foreign', FLAG), ('held', 'held', listing(TEXT)), _SOURCE, _CHAIN),
+        ),
     ),
     required=('call',),
     flow=True,
@@ -92,7 +95,10 @@ ACT = record(
     Act,
     (
         Open(('name',), 'name', TEXT, ('name_resolved', False), 'name_'),
-        *plain_rows(Act, (('held', 'held', listing(TEXT)), _SOURCE, _CHAIN)),
+        *plain_rows(
+            Act,
+            (('held', 'held', listing(TEXT)), ('tries', 'tries', FLAG), _SOURCE, _CHAIN),
+        ),
     ),
     flow=True,
 )

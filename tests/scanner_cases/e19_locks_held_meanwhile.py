@@ -79,7 +79,7 @@ if __name__ == '__main__':
 #     locks lock holding again @33>38
 #     locks lock holding again, lock @33>39
 #     locks again @34
-#     locks lock @35
+#     locks lock tries @35
 #   timer in_branches in a_default every 1
 #     writes A.value under lock @47
 #     writes A.value @49

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.containers import Collection, collection_class
+from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -186,6 +187,7 @@ class Effects(Machine):
             on=self._waited_for(on),
             seconds=_seconds(seconds, place),
             chain=self.world.chain[1:],
+            held=held_over(self.world, on),
         )
         if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
             deeds.blocking.append(block)
@@ -238,6 +240,7 @@ class Effects(Machine):
                     source=place,
                     chain=self.world.chain[1:],
                     held=() if may_fail else self._held_meanwhile(name, option.state.kind),
+                    tries=may_fail,
                 )
                 self.world.held = (*self.world.held, name)
                 if self.world.deeds is not None:

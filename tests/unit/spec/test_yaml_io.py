@@ -69,9 +69,10 @@ TRICKY = Spec(
             source=AT,
             blocking=(
                 Blocking(call='client.call', on=Unknown('x: y # "z"'), source=AT, chain=(AT, AT)),
-                Blocking(call='time.sleep', seconds=1e-05),
+                Blocking(call='time.sleep', seconds=1e-05, held=('lock', 'gate (re-entrant)')),
             ),
             writes=(Access(name='Arm.x', source=AT, locks=('lock',), update=True),),
+            locks=(Act(name='lock', tries=True),),
             publishes=(Act(name=Unknown('an expression', AT), source=AT), Act(name='out')),
         ),
         Callback(

@@ -146,6 +146,8 @@ def _blocking(block: Blocking) -> str:
         words.append(f'on {_known(block.on)}')
     if block.seconds is not None:
         words.append(f'{_known(block.seconds)} s')
+    if block.held:
+        words.append(f'holding {", ".join(block.held)}')
     return ' '.join(words) + _trail(block.source, block.chain)
 
 
@@ -158,6 +160,7 @@ def _access(access: Access) -> str:
 
 def _act(act: Act) -> str:
     held = f' holding {", ".join(act.held)}' if act.held else ''
+    held += ' tries' if act.tries else ''
     return f'{_known(act.name)}{held}{_trail(act.source, act.chain)}'
 
 

@@ -1,0 +1,40 @@
+"""Which locks a callback holds while it waits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.extract.static.values import Instance, Value, options_of
+from ros2cc_extract.extract.static.world import PlainState, World
+from ros2cc_extract.spec.model import RE_ENTRANT
+
+#: Source: ``threading.py``; a ``Condition`` holds an ``RLock`` where it is given none.
+_RE_ENTRANT = {'lock': False, 'rlock': True, 'condition': True}
+
+
+def held_over(world: World, on: Value | None) -> tuple[str, ...]:
+    """
+    Name the locks that are held while ``on`` is waited for, outermost first.
+
+    Left out is who does not keep others out for certain: semaphores, locks of the program's own,
+    locks that were taken with a time-out. A condition is given back while it is waited for.
+    """
+    tried = {act.name for act in world.deeds.locks if act.tries} if world.deeds else set()
+    return tuple(
+        name + RE_ENTRANT * _RE_ENTRANT[kind]
+        for name in dict.fromkeys(world.held)
+        if name not in tried
+        for lock, kind in _locks_named(name, world)
+        if on is None or all(option is not lock for option in options_of(on))
+    )
+
+
+def _locks_named(name: str, world: World) -> Iterator[tuple[Instance, str]]:
+    hint, _, number = name.rpartition('#')
+    for stored, place in ((name, 0), (hint, int(number) - 1 if number.isdecimal() else -1)):
+        locks = world.locks.get(stored, ())
+        if 0 <= place < len(locks):
+            state = locks[place].state
+            if isinstance(state, PlainState) and state.kind in _RE_ENTRANT:
+                yield locks[place], state.kind
+                return
