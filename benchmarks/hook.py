@@ -136,6 +136,7 @@ def both():
     group.beginning_execution(entity)
     group.ending_execution(entity)
 bare = min(timeit.repeat(both, number=2000, repeat=70)) / 4000
+from ros2cc_extract.extract.live.events import SIZE
 from ros2cc_extract.extract.live.hook import Hook
 import rclpy.executors
 hook = Hook(tempfile.mkdtemp())
@@ -147,7 +148,7 @@ empty()
 for _ in range(500):
     both()
 begun = time.perf_counter()
-taken = len(hook.recorder.take_events())
+taken = len(hook.recorder.take_events()) / SIZE
 take = (time.perf_counter() - begun) / taken
 hook.unwrap()
 print(f'{bare * 1e6:.2f} us without, {hooked * 1e6:.2f} us with the hook, '

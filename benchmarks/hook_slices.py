@@ -39,6 +39,8 @@ class Switch:
         self._pool = getattr(executor, '_executor', None) if traced else None
         self._hook = Hook(str(folder), traced=traced) if folder else None
         if self._hook is not None:
+            # As where the hook comes first: the executor of the load is the only one.
+            self._hook.recorder.sees_every_executor = True
             for node in executor.get_nodes():
                 self._hook.recorder.note_added(executor, node)
             self._hook.writer.start()

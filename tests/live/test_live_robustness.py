@@ -133,8 +133,8 @@ def test_disk_that_fills_up_is_told_and_the_node_runs_on(start: Start, tmp_path:
     child.end(signal.SIGTERM)
     told = [line.partition('.json')[2] for line in child.lines if FULL in line]
     assert sorted(told) == [
+        f'.events: {FULL}; the node runs on without its trace\n',
         f': {FULL}; the node runs on, its recording is tried again every 5 s\n',
-        f'l: {FULL}; the node runs on without its trace\n',
     ]
     assert not list(tmp_path.glob('*.new'))
 

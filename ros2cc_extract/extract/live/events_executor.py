@@ -21,7 +21,8 @@ from threading import get_ident
 from typing import Any
 
 from .entries import EntityRecord
-from .record import BEGIN, END, Recorder
+from .events import BEGIN, END, pack
+from .record import Recorder
 
 Replace = Callable[[type, str, Any], None]
 SPINNING = ('spin', 'spin_once', 'spin_until_future_complete', 'spin_once_until_future_complete')
@@ -88,19 +89,19 @@ def _measured(recorder: Recorder, entity: Any, function: Any) -> Any:
 
 
 def _measure(function: Any, record: EntityRecord, recorder: Recorder) -> Any:
-    append, lose = recorder.events.append, recorder.lose
+    append, lose, number = recorder.events.append, recorder.lose, record.number
 
     @functools.wraps(function)
     def measured(*args: Any, **kwargs: Any) -> Any:
         try:
-            append((_clock(), get_ident(), BEGIN, record))
+            append(pack(_clock(), get_ident(), BEGIN, number))
         except Exception as error:
             lose(error)
         try:
             return function(*args, **kwargs)
         finally:
             try:
-                append((_clock(), get_ident(), END, record))
+                append(pack(_clock(), get_ident(), END, number))
             except Exception as error:
                 lose(error)
 

@@ -17,9 +17,10 @@ from collections.abc import Callable
 from threading import get_ident
 from typing import Any
 
+from .events import BEGIN, END, REFUSED, pack
 from .events_executor import mark_spinning, measure_callbacks
 from .frames import is_node, trace_creation
-from .record import BEGIN, END, REFUSED, Recorder
+from .record import Recorder
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
 from .writer import Writer
 
@@ -52,7 +53,12 @@ class Hook:
         if loaded is not None:
             self.wrap(loaded)
         else:
-            sys.meta_path.insert(0, _Finder(self.wrap, self.recorder.lose))
+            sys.meta_path.insert(0, _Finder(self._wrap_at_once, self.recorder.lose))
+
+    def _wrap_at_once(self, executors: Any) -> None:
+        """Wrap what was loaded just now, so that nobody can have made an executor yet."""
+        self.wrap(executors)
+        self.recorder.sees_every_executor = True
 
     def wrap(self, executors: Any) -> None:
         """Wrap the classes of ``rclpy.executors`` and ``rclpy.callback_groups``."""
@@ -205,7 +211,8 @@ class Hook:
                         record = entities[id(entity)]
                     except KeyError:
                         record = find(self, entity)
-                    append((clock(), thread(), what if result else otherwise, record))
+                    happened = what if result else otherwise
+                    append(pack(clock(), thread(), happened, record.number))
             except Exception as error:
                 lose(error)
             return result

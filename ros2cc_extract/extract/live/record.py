@@ -29,30 +29,9 @@ from .entries import (
     has_waited,
     thread_count,
 )
+from .events import BEGIN, END, unpack
 from .frames import Creation, RawPlace, is_node, name_function
-
-# What happened; the first three, up to ``END``, are always recorded, the others for a trace.
-EVENT_NAMES = (
-    'begin',
-    'refused',
-    'end',
-    'wait>',
-    'wait<',
-    'collect',
-    'submit',
-    'take',
-    'suspend',
-    'resume',
-    'task',
-    'run',
-    'pause',
-)
-BEGIN, REFUSED, END, WAIT, WOKEN, COLLECT, SUBMIT, TAKE, SUSPEND, RESUME, TASK, RUN, PAUSE = range(
-    len(EVENT_NAMES)
-)
-# Monotonic clock in nanoseconds, thread, what, and whose: the record of an entity, a task or an
-# executor. Only entities begin, end and are refused.
-Event = tuple[int, int, int, Any]
+from .timings import Timings
 
 # Half a minute of 4 kHz, should the writer not get the processor for that long.
 EVENTS_KEPT = 120_000
@@ -66,9 +45,11 @@ class Recorder:
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
-        self.events: deque[Event] = deque(maxlen=EVENTS_KEPT)
+        self.events: deque[bytes] = deque(maxlen=EVENTS_KEPT)
         self.entities: dict[int, EntityRecord] = {}
         self.losses: deque[str] = deque(maxlen=5)
+        # Never used again, also not by a forked child: an event may still be on its way there.
+        self._numbers = itertools.count(1)
         self.forget()
 
     def forget(self) -> None:
@@ -78,6 +59,9 @@ class Recorder:
         self.changes = 0
         self.measured = 0
         self.loss_count = 0
+        # Set only if no executor was made before ours was the way to make one.
+        self.sees_every_executor = False
+        self.only_executor: ExecutorRecord | None = None
         self.executors: dict[int, ExecutorRecord] = {}
         self.nodes: dict[int, NodeRecord] = {}
         self.groups: dict[int, GroupRecord] = {}
@@ -86,7 +70,7 @@ class Recorder:
         self.all_nodes: list[NodeRecord] = []
         self.all_groups: list[GroupRecord] = []
         self.all_entities: list[EntityRecord] = []
-        self._numbers = itertools.count(1)
+        self._timings: dict[int, Timings] = {}
         # The hot path holds these two, so they are emptied and not replaced.
         self.entities.clear()
         self.events.clear()
@@ -95,6 +79,8 @@ class Recorder:
     def lose(self, error: BaseException) -> None:
         """Count a failure of our own that was swallowed."""
         self.loss_count += 1
+        # What was lost may have been another executor.
+        self.sees_every_executor, self.only_executor = False, None
         self.losses.append(repr(error))
 
     def note_executor(self, executor: Any, created: RawPlace | None = None) -> ExecutorRecord:
@@ -104,6 +90,8 @@ class Recorder:
                 record = ExecutorRecord(next(self._numbers), executor, created)
                 self.executors[id(executor)] = record
                 self.all_executors.append(record)
+                is_only = self.sees_every_executor and len(self.all_executors) == 1
+                self.only_executor = record if is_only else None
                 self.changes += 1
             return record
 
@@ -168,6 +156,7 @@ class Recorder:
                 record = EntityRecord(next(self._numbers), entity, self.note_group(group).number)
                 self.entities[id(entity)] = record
                 self.all_entities.append(record)
+                self._timings[record.number] = record.timings
             set_up = record.kind not in WAITABLE_KINDS or record.creation is not None
             if creation is not None:
                 node, creation.node = creation.node, None
@@ -231,6 +220,7 @@ class Recorder:
             first = folded.setdefault(entity.signature(), entity)
             if first is not entity and first.gone and entity.gone:
                 first.made += 1
+                del self._timings[entity.number]
             else:
                 kept.append(entity)
         self.all_entities = kept
@@ -240,7 +230,7 @@ class Recorder:
             for key in [key for key, record in known.items() if record.ref() is None]:
                 del known[key]
 
-    def take_events(self) -> list[Event]:
+    def take_events(self) -> bytes:
         """
         Take what has happened since the last time, and bring the timings up to date.
 
@@ -248,17 +238,21 @@ class Recorder:
         that has fallen behind.
         """
         popleft = self.events.popleft
-        taken = [popleft() for _ in range(min(len(self.events), LARGEST_BATCH))]
-        for clock, thread, what, record in taken:
-            if what > END:
-                continue
-            if what == BEGIN:
-                record.timings.begin(clock, thread)
-            elif what == END:
-                record.timings.end(clock, thread)
-            else:
-                record.timings.refused += 1
-        self.measured += len(taken)
+        count = min(len(self.events), LARGEST_BATCH)
+        taken = b''.join([popleft() for _ in range(count)])
+        find = self._timings.get
+        for clock, thread, what, number in unpack(taken):
+            if what <= END:
+                timings = find(number)
+                if timings is None:
+                    continue
+                if what == BEGIN:
+                    timings.begin(clock, thread)
+                elif what == END:
+                    timings.end(clock, thread)
+                else:
+                    timings.refused += 1
+        self.measured += count
         return taken
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:

@@ -14,10 +14,11 @@ import time
 import weakref
 from collections.abc import Callable
 from threading import get_ident
+from types import FrameType, SimpleNamespace
 from typing import Any
 
 from .entries import TaskRecord
-from .record import (
+from .events import (
     COLLECT,
     PAUSE,
     RESUME,
@@ -28,8 +29,9 @@ from .record import (
     TASK,
     WAIT,
     WOKEN,
-    Recorder,
+    pack,
 )
+from .record import Recorder
 
 Replace = Callable[[type, str, Any], None]
 # What we keep with each task of rclpy; these are the values of one not yet seen.
@@ -39,12 +41,13 @@ _KEPT_WITH_TASKS = {
     '_ros2cc_suspended': False,
     '_ros2cc_awaited': None,
 }
+_NOBODY = SimpleNamespace(number=None)
 _clock = time.monotonic_ns
 
 
 def report(recorder: Recorder, what: int, record: Any) -> None:
     """Report an event that happens here and now."""
-    recorder.events.append((_clock(), get_ident(), what, record))
+    recorder.events.append(pack(_clock(), get_ident(), what, record.number))
 
 
 def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
@@ -53,30 +56,35 @@ def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
 
     It waits in the ``WaitSet`` that a generator builds on every lap, and that generator is asked
     by ``wait_for_ready_callbacks``, whose ``self`` it is (3.3 to 9.1, ``executors.py``). Reading
-    that from its frame costs less than a wrapper, which would be called for every callback.
+    that from its frame costs less than a wrapper, which would be called for every callback; the
+    only executor of a program need not even be read.
     """
     append, lose = recorder.events.append, recorder.lose
     lap = executors.Executor._wait_for_ready_callbacks.__code__
     wait = executors._rclpy.WaitSet.wait
 
+    def asker(caller: FrameType) -> Any:
+        asked_by = caller.f_back
+        executor = asked_by.f_locals.get('self') if asked_by is not None else None
+        return recorder.executors.get(id(executor), _NOBODY)
+
     @functools.wraps(wait)
     def traced_wait(wait_set: Any, *args: Any) -> Any:
-        thread, record = 0, None
+        thread, number = 0, None
         try:
             caller = sys._getframe(1)
-            if caller.f_code is lap and caller.f_back is not None:
-                record = recorder.executors.get(id(caller.f_back.f_locals.get('self')))
-            if record is not None:
+            if caller.f_code is lap:
+                number = (recorder.only_executor or asker(caller)).number
                 thread = get_ident()
-                append((_clock(), thread, WAIT, record))
+                append(pack(_clock(), thread, WAIT, number))
         except Exception as error:
             lose(error)
         try:
             return wait(wait_set, *args)
         finally:
             try:
-                if record is not None:
-                    append((_clock(), thread, WOKEN, record))
+                if number is not None:
+                    append(pack(_clock(), thread, WOKEN, number))
             except Exception as error:
                 lose(error)
 
@@ -98,19 +106,25 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
 
     @functools.wraps(original)
     def make_handler(executor: Any, entity: Any, node: Any, take: Any, *more: Any) -> Any:
+        record, number = None, None
+        try:
+            record = entities.get(id(entity)) or find(entity.callback_group, entity)
+            number = record.number
+        except Exception as error:
+            lose(error)
+
         def traced_take(taken: Any) -> Any:
             data = take(taken)
             try:
-                append((_clock(), get_ident(), TAKE, entities[id(taken)]))
+                append(pack(_clock(), get_ident(), TAKE, number))
             except Exception as error:
                 lose(error)
             return data
 
         task = original(executor, entity, node, traced_take, *more)
         try:
-            record = entities.get(id(entity)) or find(entity.callback_group, entity)
             task._ros2cc_record = record
-            append((_clock(), get_ident(), COLLECT, record))
+            append(pack(_clock(), get_ident(), COLLECT, number))
         except Exception as error:
             lose(error)
         return task
@@ -203,8 +217,9 @@ def report_early_run(recorder: Recorder, task: Any) -> None:
     early = vars(task).pop('_ros2cc_early', None)
     if early is not None:
         began, paused, thread = early
-        recorder.events.append((began, thread, RUN, task._ros2cc_record))
-        recorder.events.append((paused, thread, PAUSE, task._ros2cc_record))
+        number = task._ros2cc_record.number
+        recorder.events.append(pack(began, thread, RUN, number))
+        recorder.events.append(pack(paused, thread, PAUSE, number))
 
 
 class _Steps:
@@ -237,11 +252,12 @@ class _Steps:
             task._ros2cc_suspended = True
         elif not is_work:
             return
-        self._append((_clock(), get_ident(), PAUSE if is_work else SUSPEND, record))
+        what = PAUSE if is_work else SUSPEND
+        self._append(pack(_clock(), get_ident(), what, record.number))
 
     def _tell_begin(self, clock: int, record: Any) -> None:
         what = RUN if type(record) is TaskRecord else RESUME
-        self._append((clock, get_ident(), what, record))
+        self._append(pack(clock, get_ident(), what, record.number))
 
 
 def _can_go_on(task: Any) -> bool:

@@ -16,12 +16,12 @@ from typing import Any, TextIO
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.collect import home_of
+from ros2cc_extract.extract.live.events import EVENT_NAMES, LOST, RAW_SUFFIX, THREAD_NAME, rows
 from ros2cc_extract.extract.live.recording import Recording
 from ros2cc_extract.places import Place
 
 FORMAT = 'ros2cc trace'
 VERSION = 1
-RAW_SUFFIX = '.jsonl'
 # What ends a stretch of time, and what it can have begun with. A coroutine that pauses leaves its
 # thread and stays in its group.
 _ON_THREADS = {
@@ -41,7 +41,7 @@ class Event:
     One step of an executor.
 
     :param thread: the number that Python gives the thread.
-    :param event: one of ``record.EVENT_NAMES``.
+    :param event: one of ``events.EVENT_NAMES``.
     :param subject: number of the entity, task or (``wait>``, ``wait<``) executor, as in the
         recording.
     """
@@ -70,34 +70,27 @@ def read_trace(recording: Recording) -> Trace | None:
     """
     Read the trace beside a recording; ``None`` if there is none.
 
-    A last line cut off in the middle, as a killed process leaves it, is left out.
+    A last row cut off in the middle, as a killed process leaves it, is left out.
 
     :raises InputError: when the file cannot be read.
     """
-    path = Path(f'{recording.file}l')
+    path = Path(f'{recording.file}{RAW_SUFFIX}')
     try:
-        rows = [row for row in map(_row, path.read_text(encoding='utf-8').splitlines()) if row]
+        raw = path.read_bytes()
     except FileNotFoundError:
         return None
     except OSError as error:
         raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
-    events = sorted(
-        (Event(*row) for row in rows if isinstance(row[0], int)), key=lambda e: e.clock_ns
-    )
-    return Trace(
-        recording,
-        tuple(events),
-        {row[1]: row[2] for row in rows if row[0] == 'thread'},
-        sum(row[0] == 'lost' for row in rows),
-    )
-
-
-def _row(line: str) -> list[Any] | None:
-    try:
-        row = json.loads(line)
-    except ValueError:
-        return None
-    return row if isinstance(row, list) else None
+    events, threads, lost = [], {}, 0
+    for (clock_ns, thread, what, subject), name in rows(raw):
+        if what == THREAD_NAME:
+            threads[thread] = name
+        elif what == LOST:
+            lost += 1
+        elif what < len(EVENT_NAMES):
+            events.append(Event(clock_ns, thread, EVENT_NAMES[what], subject))
+    events.sort(key=lambda event: event.clock_ns)
+    return Trace(recording, tuple(events), threads, lost)
 
 
 def write_lines(traces: Iterable[Trace], stream: TextIO) -> None:

@@ -1,21 +1,19 @@
 """
-The trace of this process: one line of JSON for each event, written by the writer's thread.
+The raw trace of this process, written by the writer's thread.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
-neighbours. A line is ``[clock_ns, thread, event, number]``; the numbers are those of the
-recording, thread names are told by ``["thread", number, name]`` before their first event, and
-``["lost"]`` says that events came faster than they could be kept.
+neighbours. Events lie in the file as they are kept in memory (``events.py``): putting them into
+words would cost the program more than all the rest of a trace. The name of a thread stands before
+its first event.
 """
 
 from __future__ import annotations
 
-import json
 import sys
 import threading
-from collections.abc import Sequence
-from typing import TextIO
+from typing import BinaryIO
 
-from .record import EVENT_NAMES, Event
+from .events import loss, thread_name, unpack
 
 
 class TraceFile:
@@ -23,29 +21,24 @@ class TraceFile:
 
     def __init__(self, path: str) -> None:
         self._path = path
-        self._stream: TextIO | None = None
+        self._stream: BinaryIO | None = None
         self._threads: set[int] = set()
         self._usable = True
 
     def note_loss(self) -> None:
         """Say that events came faster than they were taken, so that the oldest are gone."""
-        self._write('["lost"]\n')
+        self._write(loss())
 
-    def write(self, events: Sequence[Event]) -> None:
-        lines = self._new_threads(events)
-        lines += [
-            f'[{clock},{thread},"{EVENT_NAMES[what]}",{record.number}]\n'
-            for clock, thread, what, record in events
-        ]
-        self._write(''.join(lines))
+    def write(self, events: bytes) -> None:
+        self._write(self._new_threads(events) + events)
 
-    def _write(self, text: str) -> None:
+    def _write(self, raw: bytes) -> None:
         if not self._usable:
             return
         try:
             if self._stream is None:
-                self._stream = open(self._path, 'w', encoding='utf-8')  # noqa: PTH123, SIM115
-            self._stream.write(text)
+                self._stream = open(self._path, 'wb')  # noqa: PTH123, SIM115
+            self._stream.write(raw)
             self._stream.flush()
         except OSError as error:
             self._usable = False
@@ -62,13 +55,12 @@ class TraceFile:
             self._usable = False
             self._stream.close()
 
-    def _new_threads(self, events: Sequence[Event]) -> list[str]:
-        new = {event[1] for event in events} - self._threads
+    def _new_threads(self, events: bytes) -> bytes:
+        new = {thread for _, thread, _, _ in unpack(events)} - self._threads
         if not new:
-            return []
+            return b''
         self._threads |= new
         names = {thread.ident: thread.name for thread in threading.enumerate()}
-        return [
-            f'["thread",{number},{json.dumps(names.get(number) or f"thread {number}")}]\n'
-            for number in sorted(new)
-        ]
+        return b''.join(
+            thread_name(number, names.get(number) or f'thread {number}') for number in sorted(new)
+        )

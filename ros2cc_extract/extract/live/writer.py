@@ -15,6 +15,7 @@ import threading
 import time
 from collections.abc import Callable
 
+from .events import RAW_SUFFIX
 from .record import EVENTS_KEPT, Recorder
 from .snapshot import snapshot
 from .spinning import look_for_spinning_threads
@@ -41,7 +42,7 @@ class Writer:
     def forget(self) -> None:
         """Begin anew, as a forked child must: its parent's thread does not exist there."""
         self._path = self._path_of_process()
-        self._trace = TraceFile(f'{self._path}l') if self._traced else None
+        self._trace = TraceFile(f'{self._path}{RAW_SUFFIX}') if self._traced else None
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._looked_changes = 0

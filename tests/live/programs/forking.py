@@ -29,7 +29,7 @@ def run(name: str) -> None:
 def await_recording() -> None:
     """With the hook, wait for its files: nothing is written after ``os._exit``."""
     folder = os.environ.get('ROS2CC_LIVE_DIR')
-    kinds = ['json', 'jsonl'] if os.environ.get('ROS2CC_LIVE_TRACE') == '1' else ['json']
+    kinds = ['events', 'json'] if os.environ.get('ROS2CC_LIVE_TRACE') == '1' else ['json']
     while folder and not all(list(Path(folder).glob(f'{os.getpid()}-*.{k}')) for k in kinds):
         time.sleep(0.01)
 

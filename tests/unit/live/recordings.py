@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ros2cc_extract.extract.live.events import EVENT_NAMES, RAW_SUFFIX, pack
 from ros2cc_extract.extract.live.recording import Recording, read_recording
+from ros2cc_extract.extract.live.trace import Trace, read_trace
 
 NOT_MEASURED = {
     'count': 0,
@@ -101,3 +103,15 @@ def recording(folder: Path, **sections: Any) -> Recording:
     path = folder / '7-1.json'
     path.write_text(json.dumps(data(**sections)), encoding='utf-8')
     return read_recording(path, folder)
+
+
+def event(clock_ns: int, thread: int, what: str, subject: int) -> bytes:
+    return pack(clock_ns, thread, EVENT_NAMES.index(what), subject)
+
+
+def trace(recorded: Recording, *raw: bytes) -> Trace:
+    """Give what is read of a raw trace of these pieces, written beside a recording."""
+    Path(f'{recorded.file}{RAW_SUFFIX}').write_bytes(b''.join(raw))
+    found = read_trace(recorded)
+    assert found is not None
+    return found
