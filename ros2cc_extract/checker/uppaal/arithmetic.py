@@ -69,7 +69,7 @@ def interval(op: Op, left: Expr, right: Expr) -> tuple[int, int]:
     if op is Op.DIV:
         return -size, size
     if op is Op.MOD:
-        size = min(size, max(abs(right.low), abs(right.high)) - 1)
+        size = min(size, max(abs(right.low), abs(right.high), 1) - 1)
         return (0 if left.low >= 0 else -size), size
     widest = max(abs(right.low), abs(right.high), size)
     bits = (1 << widest.bit_length()) - 1

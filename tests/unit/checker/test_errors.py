@@ -262,6 +262,7 @@ def test_queries_of_the_model_keep_comment_and_line() -> None:
         ('a[x] = 1, x++', 'm.xml:7: index 3 is outside a, which has 3 elements'),
         ('y = 1 / (x - 3), x = 3', 'm.xml:7: division by zero'),
         ('y = 2 % z', 'm.xml:7: division by zero'),
+        ('y = 1 << (5 % (on == 2))', 'm.xml:7: division by zero'),
         ('x = 3, y = 1 << (x * 11)', 'm.xml:7: shift by 33 bits'),
         ('y = 30000, y += y', 'm.xml:7: 60000 is outside the range -32768..32767 of y'),
         ('y = 2000, y = y * y * y / 2', 'm.xml:7: 8000000000 does not fit into 32 bits'),
@@ -273,7 +274,7 @@ def test_queries_of_the_model_keep_comment_and_line() -> None:
 )
 def test_run_time_errors_have_a_place(update: str, expected: str, engine: EngineKind) -> None:
     declaration = (
-        'int[0, 3] x; int y, z; int a[3];'
+        'int[0, 3] x; int y, z; int a[3]; bool on;'
         'int endless() { while (true) { y = y; } return 1; }'
         'int deep() { int n; for (i : int[0, 9999]) for (j : int[0, 9999]) n = j; return n; }'
         'int partial(int n) { if (n > 0) return 1; }'
