@@ -174,6 +174,7 @@ def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
                     for write in changer.writes
                     if write.name == read.name
                     and write.in_place
+                    and not write.keeps_size
                     and not keep_apart(read.locks, write.locks)
                 )
 

@@ -151,6 +151,7 @@ class Access:
     :param update: true when the old value is read for the new one (``+=``, ``append`` …).
     :param in_place: true for an update by one operation on the object itself (``append``,
         ``d[k] = v``), which CPython does in one piece.
+    :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param iterates: class of the collection, where a loop goes over it.
     """
 
@@ -159,6 +160,7 @@ class Access:
     locks: tuple[str, ...] = ()
     update: bool = False
     in_place: bool = False
+    keeps_size: bool = False
     iterates: str | None = None
     chain: tuple[Place, ...] = ()
 

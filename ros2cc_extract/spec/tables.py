@@ -81,6 +81,7 @@ ACCESS = record(
             (
                 ('update', 'update', FLAG),
                 ('in_place', 'in_place', FLAG),
+                ('keeps_size', 'keeps_size', FLAG),
                 ('iterates', 'iterates', optional(TEXT)),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,

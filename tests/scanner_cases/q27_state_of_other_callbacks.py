@@ -116,9 +116,9 @@ if __name__ == '__main__':
 #     reads Worker.shared @76
 #     reads Worker.modes @77
 #     writes q27_state_of_other_callbacks.STOPPED @74
-#     writes q27_state_of_other_callbacks.SETTINGS update in_place @75
+#     writes q27_state_of_other_callbacks.SETTINGS update in_place keeps_size @75
 #     writes Shared.ready @76
-#     writes Worker.modes update in_place @77
+#     writes Worker.modes update in_place keeps_size @77
 #     writes Worker.names update in_place @78
 #   client go_client in worker_default key=go
 #   done_callback done in no_group key=go

@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
+    ABSENT,
     NONE,
     Choice,
     Function,
@@ -94,7 +95,10 @@ class Assignments(Machine):
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
+        direct = isinstance(target.value, (ast.Attribute, ast.Name))
+        self.world.refilling = direct and _has_key(owner, key)
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
+        self.world.refilling = False
         if isinstance(owner, Mapping):
             if loops.is_key(key):
                 _hint(value, loops.key_text(key))
@@ -125,6 +129,12 @@ class Assignments(Machine):
             else:
                 reason = rest.reason if rest else 'too few values to unpack'
                 self.assign(target, self.mystery(reason, frame.place(target), target), frame)
+
+
+def _has_key(owner: Value, key: Value) -> bool:
+    """Whether ``key`` is surely in a dictionary already: storing under it changes no size."""
+    held = owner.entries.get(key) if isinstance(owner, Mapping) and loops.is_key(key) else None
+    return held is not None and not (isinstance(held, Choice) and ABSENT in held.options)
 
 
 def _hint(value: Value, name: str) -> None:

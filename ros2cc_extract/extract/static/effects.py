@@ -82,6 +82,7 @@ class Effects(Machine):
             locks=self.world.held,
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=kind is AccessKind.UPDATE_IN_PLACE,
+            keeps_size=self.world.refilling,
             iterates=self.world.iterating,
             chain=self.world.chain[1:],
         )

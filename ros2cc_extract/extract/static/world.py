@@ -274,6 +274,7 @@ class World:
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     :param iterating: class of the collection that a loop begins to go over.
+    :param refilling: an item is stored under a key that the dictionary surely has.
     :param stopped: this branch of the program has ended.
     :param trees: the text of every module that was run.
     :param changing: how often a callback has read what other functions may change.
@@ -316,6 +317,7 @@ class World:
     settled: dict[int, int] = field(default_factory=dict)
     ghosts: dict[str, Instance] = field(default_factory=dict)
     iterating: str | None = None
+    refilling: bool = False
     looking: tuple[tuple[int, str], ...] = ()
     made_by_looking: dict[object, Instance] = field(default_factory=dict)
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)

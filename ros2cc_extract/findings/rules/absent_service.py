@@ -42,6 +42,10 @@ def _is_served(client: Callback, context: Context) -> bool:
     return server is not None and server.when is When.START
 
 
+def _awaited(client: Callback) -> str:
+    return name_of_service(client) if isinstance(client.key, str) else 'the server'
+
+
 def _question(client: Callback) -> str:
     """The call that answers at once whether it is there."""
     is_action = client.entity is EntityKind.ACTION_CLIENT
@@ -55,7 +59,7 @@ def _hit(waits: Sequence[Wait], client: Callback, context: Context) -> Hit:
         place=wait.place,
         message=f'{who_waits(waits)} in {wait.block.call} without a time-out on the '
         f'only thread of the {context.unit.executor.kind or "executor"}: until '
-        f'{name_of_service(client)} is there no other callback runs',
+        f'{_awaited(client)} is there no other callback runs',
         help=f'wait before the node is spun, or ask {_question(client)} and come back by a timer',
         subjects=(*callers_of(waits), client.name),
         chain=wait.chain,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from finding_units import at, callback, threads, unit
+
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind, Spec, Unresolved
-from tests.unit.findings.finding_units import at, callback, threads, unit
 
 TOO_LONG = 'set-up is too long to be followed to its end'
 NO_CALLER = "parameter 'node' of Arm.__init__; no caller is in sight"

@@ -134,6 +134,11 @@ def test_message_of_waiting_for_a_service() -> None:
         'drive waits in wait_for_service without a time-out on the only thread of the '
         "SingleThreadedExecutor: until service 'plan' is there no other callback runs"
     )
+    nameless = replace(client('plan_client'), key=Unknown('name from a parameter'))
+    spec = unit(ONE_THREAD, timer('drive', blocking=waits), nameless, timer('tick'))
+    assert only(spec, 'CC204').message.endswith(
+        ': until the server is there no other callback runs'
+    )
 
 
 def test_callbacks_that_wait_at_one_line_for_the_same_service_are_one_finding() -> None:

@@ -153,6 +153,7 @@ def _blocking(block: Blocking) -> str:
 
 def _access(access: Access) -> str:
     update = (' update' if access.update else '') + (' in_place' if access.in_place else '')
+    update += ' keeps_size' if access.keeps_size else ''
     update += f' iterates {access.iterates}' if access.iterates else ''
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
