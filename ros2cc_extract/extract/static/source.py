@@ -11,9 +11,9 @@ import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from sys import version_info
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.newer_python import WITHOUT_FILE, needs_newer_python
 from ros2cc_extract.places import Place
 
 SIZE_LIMIT_BYTES = 8_000_000
@@ -117,16 +117,19 @@ class SourceFile:
             slug, message = 'python-2', f'Python 2 source: {error.msg}'
         if 'too many nested' in (error.msg or ''):
             slug = 'nested-too-deeply'
-        self._complain(slug, line, column, message)
+        newer = needs_newer_python(text, line) if slug == 'syntax-error' else None
+        self._complain(slug, line, column, message, newer)
 
-    def _complain(self, slug: str, line: int, column: int, message: str) -> None:
+    def _complain(
+        self, slug: str, line: int, column: int, message: str, mend: str | None = None
+    ) -> None:
         self.diagnostics.append(
             Diagnostic(
                 severity=Severity.ERROR,
                 slug=slug,
                 place=Place(self.shown, line, max(column, 1) if line else 0),
                 message=message,
-                help=_HELP.get(slug, ''),
+                help=mend or _HELP.get(slug, ''),
             )
         )
 
@@ -138,8 +141,7 @@ def digest_of(data: bytes) -> str:
 
 _HELP = {
     'file-too-large': 'leave it out, or move the nodes out of it',
-    'syntax-error': 'the rest of the program is scanned without this file; where the node needs a '
-    f'newer Python than {version_info[0]}.{version_info[1]}, run ros2cc-extract by that one',
+    'syntax-error': WITHOUT_FILE,
     'python-2': 'rclpy needs Python 3',
     'undecodable-file': 'save it as UTF-8 or declare its encoding in the first line',
 }

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.api import scan, scan_text
+from ros2cc_extract.extract.static.newer_python import needs_newer_python
 
 HEAD = 'import rclpy\n'
 SPIN = 'rclpy.spin(rclpy.create_node("a"))\n'
@@ -58,6 +60,43 @@ def test_unusual_encodings_are_read(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / 'node.py'
     path.write_bytes(content)
     assert [unit.name for unit in scan([path]).units] == ['a']
+
+
+@pytest.mark.parametrize(
+    ('statement', 'running', 'expected'),
+    [
+        ('class Box[T]:', (3, 11), 'Python 3.12 or newer, which knows type parameters'),
+        ('async def first[T](of: T): ...', (3, 10), 'Python 3.12 or newer, which knows type'),
+        ('class Box[T = int]:', (3, 12), 'Python 3.13 or newer, which knows defaults'),
+        ('type Pair = tuple[int, int]', (3, 11), 'Python 3.12 or newer, which knows the type'),
+        ('except* OSError:', (3, 10), 'Python 3.11 or newer, which knows except*'),
+        ("name = t'{x}'", (3, 13), 'Python 3.14 or newer, if this is a template string'),
+        ("""log(f'{x['a']}')""", (3, 11), 'Python 3.12 or newer, if it is for quotes'),
+    ],
+)
+def test_syntax_of_a_newer_python_is_told_by_its_version(
+    statement: str, running: tuple[int, int], expected: str
+) -> None:
+    assert f'run ros2cc-extract by {expected}' in (
+        needs_newer_python(f'x = 1\n{statement}\n', 2, running) or ''
+    )
+    assert needs_newer_python(statement, 1, (3, 14)) is None
+
+
+@pytest.mark.parametrize('statement', ['x = = 1', 'class Box(T:', "type('x'", 'def f(x[0]):', ''])
+def test_other_syntax_errors_are_of_every_python(statement: str) -> None:
+    assert needs_newer_python(statement, 1, (3, 10)) is None
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 12), reason='this Python knows that syntax')
+def test_the_rest_of_a_program_is_scanned_without_a_file_of_newer_syntax(tmp_path: Path) -> None:
+    (tmp_path / 'box.py').write_text(HEAD + 'class Box[T]:\n    pass\n')
+    (tmp_path / 'node.py').write_text(HEAD + SPIN)
+    found = scan([tmp_path], root=tmp_path)
+    assert [unit.name for unit in found.units] == ['a']
+    assert [(str(d.place), d.help.partition(';')[0]) for d in found.diagnostics] == [
+        ('box.py:2:10', 'run ros2cc-extract by Python 3.12 or newer, which knows type parameters')
+    ]
 
 
 def test_program_without_end_is_cut_off_once(tmp_path: Path) -> None:
