@@ -9,6 +9,15 @@ from contextlib import contextmanager
 
 _RECURSION = 8_000
 
+_MUCH = 1_000_000
+"""So many objects are worth a look for cycles; that takes some tenths of a second."""
+
+
+class _Aged:
+    """What scans have left behind since somebody last looked for cycles among all of it."""
+
+    objects = 0
+
 
 @contextmanager
 def scanning_limits() -> Iterator[None]:
@@ -18,6 +27,7 @@ def scanning_limits() -> Iterator[None]:
     Syntax trees are large and live as long as the scan: looking for cycles among them again
     and again takes longer than the scan itself.
     """
+    _forget_earlier_scans()
     before, collecting = sys.getrecursionlimit(), gc.isenabled()
     sys.setrecursionlimit(max(before, _RECURSION))
     gc.disable()
@@ -30,6 +40,23 @@ def scanning_limits() -> Iterator[None]:
             gc.enable()
 
 
+def forget_programs() -> None:
+    """
+    Free what the programs followed so far have left behind, once that is much.
+
+    Each is full of cycles. What stays, as the trees do, is not looked at again.
+    """
+    if gc.get_count()[0] > _MUCH:
+        gc.collect(0)
+
+
+def _forget_earlier_scans() -> None:
+    """Nobody else looks at what was made old, however much it is."""
+    if _Aged.objects > _MUCH:
+        gc.collect()
+        _Aged.objects = 0
+
+
 def _age_everything() -> None:
     """
     Make all that is there old for the collector, without looking at it.
@@ -38,5 +65,6 @@ def _age_everything() -> None:
     there in its own time (``gcmodule.c``: both only join lists).
     """
     if not gc.get_freeze_count():
+        _Aged.objects += gc.get_count()[0]
         gc.freeze()
         gc.unfreeze()

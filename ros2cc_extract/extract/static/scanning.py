@@ -18,6 +18,7 @@ from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.entries import console_scripts, entries_of
 from ros2cc_extract.extract.static.library_runs import run_library
 from ros2cc_extract.extract.static.likeness import each_once
+from ros2cc_extract.extract.static.limits import forget_programs
 from ros2cc_extract.extract.static.project import FollowedFile, Project
 from ros2cc_extract.extract.static.reached import scanned_files
 from ros2cc_extract.extract.static.relevance import replaces_rclpy
@@ -132,15 +133,18 @@ class _Worker:
         return self._from_rest(source, covered)
 
     def _from_entries(self, source: SourceFile) -> Found:
-        runs = [
-            (run_entry(self._project, entry).world, entry.label)
-            for entry in entries_of(source, self._scripts)
-        ]
-        return _joined(_found(world, label) for world, label in runs)
+        found: list[Found] = []
+        for entry in entries_of(source, self._scripts):
+            found.append(_found(run_entry(self._project, entry).world, entry.label))
+            forget_programs()
+        return _joined(found)
 
     def _from_rest(self, source: SourceFile, covered: frozenset[Place]) -> Found:
         rest = run_library(self._project, source, covered)
-        return _found(rest.world, None) if rest is not None else Found()
+        found = _found(rest.world, None) if rest is not None else Found()
+        del rest
+        forget_programs()
+        return found
 
     def _unread(self) -> tuple[Diagnostic, ...]:
         return tuple(d for source in self._project.files for d in source.diagnostics)

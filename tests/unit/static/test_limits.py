@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import gc
+import weakref
 
+import pytest
+
+from ros2cc_extract.extract.static import limits
 from ros2cc_extract.extract.static.limits import scanning_limits
 
 
@@ -33,3 +37,30 @@ def test_a_collector_that_was_off_stays_off() -> None:
         assert not gc.isenabled()
     finally:
         gc.enable()
+
+
+class Ring:
+    """Something that only the collector frees."""
+
+    def __init__(self) -> None:
+        self.self = self
+
+
+def test_what_earlier_scans_left_behind_is_freed_once_it_is_much(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(limits, '_MUCH', 1_000)
+    with scanning_limits():
+        left_behind = [weakref.ref(ring) for ring in [Ring() for _ in range(2_000)]]
+    with scanning_limits():
+        assert not any(ring() for ring in left_behind)
+
+
+def test_what_a_program_left_behind_is_freed_before_the_next_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(limits, '_MUCH', 1_000)
+    with scanning_limits():
+        left_behind = [weakref.ref(ring) for ring in [Ring() for _ in range(2_000)]]
+        limits.forget_programs()
+        assert not any(ring() for ring in left_behind)
