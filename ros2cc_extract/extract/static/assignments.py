@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static import loops
@@ -29,6 +30,9 @@ from ros2cc_extract.extract.static.world import (
     PlainState,
 )
 from ros2cc_extract.places import Place
+
+MOST_UNSURE = 32
+"""So many keys of a dictionary that could not be followed are kept apart."""
 
 
 class Assignments(Machine):
@@ -105,9 +109,10 @@ class Assignments(Machine):
                 self.store.write(owner, 'entries', {**owner.entries, key: value})
             else:
                 # What was put in last is found again under its key, see ``subscripts.py``.
-                others = {known: held for known, held in owner.entries.items() if known is not key}
+                others = drawn_together(owner, key)
+                many = {known: why for known, why in owner.many.items() if known in others}
                 self.store.write(owner, 'entries', {**others, key: value})
-                self.store.write(owner, 'many', {**owner.many, key: self.why_many()})
+                self.store.write(owner, 'many', {**many, key: self.why_many()})
         elif isinstance(owner, Items):
             index = loops.index_of(key, len(owner.items))
             if index is not None:
@@ -129,6 +134,19 @@ class Assignments(Machine):
             else:
                 reason = rest.reason if rest else 'too few values to unpack'
                 self.assign(target, self.mystery(reason, frame.place(target), target), frame)
+
+
+def drawn_together(owner: Mapping, key: Value) -> dict[Value, Value]:
+    """
+    Give the entries without that of ``key``; the oldest of too many unsure keys share one.
+
+    A callback that stores under whatever a message says would fill the dictionary for ever.
+    """
+    held = {known: value for known, value in owner.entries.items() if known is not key}
+    unsure = [known for known in held if not loops.is_key(known)]
+    for oldest, following in pairwise(unsure[: max(0, len(unsure) - MOST_UNSURE) + 1]):
+        held[following] = choice([held.pop(oldest), held[following]])
+    return held
 
 
 def _has_key(owner: Value, key: Value) -> bool:
