@@ -12,7 +12,12 @@ from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_executors import as_node, groupless
 from ros2cc_extract.extract.static.ros_groups import group_of
-from ros2cc_extract.extract.static.ros_nodes import add_entity, mark_destroyed
+from ros2cc_extract.extract.static.ros_nodes import (
+    add_entity,
+    entity_made_before,
+    mark_destroyed,
+    remember_entity,
+)
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -22,6 +27,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.world import EntityState
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
 
 SERVER = 'rclpy.action.server.ActionServer'
@@ -37,11 +43,15 @@ def _init_server(machine: Machine, receiver: Value, call: Call) -> Value:
         return NONE
     place = call.place
     group = group_of(machine, node, call.argument(None, 'callback_group'), place)
+    key = call.argument(2, 'action_name')
+    if _is_made_again(machine, receiver, node, EntityKind.ACTION_SERVER, key, place):
+        return NONE
     server = add_entity(machine, node, EntityKind.ACTION_SERVER, group, place)
-    server.key = call.argument(2, 'action_name')
+    server.key = key
     found = (call.argument(None, name) for name in _SERVER_CALLBACKS)
     server.extra_callbacks = tuple(value for value in found if value is not None)
     receiver.state = server
+    remember_entity(machine, receiver)
     execute = add_entity(machine, node, EntityKind.ACTION_EXECUTE, groupless(machine), place)
     execute.key = server.key
     execute.callback = call.argument(3, 'execute_callback')
@@ -54,10 +64,29 @@ def _init_client(machine: Machine, receiver: Value, call: Call) -> Value:
     if node is None:
         return NONE
     group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
+    key = call.argument(2, 'action_name')
+    if _is_made_again(machine, receiver, node, EntityKind.ACTION_CLIENT, key, call.place):
+        return NONE
     client = add_entity(machine, node, EntityKind.ACTION_CLIENT, group, call.place)
-    client.key = call.argument(2, 'action_name')
+    client.key = key
     receiver.state = client
+    remember_entity(machine, receiver)
     return NONE
+
+
+def _is_made_again(
+    machine: Machine,
+    receiver: Instance,
+    node: Instance,
+    kind: EntityKind,
+    key: Value | None,
+    place: Place,
+) -> bool:
+    """Whether ``receiver`` stands for what callbacks have made here before."""
+    known = entity_made_before(machine, node, kind, key, place)
+    if known is not None:
+        receiver.state = known.state
+    return known is not None
 
 
 def _node(machine: Machine, call: Call) -> Instance | None:

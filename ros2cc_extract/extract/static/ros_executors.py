@@ -324,8 +324,15 @@ def _code_of(value: Value | None) -> object:
     if isinstance(value, Partial):
         return _code_of(value.function)
     if isinstance(value, Bound):
-        return id(value.receiver), id(value.function.node)
+        return _object_of(value.receiver), id(value.function.node)
     return id(value.node) if isinstance(value, Function) else type(value)
+
+
+def _object_of(receiver: Value) -> object:
+    """Equal for one object; what callbacks make at one place, again and again, is one too."""
+    if isinstance(receiver, Instance) and receiver.born is not None:
+        return id(receiver.cls), receiver.place
+    return id(receiver)
 
 
 def groupless(machine: Machine) -> Instance:

@@ -141,7 +141,7 @@ def _creator(row: CreateCall) -> Handler:
         )
         key = call.argument(*row.key) if row.key else None
         callback = call.argument(*row.callback) if row.callback else None
-        known = _made_before(machine, receiver, row.kind, key, call.place, callback)
+        known = entity_made_before(machine, receiver, row.kind, key, call.place, callback)
         if known is not None:
             return known
         entity = add_entity(machine, receiver, row.kind, group, call.place)
@@ -150,7 +150,7 @@ def _creator(row: CreateCall) -> Handler:
         entity.period = call.argument(*row.period) if row.period else None
         made = Instance(Name(row.cls), call.place)
         made.state = entity
-        machine.world.made_in_callbacks[_site(receiver, row.kind, key, call.place)] = made
+        remember_entity(machine, made)
         return made
 
     return create
@@ -161,7 +161,14 @@ def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> 
     return (id(node), kind, place, text)
 
 
-def _made_before(
+def remember_entity(machine: Machine, made: Instance) -> None:
+    """Keep an entity for ``entity_made_before``."""
+    entity = made.state
+    site = _site(entity.node, entity.kind, entity.key, entity.place)
+    machine.world.made_in_callbacks[site] = made
+
+
+def entity_made_before(
     machine: Machine,
     node: Instance,
     kind: EntityKind,
@@ -187,7 +194,7 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     """A timer in a private reentrant group of the node (``node.py``, ``_rate_group``)."""
     assert isinstance(receiver, Instance)
     state = receiver.state
-    known = _made_before(machine, receiver, EntityKind.TIMER, None, call.place)
+    known = entity_made_before(machine, receiver, EntityKind.TIMER, None, call.place)
     if known is not None:
         return known
     if state.rate_group is None:
@@ -202,7 +209,7 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
         entity.period = frequency
     made = Instance(Name('rclpy.timer.Rate'), call.place)
     made.state = entity
-    machine.world.made_in_callbacks[_site(receiver, entity.kind, None, call.place)] = made
+    remember_entity(machine, made)
     return made
 
 
