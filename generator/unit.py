@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.generator.left_out import is_entered_unseen, left_out_of_models
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
-from ros2cc_extract.generator.waits import NamedWait, WaitKind, waits_of
+from ros2cc_extract.generator.waits import Lock, NamedWait, WaitKind, waits_of
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
@@ -24,6 +24,8 @@ class UnitWait:
     :param frees_thread: an ``await``.
     :param is_for_callback: the callback at ``place`` ends it.
     :param node: place of the node that a nested spin gives to the global executor.
+    :param lock: place of the lock that is waited for; ``None`` for none.
+    :param held: places of the locks that are held meanwhile.
     """
 
     place: int
@@ -32,6 +34,8 @@ class UnitWait:
     is_for_callback: bool
     spin: NestedSpin | None = None
     node: int = 0
+    lock: int | None = None
+    held: frozenset[int] = frozenset()
 
     @property
     def is_absent(self) -> bool:
@@ -125,6 +129,7 @@ class Unit:
     What a model is made of.
 
     :param max_cycle: how often each callback may become ready; ``None`` for no bound.
+    :param locks: names of those that are held over a wait, and that others take.
     """
 
     name: str
@@ -135,6 +140,7 @@ class Unit:
     threads: tuple[str, ...]
     executor: str
     max_cycle: int | None
+    locks: tuple[str, ...] = ()
 
     @property
     def num_waits(self) -> int:
@@ -150,6 +156,11 @@ class Unit:
     def waits(self) -> tuple[UnitWait, ...]:
         """All waits of all callbacks."""
         return tuple(wait for callback in self.callbacks for wait in callback.waits)
+
+    @property
+    def has_locks(self) -> bool:
+        """True when callbacks wait for locks that others hold while they wait."""
+        return bool(self.locks)
 
     @property
     def has_foreign(self) -> bool:
@@ -252,6 +263,8 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     groups = {group.name: index for index, group in enumerate(spec.groups)}
     nodes = {callback.node: 0 for callback in spec.callbacks}
     nodes = {node: index for index, node in enumerate(nodes)}
+    waits = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
+    locks = tuple(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
     return Unit(
         name=spec.name,
         kind=executor_kind(spec),
@@ -265,7 +278,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 node=nodes[callback.node],
                 rank=rank_of(callback),
                 waits=tuple(
-                    _number_wait(wait, places, nodes) for wait in waits_of(callback, spec)
+                    _number_wait(wait, places, nodes, locks) for wait in waits[callback.name]
                 ),
                 server=_place_of(server_of(callback, spec.callbacks), places),
                 is_groupless=callback.groupless,
@@ -281,11 +294,15 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         threads=spec.executor.threads,
         executor=spec.executor.name,
         max_cycle=max_cycle,
+        locks=tuple(lock.name for lock in locks),
     )
 
 
 def _number_wait(
-    wait: NamedWait, places: Mapping[str, int], nodes: Mapping[str | Unknown | None, int]
+    wait: NamedWait,
+    places: Mapping[str, int],
+    nodes: Mapping[str | Unknown | None, int],
+    locks: Sequence[Lock],
 ) -> UnitWait:
     spun_node = wait.spin.node if wait.spin else None
     return UnitWait(
@@ -295,6 +312,8 @@ def _number_wait(
         is_for_callback=wait.is_for_callback,
         spin=wait.spin,
         node=nodes.get(spun_node, 0),
+        lock=locks.index(wait.lock) if wait.lock else None,
+        held=frozenset(map(locks.index, wait.held)),
     )
 
 

@@ -8,8 +8,8 @@ run the client), ``action/client.py``, ``timer.py`` (``Rate``); ``threading.Even
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
@@ -20,7 +20,7 @@ from ros2cc_extract.generator.spins import (
     is_part_of_spin,
     nested_spins,
 )
-from ros2cc_extract.spec.model import Blocking, Callback, Spec
+from ros2cc_extract.spec.model import RE_ENTRANT, Blocking, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
 
@@ -37,6 +37,15 @@ class WaitKind(Enum):
     FOREIGN = 'as awaited, for what a thread of the user makes done, which wakes no executor'
     ABSENT = 'the thread is held until somebody outside offers a service'
     SPUN = 'the thread spins an executor'
+    LOCKED = 'the thread is held until another callback gives back a lock'
+
+
+@dataclass(frozen=True)
+class Lock:
+    """A lock of a node, by the name that it is stored under."""
+
+    node: str
+    name: str
 
 
 @dataclass(frozen=True)
@@ -46,11 +55,15 @@ class NamedWait:
 
     :param needed: name of the callback of the unit that must run before it ends; its own where
         none must.
+    :param lock: what it waits for, to keep it over the next wait if that holds it.
+    :param held: locks that are held meanwhile, outermost first.
     """
 
     needed: str
     kind: WaitKind
     spin: NestedSpin | None = None
+    lock: Lock | None = None
+    held: tuple[Lock, ...] = ()
 
     @property
     def frees_thread(self) -> bool:
@@ -72,16 +85,33 @@ def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     Whoever waits for a service that nobody offers does so last: what else may hold the callback
     is then seen without it.
     """
+    others, absent = tuple(_for_others(callback, spec)), tuple(_for_absent(callback, spec))
+    locks = _contended_locks(spec)
+    yield from _with_locks(others, callback, locks)
+    kept = {lock for wait in (*others, *absent) for lock in wait.held}
+    for lock in _taken_locks(callback):
+        if lock in locks - kept:
+            yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock)
+    yield from _with_locks(absent, callback, locks)
+
+
+def _for_others(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     spins = tuple(nested_spins(callback, spec))
     for block in callback.blocking:
+        held = _held_locks(block, callback, spec)
         if not is_part_of_spin(block, callback):
-            yield from _waits_for_callbacks(block, callback, spec)
+            for wait in _waits_for_callbacks(block, callback, spec):
+                yield replace(wait, held=held)
         for spun, spin in spins:
             if spun is block and spin is not None:
-                yield NamedWait(spin.needed or callback.name, WaitKind.SPUN, spin)
+                yield NamedWait(spin.needed or callback.name, WaitKind.SPUN, spin, held=held)
+
+
+def _for_absent(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     for block in callback.blocking:
         if is_absent(block, spec) and isinstance(block.on, str):
-            yield NamedWait(block.on, WaitKind.ABSENT)
+            held = _held_locks(block, callback, spec)
+            yield NamedWait(block.on, WaitKind.ABSENT, held=held)
 
 
 def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
@@ -96,6 +126,71 @@ def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Ite
     if client is not None and client.name in others:
         yield NamedWait(client.name, kind)
     yield NamedWait(needed.name, kind)
+
+
+def _with_locks(
+    waits: Iterable[NamedWait], callback: Callback, locks: frozenset[Lock]
+) -> Iterator[NamedWait]:
+    """Put the taking of each lock before the first of the waits that hold it."""
+    before: tuple[Lock, ...] = ()
+    for wait in waits:
+        held = tuple(lock for lock in wait.held if lock in locks)
+        kept = tuple(lock for lock in held if lock in before)
+        for lock in held:
+            if lock not in kept:
+                yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock, held=kept)
+                kept = (*kept, lock)
+        yield replace(wait, held=held)
+        before = held
+
+
+def _contended_locks(spec: Spec) -> frozenset[Lock]:
+    """Locks that some callback holds while it waits for others, and that another run takes."""
+    if not any(block.held for callback in spec.callbacks for block in callback.blocking):
+        return frozenset()
+    holders: dict[Lock, set[str]] = {}
+    takers: dict[Lock, set[str]] = {}
+    for callback in spec.callbacks:
+        waits = (*_for_others(callback, spec), *_for_absent(callback, spec))
+        held = {lock for wait in waits for lock in wait.held}
+        for lock in held:
+            holders.setdefault(lock, set()).add(callback.name)
+        for lock in held.union(_taken_locks(callback)):
+            takers.setdefault(lock, set()).add(callback.name)
+    overlapping = {
+        c.name for c in spec.callbacks if spec.group_of(c).type is not GroupType.EXCLUSIVE
+    }
+    return frozenset(
+        lock for lock, who in holders.items() if len(takers[lock]) > 1 or who & overlapping
+    )
+
+
+def _taken_locks(callback: Callback) -> tuple[Lock, ...]:
+    """Locks that it waits for; one that it only tries to take does not hold it."""
+    taken = (act.name for act in callback.locks if not act.tries)
+    return tuple(
+        dict.fromkeys(
+            Lock(callback.node, name)
+            for name in taken
+            if isinstance(name, str) and isinstance(callback.node, str)
+        )
+    )
+
+
+def _held_locks(block: Blocking, callback: Callback, spec: Spec) -> tuple[Lock, ...]:
+    """
+    Locks that are held over a wait and keep out whoever else takes them.
+
+    One that its holder may take again keeps out other threads: an executor of one thread has
+    none, and which thread goes on after an ``await``, or runs what a nested spin finds, is open.
+    """
+    has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
+    keeps_out = has_pool and block.call != 'await' and not is_part_of_spin(block, callback)
+    return tuple(
+        Lock(callback.node, name.removesuffix(RE_ENTRANT))
+        for name in block.held
+        if isinstance(callback.node, str) and (keeps_out or not name.endswith(RE_ENTRANT))
+    )
 
 
 def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:

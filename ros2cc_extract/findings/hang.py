@@ -16,7 +16,7 @@ from ros2cc_extract.verify.evidence import Evidence, Moment
 
 _WAIT = re.compile(
     r'(?P<who>\w+) (waits|(?P<spins>spins \w+|takes .* spins it)) on (?P<thread>\w+) for '
-    r'(the service of )?'
+    r'(the service of |(?P<lock>the lock of ))?'
     r'(?P<needed>\w+)(, which nobody here offers)?'
 )
 _AWAIT = re.compile(r'(?P<who>\w+) awaits (?P<needed>\w+) and leaves (?P<thread>\w+)')
@@ -35,6 +35,7 @@ class Standstill:
     :param since: index of the moment in which it began.
     :param thread: that it holds; ``None`` for an ``await``.
     :param spins: true where it serves others on that thread meanwhile.
+    :param is_for_lock: ``needed`` holds the lock that is waited for.
     """
 
     who: str
@@ -42,6 +43,7 @@ class Standstill:
     thread: str | None
     since: int
     spins: bool = False
+    is_for_lock: bool = False
 
     @property
     def words(self) -> str:
@@ -49,7 +51,8 @@ class Standstill:
         if self.thread is None:
             return f'{self.who} awaits {self.needed}'
         verb = 'spins' if self.spins else 'waits'
-        return f'{self.who} {verb} on {self.thread} for {self.needed}'
+        what = f'the lock of {self.needed}' if self.is_for_lock else self.needed
+        return f'{self.who} {verb} on {self.thread} for {what}'
 
 
 def show_hang(
@@ -87,7 +90,8 @@ def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
             is_wait = began.re is _WAIT
             thread = began['thread'] if is_wait else None
             spins = is_wait and began['spins'] is not None
-            waits.append(Standstill(began['who'], began['needed'], thread, index, spins))
+            locked = is_wait and began['lock'] is not None
+            waits.append(Standstill(began['who'], began['needed'], thread, index, spins, locked))
         elif ended:
             over = next((wait for wait in waits if wait.who == ended['who']), None)
             waits = [wait for wait in waits if wait is not over]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from ros2cc_extract.findings.hang import show_hang
 from ros2cc_extract.findings.rule import Context
@@ -37,11 +37,19 @@ def refuting_run(family: str, context: Context, *callbacks: Callback) -> Evidenc
 def run_in_which_one_hangs(waits: Sequence[Wait], context: Context) -> Evidence | None:
     """The first run that shows that one of the callbacks never ends, and no more than that."""
     for wait in waits:
-        run = refuting_run(PROGRESS, context, wait.caller)
+        about = {wait.caller.name, *(needed.name for needed in wait.needs)}
+        run = shown_hang(wait.caller, about, context)
         if run is not None:
-            about = {wait.caller.name, *(needed.name for needed in wait.needs)}
-            return show_hang(run, about, _exclusive(context), context.unit.executor.threads)
+            return run
     return None
+
+
+def shown_hang(callback: Callback, about: Collection[str], context: Context) -> Evidence | None:
+    """The run that shows that a callback never ends, as far as callbacks of ``about`` go."""
+    run = refuting_run(PROGRESS, context, callback)
+    if run is None:
+        return None
+    return show_hang(run, about, _exclusive(context), context.unit.executor.threads)
 
 
 def rests_on_absent_service(run: Evidence) -> bool:

@@ -23,6 +23,7 @@ from ros2cc_extract.generator.serving import (
     rank_of,
 )
 from ros2cc_extract.generator.waits import (
+    Lock,
     NamedWait,
     WaitKind,
     asks_the_graph,
@@ -85,7 +86,7 @@ class Slicer:
         A message or a timer that would set an event may also never come.
         """
         return all(
-            self._by_name[wait.needed].type is CallbackType.CLT
+            self._by_name[wait.needed].type is CallbackType.CLT and wait.lock is None
             for name in self._cone(names, Rests.ON_END)
             for wait in self._waits[name]
         )
@@ -110,7 +111,7 @@ class Slicer:
         unit call is asked by them too: then nothing is certain.
         """
         kinds = {wait.kind for waits in self._waits.values() for wait in waits}
-        if not kinds <= {WaitKind.HELD, WaitKind.AWAITED}:
+        if not kinds <= {WaitKind.HELD, WaitKind.AWAITED, WaitKind.LOCKED}:
             return False
         holders: dict[object, int] = {}
         for callback in self._spec.callbacks:
@@ -195,6 +196,16 @@ class Slicer:
                 found[server.name].add(callback.name)
         return {name: frozenset(callers) for name, callers in found.items()}
 
+    @cached_property
+    def _lock_holders(self) -> dict[Lock | None, Names]:
+        """Who keeps a lock over a wait."""
+        found: dict[Lock | None, set[str]] = {}
+        for name, waits in self._waits.items():
+            for wait in waits:
+                for lock in wait.held:
+                    found.setdefault(lock, set()).add(name)
+        return {lock: frozenset(names) for lock, names in found.items()}
+
     def _closers(self, query: Query) -> Iterator[str]:
         """Who may close the groups a query is about; a reentrant one never closes."""
         if query.family is Family.GROUP_CLOSED:
@@ -222,8 +233,10 @@ class Slicer:
         return frozenset(cone)
 
     def _needed(self, callback: Callback) -> Iterator[str]:
-        """Whom it waits for, and who answers it."""
-        yield from (wait.needed for wait in self._waits[callback.name])
+        """Whom it waits for, be it for a lock, and who answers it."""
+        for wait in self._waits[callback.name]:
+            yield wait.needed
+            yield from self._lock_holders.get(wait.lock, ())
         server = server_of(callback, self._spec.callbacks)
         if server is not None:
             yield server.name
@@ -248,6 +261,11 @@ def shape_of(part: Spec) -> Shape:
     numbers = {group.name: number for number, group in enumerate(groups)}
     plain = sorted({rank_of(c) for c in callbacks} - {TASK_RANK, WAITABLE_RANK, GUARD_RANK})
     nodes = list(dict.fromkeys(callback.node for callback in callbacks))
+    waits = {callback.name: tuple(waits_of(callback, part)) for callback in callbacks}
+    locks = list(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
+
+    def locked(wait: NamedWait) -> Shape:
+        return wait.lock and locks.index(wait.lock), tuple(map(locks.index, wait.held))
 
     def serving(callback: Callback) -> tuple[bool, int]:
         rank = rank_of(callback)
@@ -266,7 +284,7 @@ def shape_of(part: Spec) -> Shape:
             serving(callback),
             nodes.index(callback.node),
             numbers[callback.group],
-            tuple((places[w.needed], w.kind, spun(w)) for w in waits_of(callback, part)),
+            tuple((places[w.needed], w.kind, spun(w), locked(w)) for w in waits[callback.name]),
             None if server is None else places[server.name],
             bool(left_out_of_models(callback, part)),  # then it is asked for its end
         )

@@ -84,6 +84,8 @@ def overlaps_execute(lines: Lines) -> bool:
 FAST_REPORTS = (('self.create_timer(1.0', 'self.create_timer(0.005'),)
 SLOW_EXECUTE = (('= goal_handle.request.order', '= hold(goal_handle.request.order)'),)
 PARTS, REPORTS, ON_THEIR_WAY = 2000, 20, 3
+#: How often a callback has to run that does not hang.
+ROUNDS = 30
 REPRODUCED = [
     Bug('a1_nested_spin', {'watch': 'tick', 'serve': 'answer'}, ('begins tick',) * 2),
     Bug(
@@ -136,6 +138,16 @@ REPRODUCED = [
         'g4_lock_taken_twice',
         {'watch': 'on_switch', 'call': 'switch'},
         ('ends on_switch',),
+    ),
+    Bug(
+        'g4_lock_over_a_nested_spin',
+        {'watch': 'replan', 'serve': 'plan', 'publish': ('goal', '', 0.0005)},
+        ('begins replan',) * ROUNDS,
+    ),
+    Bug(
+        'g4_lock_over_a_call',
+        {'watch': 'plan_ahead', 'serve': 'plan'},
+        ('ends plan_ahead',) * ROUNDS,
     ),
     Bug(
         'h1_cancel_not_seen',

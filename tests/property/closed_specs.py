@@ -10,6 +10,8 @@ from hypothesis import strategies
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.model import (
+    RE_ENTRANT,
+    Act,
     Blocking,
     Callback,
     CallbackGroup,
@@ -122,3 +124,27 @@ def _with_spin(callback: Callback, spec: Spec, random: Random) -> Callback:
     if random.random() < 0.5:
         return callback
     return replace(callback, blocking=random.choice(choices))
+
+
+def random_locking_unit(
+    random: Random, *, callbacks: int, groups: int, threads: int
+) -> ClosedSpec:
+    """Draw a unit in which some hold locks while they wait or spin, and others take them."""
+    draw = random.choice((random_rclpy_unit, random_rclpy_unit, random_spinning_unit))
+    unit = draw(random, callbacks=callbacks, groups=groups, threads=threads)
+    served = tuple(_with_locks(callback, random) for callback in unit.spec.callbacks)
+    return replace(unit, spec=replace(unit.spec, callbacks=served))
+
+
+_LOCKS = ('lock', 'lock', 'other', 'again (re-entrant)')
+
+
+def _with_locks(callback: Callback, random: Random) -> Callback:
+    held = tuple(random.sample(_LOCKS[1:], random.choice((0, 1, 1, 2))))
+    taken = random.choice(_LOCKS) if random.random() < 0.5 else None
+    name = None if taken is None else taken.removesuffix(RE_ENTRANT)
+    return replace(
+        callback,
+        blocking=tuple(replace(block, held=held) for block in callback.blocking),
+        locks=() if name is None else (Act(name=name, tries=random.random() < 0.1),),
+    )

@@ -1,5 +1,5 @@
 """
-Units with nested spins, absent services and foreign futures: every text, every way of asking.
+Units with nested spins, absent services, foreign futures, locks: every text, every way of asking.
 
 The compact text gives the verdicts of the plain one, slices those of the whole unit.
 """
@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pytest
-from closed_specs import random_spinning_unit
+from closed_specs import random_locking_unit, random_spinning_unit
 
 from ros2cc_extract.checker.api import Limits, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
@@ -36,6 +36,14 @@ def spinning_units(numbers: range, callbacks: int = 4) -> Iterator[tuple[int, Cl
         )
         numbered = number_unit(unit, 1)
         if numbered.has_spins or numbered.has_absent or numbered.has_foreign:
+            yield number, unit
+
+
+def locking_units(numbers: range, callbacks: int = 4) -> Iterator[tuple[int, ClosedSpec]]:
+    """Those of the units drawn in which somebody holds a lock over a wait that others take."""
+    for number in numbers:
+        unit = random_locking_unit(random.Random(number), callbacks=callbacks, groups=3, threads=3)
+        if number_unit(unit, 1).has_locks:
             yield number, unit
 
 
@@ -109,3 +117,23 @@ def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_slices_agree_on_many(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
     assert differences(spinning_units(range(2_000, 2_300), callbacks=5), by_slices) == []
+
+
+def test_texts_with_locks_agree() -> None:
+    assert differences(locking_units(range(60)), by_texts) == []
+
+
+@pytest.mark.slow
+def test_texts_with_locks_agree_on_many() -> None:
+    assert differences(locking_units(range(1_000, 2_500)), by_texts) == []
+
+
+def test_slices_with_locks_agree(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    assert differences(locking_units(range(60)), by_slices) == []
+
+
+@pytest.mark.slow
+def test_slices_with_locks_agree_on_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    assert differences(locking_units(range(2_000, 3_000), callbacks=5), by_slices) == []

@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules import (
+    lock_over_wait,
     one_thread_call,
     own_group_await,
     own_group_call,
@@ -25,7 +26,14 @@ from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import workers_of
 from ros2cc_extract.places import Unknown
 
-EXPLAINED = (own_group_call, one_thread_call, pool_exhausted, own_group_await, rate_on_one_thread)
+EXPLAINED = (
+    own_group_call,
+    one_thread_call,
+    pool_exhausted,
+    own_group_await,
+    rate_on_one_thread,
+    lock_over_wait,
+)
 
 
 def find(context: Context) -> Iterator[Hit]:

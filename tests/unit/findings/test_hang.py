@@ -175,6 +175,21 @@ thread_0: gate spins executor on thread_0 for second
     )
 
 
+def test_who_waits_for_a_lock_waits_for_its_holder() -> None:
+    text = """\
+source: data arrives for gate
+thread_0: gate starts on thread_0
+thread_0: gate awaits second and leaves thread_0
+source: data arrives for door
+thread_0: door starts on thread_0
+thread_0: door waits on thread_0 for the lock of gate
+"""
+    run = show_hang(run_of(text), {'door'}, {}, ('thread_0', 'thread_1'))
+    assert run.closing == (
+        'nothing moves any more: gate awaits second; door waits on thread_0 for the lock of gate'
+    )
+
+
 def test_a_run_in_which_nobody_hangs_is_left_as_it_is() -> None:
     run = run_of('source: data arrives for gate\nthread_0: gate starts on thread_0\n')
     assert show_hang(run, {'gate'}, {}, ('thread_0',)) is run
@@ -199,6 +214,7 @@ def test_the_words_are_those_of_the_templates() -> None:
         '… starts on …, inside …',
         '… stops: its spin raises what the callback raised',
         "… takes its node out of … and spins it on …{{ ' for …' if form.is_for_callback }}",
+        '… waits on … for the lock of …',
         '… waits on … for the service of …, which nobody here offers',
         '… awaits what a thread outside … makes done, and leaves …',
         'a thread outside … makes done what … awaits, which wakes nobody',
