@@ -11,7 +11,17 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from ros2cc_extract.extract.static.values import ABSENT, SERIALS, Heaped, Value, choice
+from ros2cc_extract.extract.static.values import (
+    ABSENT,
+    SERIALS,
+    Bound,
+    Class,
+    Function,
+    Heaped,
+    Instance,
+    Value,
+    choice,
+)
 
 Slot = tuple[Heaped, Any]
 Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any, bool]]
@@ -98,11 +108,26 @@ class Store:
                 if key in writes or key not in made_here
             ]
             ends.extend(writes[key][2] for writes in leaving if key in writes)
+            if ABSENT in ends and isinstance(owner, (Instance, Class)):
+                ends = _with_inherited(owner, slot, ends)
             joined = join_contents(ends)
             if joined is ABSENT:
                 self.remove(owner, slot)
             else:
                 self.write(owner, slot, joined)
+
+
+def _with_inherited(owner: Instance | Class, slot: Any, ends: list[Any]) -> list[Any]:
+    """What the class gives on the branches that set no attribute of the object's own."""
+    if all(end is ABSENT for end in ends):
+        return ends
+    given = next(
+        (c.slots[slot] for c in owner.mro if isinstance(c, Class) and slot in c.slots), ABSENT
+    )
+    if isinstance(given, Function):
+        is_method = isinstance(owner, Instance) and given.binding == 'method'
+        given = Bound(owner, given) if is_method else ABSENT
+    return [given if end is ABSENT and isinstance(given, Value) else end for end in ends]
 
 
 def join_contents(ends: list[Any]) -> Any:
