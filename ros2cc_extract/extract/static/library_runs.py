@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from typing import TypeGuard
 
 from ros2cc_extract.extract.static.call_order import (
     callers_first,
@@ -116,7 +117,7 @@ def _has_uncovered(
 
 
 def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]:
-    """Classes and functions of a module, also those that a decorator hides."""
+    """Classes and functions of a module, also those that a decorator or its like hides."""
     found = [
         option
         for value in module.slots.values()
@@ -125,7 +126,13 @@ def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]
         if isinstance(option, (Class, Function))
     ]
     hidden = [f for f in machine.world.decorated if f.owner is None and f.module is module]
+    hidden += (value for value, _ in machine.world.escaped if _is_of(value, module))
     return [*found, *(f for f in hidden if '<locals>' not in f.qualname and f not in found)]
+
+
+def _is_of(value: Value, module: Module) -> TypeGuard[Function]:
+    """Whether it is a function that stands at the top level of ``module``."""
+    return isinstance(value, Function) and value.module is module and value.owner is None
 
 
 def _bases_in_use(values: list[Class | Function]) -> set[int]:
