@@ -39,7 +39,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.spec.close import close
 
     policy = policy_of(args)
-    closed_units = [close(unit, policy) for unit in load_units(args.path, stderr)]
+    closed_units = [
+        close(unit, policy) for unit in load_units(args.path, stderr, lists_builtin=args.builtin)
+    ]
     folders = unit_folders([closed.spec.name for closed in closed_units], args.output)
     for closed, folder in zip(closed_units, folders, strict=True):
         rendered = render(

@@ -96,7 +96,9 @@ class Outcome:
 
 def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
-    extraction = scan_sources(job.paths, stderr, cached=job.cached)
+    extraction = scan_sources(
+        job.paths, stderr, cached=job.cached, lists_builtin=job.policy.builtin
+    )
     units = tuple(
         assume(unit, job.assumptions)
         for unit in extraction.units

@@ -70,12 +70,13 @@ def _where(unit: Spec) -> str:
     return str(unit.executor.source or (unit.sources[0] if unit.sources else unit.entry or '?'))
 
 
-def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
+def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tuple[Spec, ...]:
     """
     Read a YAML file or a recording of the live hook, or scan anything else as source.
 
     What comes through a pipe, ``-`` or a named one, is YAML.
 
+    :param lists_builtin: of source also list what rclpy makes by itself.
     :raises InputError: when there is no unit in it.
     """
     if path == STANDARD_INPUT:
@@ -91,7 +92,7 @@ def load_units(path: Path, stderr: TextIO) -> tuple[Spec, ...]:
         from ros2cc_extract.extract.live.recording import read_recording
 
         return specs_of(read_recording(path, Path.cwd()))
-    extraction = scan_sources([path], stderr)
+    extraction = scan_sources([path], stderr, lists_builtin=lists_builtin)
     print_diagnostics(extraction.diagnostics, stderr)
     if not extraction.units:
         raise InputError('no rclpy node found', Place(str(path)), 'nothing to model')

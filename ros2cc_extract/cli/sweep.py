@@ -23,7 +23,10 @@ def run_sweeps(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         raise InputError(
             'a sweep needs a specification or source', Place(str(args.path)), 'give one number'
         )
-    sweeps = [_sweep(unit, args, stderr) for unit in load_units(args.path, stderr)]
+    sweeps = [
+        _sweep(unit, args, stderr)
+        for unit in load_units(args.path, stderr, lists_builtin=args.builtin)
+    ]
     if args.output_format == 'json':
         _print_json(sweeps, stdout)
     else:

@@ -126,7 +126,7 @@ def _units(args: argparse.Namespace, stderr: TextIO) -> Iterator[ClosedSpec]:
     from ros2cc_extract.cli.sources import load_units
     from ros2cc_extract.spec.close import close
 
-    for unit in load_units(args.path, stderr):
+    for unit in load_units(args.path, stderr, lists_builtin=args.builtin):
         yield close(unit, policy_of(args))
 
 

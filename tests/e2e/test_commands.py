@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -37,6 +38,44 @@ def test_spec_lists_what_rclpy_makes_on_request(run: Run) -> None:
     plain, full = (run('spec', CASE_1, *more).out for more in ((), ('--builtin',)))
     assert 'builtin: true' not in plain
     assert full.count('entity: parameter_service') == 6
+
+
+CALLER = """\
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.client = self.create_client(Trigger, 'plan')
+        self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        self.client.call(Trigger.Request())
+
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=4)
+executor.add_node(Arm())
+executor.spin()
+"""
+
+
+def test_a_blocked_default_group_stops_the_parameter_services_too(
+    run: Run, tmp_path: Path
+) -> None:
+    source = tmp_path / 'arm.py'
+    source.write_text(CALLER)
+    command = ['verify', str(source), '--profile', 'rclpy']
+    plain, full = (run(*command, *more).out for more in ((), ('--builtin',)))
+    starving = re.compile(r': (_\w+_parameters_callback) never starves: .*: not satisfied')
+    assert starving.findall(plain) == []
+    assert starving.findall(full) == [
+        f'_{what}_parameters_callback' for what in ('describe', 'get', 'list', 'set')
+    ]
 
 
 PARAMETERS = """\
