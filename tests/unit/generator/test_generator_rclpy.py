@@ -1,6 +1,7 @@
 """What profile rclpy says, against what the executors of rclpy 7.1.6 and 9.1.2 were seen to do."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 from generator_units import closed_unit
@@ -124,3 +125,61 @@ def test_a_class_of_the_users_own_counts_by_its_threads():
     many = model_of(closed_unit('a:SUB:g', 'g:EXCLUSIVE', 2, 'MyExecutor'))
     assert 'profile rclpy, SingleThreadedExecutor' in alone.xml
     assert 'profile rclpy, MultiThreadedExecutor' in many.xml
+
+
+KINDS = ('waitable', 'timer', 'subscription', 'guard_condition', 'client', 'service')
+
+
+@pytest.mark.parametrize(('first', 'second'), list(pairwise(KINDS)))
+def test_kinds_are_served_in_their_order_however_they_were_made(first: str, second: str):
+    """Both are found by one wait: the later one does not run while the first is left."""
+    unit = closed_unit('late:SUB:g early:SUB:g', 'g:REENTRANT', 1, SINGLE)
+    kinds = {'early': EntityKind(first), 'late': EntityKind(second)}
+    callbacks = tuple(
+        replace(c, entity=kinds[c.name], type=kinds[c.name].published_type)
+        for c in unit.spec.callbacks
+    )
+    model = model_of(replace(unit, spec=replace(unit.spec, callbacks=callbacks)))
+    assert holds(model, 'A[] not (cb_running(0) and executor.harvest[1])')
+    assert holds(model, 'E<> (cb_running(1) and executor.harvest[0])')
+
+
+def test_one_kind_is_served_in_the_order_of_creation():
+    model = model_of(closed_unit('a:SUB:g b:SUB:g', 'g:REENTRANT', 1, SINGLE))
+    assert holds(model, 'A[] not (cb_running(1) and executor.harvest[0])')
+    assert holds(model, 'E<> (cb_running(0) and executor.harvest[1])')
+
+
+def test_a_queued_entity_is_not_collected_again_and_a_running_one_is():
+    model = model_of(closed_unit('a:SUB:g', 'g:REENTRANT', 2, MULTI), max_cycle=2)
+    assert holds(model, 'A[] not (cb_queued[0] > 0 and executor.harvest[0])')
+    assert holds(model, 'E<> (cb_queued[0] > 0 and cb_running(0))')
+
+
+def test_members_of_a_closed_group_are_not_waited_for():
+    """No lap ever begins with one: what is found was found while the group was open."""
+    model = model_of(closed_unit('a:SUB:g', 'g:EXCLUSIVE', 2, MULTI), max_cycle=2)
+    assert holds(model, 'A[] not (group_closed[0] and executor.harvest[0])')
+
+
+@pytest.mark.parametrize('executor', [SINGLE, MULTI, EVENTS])
+def test_data_is_taken_by_whoever_begins_and_else_stays(executor: str):
+    """A refused start takes nothing; whoever is stuck with data left would be a dead-lock."""
+    model = model_of(closed_unit('a:SUB:g b:SUB:g', 'g:EXCLUSIVE', 2, executor))
+    assert holds(model, 'E<> (cb_running(0) and cb_waiting[0] == 0)')
+    for name in (0, 1):
+        assert holds(model, f'cb_waiting[{name}] > 0 --> cb_running({name})', Fairness.WEAK)
+
+
+@pytest.mark.parametrize('executor', [SINGLE, MULTI, EVENTS])
+def test_a_timer_that_has_missed_periods_is_due_once(executor: str):
+    unit = closed_unit('tick:TMR:g data:SUB:g', 'g:EXCLUSIVE', 1, executor)
+    model = model_of(unit, max_cycle=3)
+    assert holds(model, 'A[] cb_waiting[0] <= 1')
+    assert holds(model, 'E<> cb_waiting[1] == 3')
+
+
+def test_the_spinning_thread_runs_callbacks_one_after_the_other():
+    model = model_of(closed_unit('a:SUB:g b:SUB:h', 'g:REENTRANT h:REENTRANT', 3, SINGLE))
+    assert holds(model, 'A[] not (cb_running(0) and cb_running(1))')
+    assert 'NUM_THREAD = 1;' in model.xml
