@@ -59,7 +59,14 @@ def named(unit: Spec, function: str) -> Callback:
 
 @pytest.mark.parametrize(
     'program',
-    ['moving_nodes.py', 'own_classes.py', 'everything_hidden.py', 'forking.py', 'churning.py'],
+    [
+        'moving_nodes.py',
+        'own_classes.py',
+        'everything_hidden.py',
+        'forking.py',
+        'churning.py',
+        'again_and_again.py',
+    ],
 )
 def test_program_behaves_the_same_with_the_hook(
     program: str, start: Start, run: RunProgram
@@ -155,6 +162,14 @@ def test_entities_made_again_and_again_are_one_entry_with_a_count(run: RunProgra
     unit = run('churning.py').units['churning']
     idle = [c for c in written(unit) if c.display_name == 'idle' and c.node == 'churning']
     assert sum(c.count for c in idle if isinstance(c.count, int)) == 40
+
+
+def test_recording_is_no_longer_for_what_is_done_again_and_again(run: RunProgram) -> None:
+    recorded = run('again_and_again.py')
+    (recording,) = recorded.recordings
+    stays = {node.name: len(node.stays) for node in recording.nodes}
+    assert (len(recording.nodes), stays) == (2, {'spun': 1, 'helper': 1})
+    assert (named(recorded.units['helper'], 'count').count, len(recording.executors)) == (1, 2)
 
 
 def test_import_of_one_module_is_enough(start: Start, tmp_path: Path) -> None:

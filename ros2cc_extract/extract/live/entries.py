@@ -8,6 +8,7 @@ than without us.
 
 from __future__ import annotations
 
+import time
 import weakref
 from collections.abc import Sequence
 from typing import Any
@@ -43,7 +44,8 @@ class ExecutorRecord:
 
     def __init__(self, number: int, executor: Any, created: RawPlace | None) -> None:
         self.number = number
-        self.ref = weakref.ref(executor)
+        self.died: int | None = None
+        self.ref = weakref.ref(executor, self._end)
         self.cls = class_name(executor)
         self.bases = [base.__name__ for base in type(executor).__mro__]
         self.own_class = not type(executor).__module__.startswith('rclpy')
@@ -53,18 +55,109 @@ class ExecutorRecord:
         self.spun: str | None = None
         self.in_thread: bool | None = None
 
+    def _end(self, _: Any) -> None:
+        self.died = time.monotonic_ns()
+
+    def signature(self) -> tuple[Any, ...] | None:
+        """Equal for executors that one line of the program has made."""
+        if self.created is None:
+            return None
+        return self.cls, self.created, self.threads, self.default_threads
+
 
 class NodeRecord:
     """A node and the executors it was in, one after the other."""
 
     def __init__(self, number: int, node: Any) -> None:
         self.number = number
-        self.ref = weakref.ref(node)
+        self.died: int | None = None
+        self.ref = weakref.ref(node, self._end)
         self.cls = class_name(node)
         self.name: str | None = None
         self.namespace: str | None = None
         self.default_group: int | None = None
-        self.stays: list[dict[str, Any]] = []
+        self.stays: list[Stay] = []
+
+    def _end(self, _: Any) -> None:
+        self.died = time.monotonic_ns()
+
+    def enter(self, executor: int) -> bool:
+        """Note that the node is in an executor now; whether it has never been there before."""
+        known = next((stay for stay in self.stays if stay.executor == executor), None)
+        if known is None:
+            self.stays.append(Stay(executor))
+            return True
+        known.resume()
+        return False
+
+    def leave(self, executor: int, *, waited: bool) -> bool:
+        """Note that the node is no longer there; whether that happens for the first time."""
+        for stay in self.stays:
+            if stay.until is None and stay.executor == executor:
+                stay.until = time.monotonic_ns()
+                stay.waited = stay.waited or waited
+                return not stay.resumed
+        return False
+
+    def signature(self) -> tuple[Any, ...] | None:
+        """Equal for nodes that the program has made one after the other."""
+        if self.name is None:
+            return None
+        return self.cls, self.name, self.namespace, *sorted(each.executor for each in self.stays)
+
+    def move(self, executor: ExecutorRecord, to: int) -> None:
+        """Count the stay in one executor, which is gone, as one in another."""
+        for stay in [stay for stay in self.stays if stay.executor == executor.number]:
+            stay.until = stay.span(executor.died)[1]
+            known = next((each for each in self.stays if each.executor == to), None)
+            if known is None:
+                stay.executor = to
+            else:
+                self.stays.remove(stay)
+                known.extend(stay, executor.died)
+
+    def swallow(self, other: NodeRecord) -> None:
+        """Go on as another node, after both are gone; they were in the same executors."""
+        for stay in self.stays:
+            for more in other.stays:
+                if more.executor == stay.executor:
+                    stay.until = stay.span(self.died)[1]
+                    stay.extend(more, other.died)
+        self.died = other.died
+
+
+class Stay:
+    """
+    A node's time in one executor, however often it has come and gone.
+
+    :param since: moved on while the node was away, so that the stay is as long as all together.
+    """
+
+    def __init__(self, executor: int) -> None:
+        self.executor = executor
+        self.since = self.first = time.monotonic_ns()
+        self.until: int | None = None
+        self.waited = False
+        self.resumed = False
+
+    def resume(self) -> None:
+        if self.until is not None:
+            self.since += time.monotonic_ns() - self.until
+            self.until, self.resumed = None, True
+
+    def span(self, died: int | None) -> tuple[int, int]:
+        """Give the first begin and the last end; one that goes on ends with what has died."""
+        until = self.until if self.until is not None else died
+        return self.first, time.monotonic_ns() if until is None else until
+
+    def extend(self, later: Stay, died: int | None) -> None:
+        """Add a stay that began after this one, which has ended."""
+        begin, end = self.span(None)
+        more = later.span(died)[1]
+        length = end - self.since + more - later.since
+        self.first, self.until = min(begin, later.first), max(end, more)
+        self.since = self.until - length
+        self.waited = self.waited or later.waited
 
 
 class GroupRecord:

@@ -39,7 +39,7 @@ class Hook:
     """The recorder of this process, its writer, and what is wrapped."""
 
     def __init__(self, directory: str, *, traced: bool = False) -> None:
-        self.recorder = Recorder()
+        self.recorder = Recorder(traced=traced)
         self.writer = Writer(self.recorder, lambda: _file_of_process(directory), traced=traced)
         self._traced = traced
         self._wrapped: list[tuple[type, str, Any]] = []

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import itertools
 import threading
-import time
 from collections import deque
 from collections.abc import Iterator
 from typing import Any
@@ -30,6 +29,7 @@ from .entries import (
     thread_count,
 )
 from .events import BEGIN, END, unpack
+from .folding import fold_entities, fold_executors, fold_nodes
 from .frames import Creation, RawPlace, is_node, name_function
 from .timings import Timings
 
@@ -43,8 +43,8 @@ ENTITY_LISTS = ('timers', 'subscriptions', 'guards', 'clients', 'services', 'wai
 class Recorder:
     """All that was seen in this process."""
 
-    def __init__(self) -> None:
-        self.lock = threading.RLock()
+    def __init__(self, *, traced: bool = False) -> None:
+        self.traced = traced
         self.events: deque[bytes] = deque(maxlen=EVENTS_KEPT)
         self.entities: dict[int, EntityRecord] = {}
         self.losses: deque[str] = deque(maxlen=5)
@@ -99,31 +99,25 @@ class Recorder:
         with self.lock:
             node = self._node_behind(node)
             home, record = self.note_executor(executor), self.note_node(node)
-            if any(
-                stay['until'] is None and stay['executor'] == home.number for stay in record.stays
-            ):
-                return
-            for group in self._groups_of(node):
-                self.note_group(group)
-            record.stays.append(
-                {
-                    'executor': home.number,
-                    'since': time.monotonic_ns(),
-                    'until': None,
-                    'waited': False,
-                }
-            )
-            self.changes += 1
+            if home.threads is None:
+                # Its constructor has ended; it may be gone before anybody looks again.
+                home.threads = thread_count(executor)
+            if record.enter(home.number):
+                for group in self._groups_of(node):
+                    self.note_group(group)
+                self.changes += 1
+            else:
+                # ``rclpy.spin_once`` adds and removes its node every time.
+                self.measured += 1
 
     def note_removed(self, executor: Any, node: Any) -> None:
         with self.lock:
             home = self.note_executor(executor)
             record = self.note_node(self._node_behind(node))
-            for stay in record.stays:
-                if stay['until'] is None and stay['executor'] == home.number:
-                    stay['until'] = time.monotonic_ns()
-                    stay['waited'] = has_waited(executor)
-                    self.changes += 1
+            if record.leave(home.number, waited=has_waited(executor)):
+                self.changes += 1
+            else:
+                self.measured += 1
 
     def note_node(self, node: Any) -> NodeRecord:
         with self.lock:
@@ -214,18 +208,20 @@ class Recorder:
 
     def _fold(self) -> None:
         """Let memory depend on what the program's text makes, not on how often it makes it."""
-        folded: dict[tuple[Any, ...], EntityRecord] = {}
-        kept = []
-        for entity in self.all_entities:
-            first = folded.setdefault(entity.signature(), entity)
-            if first is not entity and first.gone and entity.gone:
-                first.made += 1
-                del self._timings[entity.number]
-            else:
-                kept.append(entity)
-        self.all_entities = kept
-        used = {entity.group for entity in kept}
+        before = self.all_entities
+        self.all_entities = fold_entities(before)
+        # The events of a trace name executors and nodes by their numbers.
+        if not self.traced:
+            self.all_executors = fold_executors(self.all_executors, self.all_nodes, self.tasks)
+            self.all_nodes, self.all_entities = fold_nodes(
+                self.all_nodes, self.all_groups, self.all_entities, self.tasks
+            )
+        used = {entity.group for entity in self.all_entities}
         self.all_groups = [g for g in self.all_groups if g.number in used or g.ref() is not None]
+        kept = {entity.number for entity in self.all_entities}
+        for entity in before:
+            if entity.number not in kept:
+                self._timings.pop(entity.number, None)
         for known in (self.entities, self.groups, self.nodes, self.executors):
             for key in [key for key, record in known.items() if record.ref() is None]:
                 del known[key]
@@ -258,7 +254,7 @@ class Recorder:
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)
         record.node = owner.number
-        record.late = record.late or any(stay['waited'] for stay in owner.stays)
+        record.late = record.late or any(stay.waited for stay in owner.stays)
         self._claim(group, node, owner)
 
     def _claim(self, group: Any, node: Any, owner: NodeRecord) -> None:
@@ -313,5 +309,5 @@ class Recorder:
         waited = has_waited(executor)
         for node in self.all_nodes:
             for stay in node.stays:
-                if stay['until'] is None and stay['executor'] == record.number:
-                    stay['waited'] = stay['waited'] or waited
+                if stay.until is None and stay.executor == record.number:
+                    stay.waited = stay.waited or waited

@@ -111,7 +111,15 @@ def _node(record: NodeRecord) -> dict[str, Any]:
         'name': record.name,
         'namespace': record.namespace,
         'class': record.cls,
-        'stays': record.stays,
+        'stays': [
+            {
+                'executor': stay.executor,
+                'since': stay.since,
+                'until': stay.until,
+                'waited': stay.waited,
+            }
+            for stay in record.stays
+        ],
     }
 
 

@@ -34,6 +34,13 @@ class Distribution:
         self.count += 1
         self.last.append(value)
 
+    def take_over(self, later: Distribution) -> None:
+        """Go on with the values of another."""
+        self.smallest = min(self.smallest, later.smallest)
+        self.largest = max(self.largest, later.largest)
+        self.count += later.count
+        self.last.extend(later.last)
+
     def describe(self) -> dict[str, float] | None:
         """Seconds; ``None`` before the first value."""
         if not self.count:
@@ -78,6 +85,16 @@ class Timings:
         while index and begun[index][1] != thread:
             index -= 1
         self.durations.add(clock_ns - begun.pop(index)[0])
+
+    def take_over(self, later: Timings) -> None:
+        """Go on as what was made again; the time between the two is no period."""
+        self.runs += later.runs
+        self.refused += later.refused
+        self.periods.take_over(later.periods)
+        self.durations.take_over(later.durations)
+        self.threads |= later.threads
+        self._begun += later._begun
+        self._last_begin = later._last_begin or self._last_begin
 
     def describe(self) -> dict[str, Any]:
         return {
