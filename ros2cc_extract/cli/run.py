@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -52,10 +52,12 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
     from ros2cc_extract.merge import diff
 
     units = load_units(source, stderr)
+    named = {name for unit in units for name in unit.nodes}
 
     def compare(live: tuple[Spec, ...]) -> int:
         scanned = [unit for unit in live if _is_of(unit, source, units)]
-        status = report(diff(units, _distinct(scanned)), (str(source), 'live'), 'text', stdout)
+        found = diff(_distinct(units, named), _distinct(scanned, named))
+        status = report(found, (str(source), 'live'), 'text', stdout)
         for unit in live:
             if unit not in scanned:
                 made = unit.executor.source
@@ -78,12 +80,23 @@ def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
     return is_within or bool(match_units(scanned, [unit])[0])
 
 
-def _distinct(live: Sequence[Spec]) -> list[Spec]:
-    """Leave out units that another process holds just alike."""
+def _distinct(units: Sequence[Spec], named: Set[str]) -> list[Spec]:
+    """
+    Leave out units that another process, or a lap of the program, holds just alike.
+
+    :param named: nodes that the source names; any other may be one of these under a new name.
+    """
     from ros2cc_extract.merge import diff
 
+    def is_renamed(unit: Spec) -> bool:
+        return named.isdisjoint(unit.nodes)
+
+    def are_alike(one: Spec, other: Spec) -> bool:
+        may_be_one = is_renamed(other) or set(one.nodes) == set(other.nodes)
+        return may_be_one and all(found.marked for found in diff([one], [other]))
+
     kept: list[Spec] = []
-    for unit in live:
-        if all(any(not found.marked for found in diff([each], [unit])) for each in kept):
+    for unit in sorted(units, key=is_renamed):
+        if not any(are_alike(each, unit) for each in kept):
             kept.append(unit)
     return kept

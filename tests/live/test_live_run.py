@@ -166,6 +166,22 @@ def test_units_of_files_that_were_not_scanned_are_no_difference(
     ]
 
 
+def test_class_under_several_names_is_several_units_and_laps_are_one(
+    ros_env: dict[str, str],
+    tmp_path: Path,
+    rclpy_python: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name, value in ros_env.items():
+        monkeypatch.setenv(name, value)
+    said, program = io.StringIO(), str(PROGRAMS / 'one_class.py')
+    output = tmp_path / 'live.yaml'
+    checked = ['run', '-o', str(output), '--check', program, '--', rclpy_python, program]
+    assert main(checked, said, said) == 0, said.getvalue()
+    assert 'no difference' in said.getvalue()
+    assert {unit.name for unit in load_specs(output)} == {'lap', 'left', 'right'}
+
+
 def test_directory_without_recordings_is_told(tmp_path: Path) -> None:
     stderr = io.StringIO()
     assert collect_directory(tmp_path, tmp_path / 'live.yaml', stderr) == 2
