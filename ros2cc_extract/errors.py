@@ -7,6 +7,9 @@ user's program is a diagnostic (``diagnostics.py``), not an exception.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 from ros2cc_extract.places import Place
 
 
@@ -29,6 +32,11 @@ class Ros2ccError(Exception):
         where = f'{self.place}: ' if self.place else ''
         mend = f'; {self.mend}' if self.mend else ''
         return f'{where}{self.what}{mend}'
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Ask for the known name that is nearest to a wrong one; empty where none is near."""
+    return ''.join(f'did you mean {close!r}?' for close in get_close_matches(name, known, n=1))
 
 
 class InputError(Ros2ccError):

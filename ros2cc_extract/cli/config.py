@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ros2cc_extract.errors import InputError
+from ros2cc_extract.cli.main import PROGRAM
+from ros2cc_extract.errors import InputError, did_you_mean
+from ros2cc_extract.findings.registry import BY_CODE
 from ros2cc_extract.findings.requirements import Requirement, read_requirements
 from ros2cc_extract.findings.selection import Selection
 from ros2cc_extract.places import Place
@@ -103,7 +105,7 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
             raise InputError(
                 f'unknown key {key!r} in [tool.{TABLE}]',
                 Place(str(path)),
-                f'known keys: {", ".join(KEYS)}',
+                did_you_mean(key, KEYS) or f'known keys: {", ".join(KEYS)}',
             )
     baseline = table.get('baseline')
     if baseline is not None and not isinstance(baseline, str):
@@ -114,7 +116,7 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
     return Config(
         root=path.parent,
         selection=Selection(
-            ignore=_texts(table.get('ignore', []), path, 'ignore'),
+            ignore=_rules(table.get('ignore', []), path, 'ignore'),
             per_path=_per_path(table.get('per_path', {}), path),
         ),
         requirements=read_requirements(table, Place(str(path))),
@@ -128,8 +130,21 @@ def _per_path(value: object, path: Path) -> tuple[tuple[str, tuple[str, ...]], .
     if not isinstance(value, dict):
         raise _malformed(path, 'per_path', 'a table of patterns')
     return tuple(
-        (pattern, _texts(codes, path, f'per_path."{pattern}"')) for pattern, codes in value.items()
+        (pattern, _rules(codes, path, f'per_path."{pattern}"')) for pattern, codes in value.items()
     )
+
+
+def _rules(value: object, path: Path, key: str) -> tuple[str, ...]:
+    """Codes of rules, or beginnings of such: another word would switch off nothing."""
+    codes = _texts(value, path, key)
+    wrong = [code for code in codes if not any(known.startswith(code) for known in BY_CODE)]
+    if wrong:
+        raise InputError(
+            f'{wrong[0]!r} in {key} of [tool.{TABLE}] is no rule',
+            Place(str(path)),
+            did_you_mean(wrong[0], BY_CODE) or f'`{PROGRAM} explain` lists them',
+        )
+    return codes
 
 
 def _texts(value: object, path: Path, key: str) -> tuple[str, ...]:

@@ -16,7 +16,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol, TextIO, cast
 
-from ros2cc_extract.errors import Ros2ccError
+from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
+from ros2cc_extract.places import Place
 from ros2cc_extract.version import __version__
 
 PROGRAM = 'ros2cc-extract'
@@ -89,6 +90,8 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM} {__version__}', file=stdout)
         return EXIT_CLEAN
     name = argv.pop(0) if argv[0] in COMMANDS else DEFAULT_COMMAND
+    if name == DEFAULT_COMMAND and argv:
+        _ask_for_the_command(argv[0])
     command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.{name}'))
     parser = argparse.ArgumentParser(
         prog=f'{PROGRAM} {name}',
@@ -103,6 +106,17 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     status = command.run(args, stdout, stderr)
     stdout.flush()
     return status
+
+
+def _ask_for_the_command(word: str) -> None:
+    """
+    Speak up where the first word is neither a path nor an option, but nearly a command.
+
+    :raises InputError: then.
+    """
+    mend = did_you_mean(word, COMMANDS)
+    if mend and not Path(word).exists():
+        raise InputError('no such file or directory, and no command', Place(word), mend)
 
 
 def _overview() -> str:

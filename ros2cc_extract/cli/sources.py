@@ -16,6 +16,8 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
+FOREIGN_SUFFIXES = ('.c', '.cc', '.cpp', '.h', '.hpp', '.json', '.md', '.txt', '.toml', '.xml')
+"""Of files that nobody means as Python, though one of plain words would parse."""
 STANDARD_INPUT = Path('-')
 RECORDING_SUFFIX = '.json'
 NOT_FOLLOWED = 'not-followed'
@@ -37,6 +39,8 @@ def scan_sources(
     from ros2cc_extract.cachefile import default_cache_folder
     from ros2cc_extract.extract.static.api import scan
 
+    for path in paths:
+        _refuse_foreign(path)
     with bar(stderr, 'reading') as meter:
         folder = default_cache_folder() if cached else None
         extraction = scan(paths, progress=meter.step, cache=folder, lists_builtin=lists_builtin)
@@ -49,6 +53,22 @@ def scan_sources(
         units=tuple(unit for unit in extraction.units if unit.callbacks),
         diagnostics=(*extraction.diagnostics, *(d for unit in left_out for d in _missing(unit))),
     )
+
+
+def _refuse_foreign(path: Path) -> None:
+    """
+    Ask again about a file that its name says to be no Python; scripts need not end in ``.py``.
+
+    :raises InputError: then.
+    """
+    suffix = path.suffix.lower()
+    if path.is_dir() or not path.exists() or suffix not in (*SPEC_SUFFIXES, *FOREIGN_SUFFIXES):
+        return
+    if suffix in SPEC_SUFFIXES:
+        raise InputError(
+            'is a specification, and no Python', Place(str(path)), f'`verify {path}` reads it'
+        )
+    raise InputError('is no Python file by its name', Place(str(path)), 'name a node or a folder')
 
 
 def _missing(unit: Spec) -> list[Diagnostic]:

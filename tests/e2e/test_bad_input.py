@@ -57,6 +57,38 @@ def test_file_that_does_not_parse(
     assert_refused(run('spec', name), place)
 
 
+@pytest.mark.parametrize(
+    ('name', 'told'),
+    [
+        ('notes.txt', 'notes.txt: is no Python file by its name; name a node or a folder'),
+        ('node.CPP', 'node.CPP: is no Python file by its name; name a node or a folder'),
+        ('arm.yaml', 'arm.yaml: is a specification, and no Python; `verify arm.yaml` reads it'),
+    ],
+)
+def test_a_file_that_is_no_python_by_its_name(
+    run: Run, tmp_path: Path, name: str, told: str
+) -> None:
+    """Plain words would parse, and nothing be found in them."""
+    (tmp_path / name).write_text('hello\n')
+    outcome = run('check', name)
+    assert_refused(outcome, told)
+    assert (outcome.out, len(outcome.err.splitlines())) == ('', 1)
+
+
+def test_a_script_need_not_end_in_py(run: Run, tmp_path: Path) -> None:
+    (tmp_path / 'talker').write_text('import rclpy\n')
+    assert run('check', 'talker').status == 0
+
+
+@pytest.mark.parametrize('word', ['chek', 'verfy'])
+def test_a_command_that_is_misspelt(run: Run, word: str) -> None:
+    outcome = run(word, 'node.py')
+    meant = {'chek': 'check', 'verfy': 'verify'}[word]
+    assert_refused(
+        outcome, f'{word}: no such file or directory, and no command; did you mean {meant!r}?'
+    )
+
+
 def test_one_broken_file_does_not_hide_the_others(run: Run, tmp_path: Path) -> None:
     (tmp_path / 'broken.py').write_text('import rclpy\ndef f(:\n')
     (tmp_path / 'node.py').write_text(NODE.read_text())

@@ -103,7 +103,11 @@ def test_a_demand_about_nobody_is_a_finding(run: Run, folder: Path) -> None:
 @pytest.mark.parametrize(
     ('line', 'told'),
     [
-        ('never_togehter = []', "unknown key 'never_togehter' in [tool.ros2cc]; known keys: "),
+        ('color = []', "unknown key 'color' in [tool.ros2cc]; known keys: never_together, "),
+        ('never_togehter = []', "in [tool.ros2cc]; did you mean 'never_together'?"),
+        ('ignore = ["CC1O1"]', "'CC1O1' in ignore of [tool.ros2cc] is no rule; did you mean 'CC1"),
+        ('ignore = ["all"]', 'is no rule; `ros2cc-extract explain` lists them'),
+        ('per_path = {"a*" = ["CC9"]}', '\'CC9\' in per_path."a*" of [tool.ros2cc] is no rule'),
         ('ignore = "CC101"', 'ignore of [tool.ros2cc] must be a list of texts'),
         ('timeout = -1', 'timeout of [tool.ros2cc] must be a number of seconds'),
         ('baseline = 3', 'baseline of [tool.ros2cc] must be a path'),
