@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.overlap import overlaps_itself
-from ros2cc_extract.findings.races import Use, keep_apart
+from ros2cc_extract.findings.races import RaceKind, Use, keep_apart, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Access, Callback, EntityKind
 
 _TWICE = {
@@ -20,13 +21,29 @@ _TWICE = {
 
 
 def find(context: Context) -> Iterator[Hit]:
+    """Only where no other callback loses the same update: one lock mends both."""
+    losing = list(_losing(context))
+    told = set(_told_of_others(context)) if losing else set()
+    for use in losing:
+        if (use.access.name, use.place) not in told:
+            yield _hit(use, context)
+
+
+def _losing(context: Context) -> Iterator[Use]:
+    """The first update of each attribute that two runs of one callback may lose."""
     for callback in context.written:
         if not overlaps_itself(callback, context):
             continue
         for name in dict.fromkeys(access.name for access in callback.writes):
             unlocked = [a for a in callback.writes if a.name == name and _can_lose(a)]
             if unlocked:
-                yield _hit(Use(callback, unlocked[0]), context)
+                yield Use(callback, unlocked[0])
+
+
+def _told_of_others(context: Context) -> Iterator[tuple[str, Place]]:
+    for race in races_of(context):
+        if race.kind is RaceKind.LOST_UPDATE:
+            yield from ((name, race.first.place) for name in race.names)
 
 
 def _hit(use: Use, context: Context) -> Hit:
@@ -64,7 +81,8 @@ RULE = Rule(
     title='Callback that may overlap itself updates an attribute',
     what='A callback of a reentrant group, or one outside every group, reads an attribute and '
     'writes it back without a lock. Two runs of the same callback may coincide. For a timer '
-    'that never waits it is only a note.',
+    'that never waits it is only a note. Where another callback may lose the same update, CC301 '
+    'or CC303 stands for both.',
     why='An entity may be collected again as soon as its data was taken; a reentrant group '
     'refuses nothing, so that one subscription runs on several threads at once. Source: rclpy '
     '7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '

@@ -306,6 +306,15 @@ def test_one_function_of_several_entities_is_named_once() -> None:
     assert [remark.text for remark in finding.related] == ['on_done writes Arm.a here']
 
 
+def test_an_update_that_others_lose_too_is_one_finding() -> None:
+    count = updates('Arm.n', 30)
+    image, scan = (subscription(name, 'free', writes=count) for name in ('image', 'scan'))
+    assert races(unit(threads(2), image, scan)) == ['CC301:30 warning']
+    reset = timer('reset', writes=writes('Arm.n', 40))
+    assert races(unit(threads(2), image, reset)) == ['CC301:30 warning']
+    assert races(unit(threads(2), image)) == ['CC304:30 warning']
+
+
 def test_work_outside_every_group_overlaps_the_exclusive_group_too() -> None:
     done = outside('on_done', EntityKind.DONE_CALLBACK, writes=updates('Arm.pending', 40))
     tick = timer('tick', writes=updates('Arm.pending', 30))
