@@ -159,6 +159,7 @@ class _ProcessAnalysis:
         self._usage = usage
         self._network = usage.network
         self._process = usage.network.processes[number]
+        self._leaving = self._process.leaving()
         self._candidates = usage.candidates(number)
         self._controls = self._choose_controls()
         # By identity, with the expression, so that no other one can take its place.
@@ -233,9 +234,8 @@ class _ProcessAnalysis:
                 yield node[0], (*node[1][:i], initial, *node[1][i + 1 :])
 
     def _steps(self, node: Node) -> Iterator[_Step]:
-        for edge in self._process.edges:
-            if edge.source == node[0]:
-                yield self._step(node, edge)
+        for _, edge in self._leaving[node[0]]:
+            yield self._step(node, edge)
 
     def _step(self, node: Node, edge: Edge) -> _Step:
         values = self._node_values(node)

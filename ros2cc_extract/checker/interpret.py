@@ -50,9 +50,9 @@ def site_error(site: Site, value: int) -> ModelFormatError:
 def endless_error(function: Function) -> ModelFormatError:
     """Return the error of a function that does not end."""
     return ModelFormatError(
-        f'{function.name} runs through more than {MAX_LOOP_STEPS} loop passes',
+        f'{function.name} runs through more than {MAX_LOOP_STEPS} loop passes and calls',
         function.place,
-        'make sure that its loops end',
+        'make sure that it ends',
     )
 
 
@@ -167,6 +167,8 @@ class Interpreter:
             self._passes = 0
         self._frames.append(_Frame(function, slots + [0] * (function.frame - len(slots))))
         try:
+            if len(self._frames) > 1:
+                self._count(1)
             returned = self._run(function.body, memory)
         finally:
             self._frames.pop()

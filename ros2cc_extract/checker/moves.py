@@ -75,13 +75,7 @@ class Moving:
         self.labels: list[Edges] = []
         self._label_of: dict[Edges, int] = {}
         self._compiled: dict[object, Any] = {}
-        self._outgoing = [
-            [
-                [(number, edge) for number, edge in enumerate(process.edges) if edge.source == at]
-                for at in range(len(process.locations))
-            ]
-            for process in network.processes
-        ]
+        self._outgoing = [process.leaving() for process in network.processes]
         lines = [line for i in range(len(network.functions)) for line in self._writer.function(i)]
         self._run('\n'.join(lines))
 

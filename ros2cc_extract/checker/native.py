@@ -143,7 +143,7 @@ class _Question:
                 lassos=self._lassos,
                 is_fair=self._fairness is Fairness.WEAK,
                 runs_chains=self._runs_chains,
-                max_states=MAX_STATES if max_states is None else max_states,
+                max_states=MAX_STATES if max_states is None else min(max_states, MAX_STATES),
                 jobs=(min(self._jobs, MOST_JOBS), JOBS_PAY_FROM),
                 watch=watching,
             )

@@ -14,7 +14,8 @@ from enum import Enum
 from ros2cc_extract.places import Place
 
 INT32 = (-(2**31), 2**31 - 1)
-#: Loop passes in one call of a function from an edge or query, after which it counts as endless.
+#: Loop passes, and calls inside it, in one call of a function from an edge or query, after which
+#: it counts as endless.
 MAX_LOOP_STEPS = 1_000_000
 
 
@@ -312,6 +313,13 @@ class Process:
     locations: tuple[Location, ...]
     initial: int
     edges: tuple[Edge, ...]
+
+    def leaving(self) -> list[list[tuple[int, Edge]]]:
+        """Return the edges that leave each location, with their numbers."""
+        leaving: list[list[tuple[int, Edge]]] = [[] for _ in self.locations]
+        for number, edge in enumerate(self.edges):
+            leaving[edge.source].append((number, edge))
+        return leaving
 
 
 @dataclass(frozen=True)

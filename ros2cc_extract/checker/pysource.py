@@ -37,7 +37,13 @@ from ros2cc_extract.checker.network import (
     Unary,
     Var,
 )
-from ros2cc_extract.checker.walks import function_expressions, has_effect, has_loops, walk
+from ros2cc_extract.checker.walks import (
+    calls_of,
+    function_expressions,
+    has_effect,
+    has_passes,
+    walk,
+)
 
 _SIMPLE = {
     Op.ADD: '+', Op.SUB: '-', Op.MUL: '*', Op.SHL: '<<', Op.SHR: '>>', Op.BIT_AND: '&',
@@ -59,6 +65,7 @@ class SourceWriter:
     def __init__(self, network: Network, layout: Layout) -> None:
         self._network = network
         self._layout = layout
+        self._called = {called for f in network.functions for called in calls_of(f)}
         self._frame_is_list = False
         self._is_inside = False
         self._writes = False
@@ -200,15 +207,18 @@ class SourceWriter:
         )
         self._is_inside, self._writes = True, function.writes
         lines = [f'def _f{number}(s{_parameters(function)}):', *self._frame(function)]
+        is_called = number in self._called
+        lines += self._count(1, INDENT, number) if is_called else []
         lines += self._statements(function.body, INDENT, number)
         lines.append(f'{INDENT}return {"s, 0" if function.writes else 0}')
         self._frame_is_list = self._is_inside = False
-        if not has_loops(function, self._network.functions):
+        if not is_called and not has_passes(function):
             return [*lines, f'_o{number} = _f{number}']
         return [
             *lines,
             f'def _o{number}(*arguments):',
-            f'{INDENT}_passes[0] = {MAX_LOOP_STEPS}',
+            # The outermost call counts itself, but is none inside another.
+            f'{INDENT}_passes[0] = {MAX_LOOP_STEPS + is_called}',
             f'{INDENT}return _f{number}(*arguments)',
         ]
 

@@ -45,13 +45,7 @@ class Semantics:
     def __init__(self, network: Network) -> None:
         self._network = network
         self._interpreter = Interpreter(network)
-        self._leaving = [
-            [
-                [(number, edge) for number, edge in enumerate(process.edges) if edge.source == at]
-                for at in range(len(process.locations))
-            ]
-            for process in network.processes
-        ]
+        self._leaving = [process.leaving() for process in network.processes]
 
     def initial(self) -> State:
         """Return the initial state."""

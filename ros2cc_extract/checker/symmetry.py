@@ -33,7 +33,9 @@ from ros2cc_extract.checker.network import (
 )
 from ros2cc_extract.checker.walks import function_expressions, walk
 
-#: Nodes of predicates, times exchanges, from which on the proof would take longer than a search.
+#: What it costs to compare an edge with what an exchange makes of it, in nodes.
+_NODES_OF_EDGE = 10
+#: Nodes of predicates and edges, times exchanges: from here on a proof takes longer than a search.
 _MAX_WORK = 2_000_000
 _ELEMENT = re.compile(r'(?P<array>[^\[]+)\[(?P<index>\d+)\]')
 
@@ -69,6 +71,7 @@ def families(network: Network, predicates: Sequence[Expr]) -> tuple[Family, ...]
     taken: set[int] = set()
     finder = _Finder(network, predicates)
     size = sum(len(walk(predicate)) for predicate in predicates)
+    size += _NODES_OF_EDGE * sum(len(process.edges) for process in network.processes)
     for members in by_template.values():
         if size * (len(members) - 1) > _MAX_WORK:
             continue

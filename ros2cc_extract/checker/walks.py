@@ -88,16 +88,20 @@ def _statements(body: Sequence[Stmt]) -> Iterator[Stmt]:
             yield from _statements(node.body)
 
 
-def has_loops(function: Function, functions: Sequence[Function]) -> bool:
-    """Whether a call may run through a loop, here or in what it calls."""
-    if any(isinstance(node, (While, ForRange)) for node in _statements(function.body)):
-        return True
-    return any(
-        has_loops(functions[node.function], functions)
+def calls_of(function: Function) -> set[int]:
+    """Return the numbers of the functions that a function calls itself."""
+    return {
+        node.function
         for expr in function_expressions(function.body)
         for node in walk(expr)
         if isinstance(node, Call)
-    )
+    }
+
+
+def has_passes(function: Function) -> bool:
+    """Whether a call may run through a loop, or call another function."""
+    is_loop = (isinstance(node, (While, ForRange)) for node in _statements(function.body))
+    return any(is_loop) or bool(calls_of(function))
 
 
 def mentions_deadlock(expr: Expr) -> bool:

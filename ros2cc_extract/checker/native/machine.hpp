@@ -206,6 +206,7 @@ class Machine {
     for (int32_t i = 0; i < node.c; ++i) fresh[i] = evaluate(arguments[i]);
     if (depth_ == 0) passes_ = 0;
     Nested nested(*this, node.a, fresh);
+    if (depth_ > 1) count(1);
     if (!model_.picks.empty() && model_.picks[node.a].family >= 0) {
       return pick(model_.picks[node.a]);
     }

@@ -8,6 +8,7 @@ has fixed select values.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -40,7 +41,7 @@ from ros2cc_extract.checker.walks import has_effect, walk
 from ros2cc_extract.errors import ModelFormatError
 from ros2cc_extract.places import Place
 
-MAX_EDGES = 1_000_000
+MAX_EDGES = 250_000
 
 
 @dataclass(eq=False)
@@ -219,9 +220,7 @@ class _ModelBuilder:
             if isinstance(guard, Const) and not guard.low:
                 continue
             self._edge_count += 1
-            if self._edge_count > MAX_EDGES:
-                what = f'selects and instances make more than {MAX_EDGES} edges'
-                raise ModelFormatError(what, place, 'narrow the types of the selects')
+            _refuse_too_many(self._edge_count, place)
             updates = [e for node in labels.updates for e in self._expressions.update(node, scope)]
             yield Edge(
                 source=indices[raw.source],
@@ -243,6 +242,10 @@ class _ModelBuilder:
         self, selects: tuple[syntax.Select, ...], outer: Scope
     ) -> Iterator[tuple[tuple[tuple[str, int], ...], Scope]]:
         types = [self._expressions.types.integer(select.type, outer) for select in selects]
+        if selects:
+            # Told before the guards of them all were looked at.
+            count = math.prod(declared.high - declared.low + 1 for declared in types)
+            _refuse_too_many(count, outer.place(selects[0].line))
         for values in itertools.product(*(range(t.low, t.high + 1) for t in types)):
             scope = outer.inner()
             for select, declared, value in zip(selects, types, values, strict=True):
@@ -267,6 +270,12 @@ class _ModelBuilder:
             base = reference.base + reference.offset.low
             return Sync(labels.direction, base, 1, const(0))
         return Sync(labels.direction, reference.base, reference.length, reference.offset)
+
+
+def _refuse_too_many(edges: int, place: Place) -> None:
+    if edges > MAX_EDGES:
+        what = f'selects and instances make more than {MAX_EDGES} edges'
+        raise ModelFormatError(what, place, 'narrow the types of the selects')
 
 
 class _EdgeLabels:

@@ -57,6 +57,8 @@ if TYPE_CHECKING:
     from ros2cc_extract.checker.uppaal.functions import FunctionCompiler
 
 MAX_QUANTIFIED = 4096
+#: Terms that the quantifiers of one expression may unfold into, those inside others included.
+MAX_TERMS = 200_000
 _MEND_SIZE = 'name an array that has as many elements'
 _MEND_NAME = 'name a variable'
 
@@ -73,6 +75,7 @@ class Expressions:
     def __init__(self, tables: Tables) -> None:
         self.tables = tables
         self.types = TypeReader(self.constant)
+        self._terms, self._quantifiers = 0, 0
         self._handlers: dict[type, Callable[[Any, Scope], Expr]] = {
             syntax.Name: self._value_of,
             syntax.Index: self._value_of,
@@ -244,11 +247,7 @@ class Expressions:
                 scope.place(node.line),
                 'narrow the type',
             )
-        terms = []
-        for value in range(over.low, over.high + 1):
-            inner = scope.inner()
-            inner.names[node.variable] = ValueSymbol(over, const(value))
-            terms.append(self.value(node.body, inner))
+        terms = self._unfolded(node, over, scope)
         if node.kind == 'sum':
             total: Expr = const(0)
             for term in terms:
@@ -256,6 +255,22 @@ class Expressions:
             return total
         op = Op.AND if node.kind == 'forall' else Op.OR
         return folded(op, [truth(term) for term in terms], const(int(op is Op.AND)))
+
+    def _unfolded(self, node: syntax.Quantifier, over: IntType, scope: Scope) -> list[Expr]:
+        self._terms = (self._terms if self._quantifiers else 0) + over.high - over.low + 1
+        if self._terms > MAX_TERMS:
+            what = f'quantifiers inside quantifiers unfold into more than {MAX_TERMS} terms'
+            raise ModelFormatError(what, scope.place(node.line), 'narrow their types')
+        terms = []
+        self._quantifiers += 1
+        try:
+            for value in range(over.low, over.high + 1):
+                inner = scope.inner()
+                inner.names[node.variable] = ValueSymbol(over, const(value))
+                terms.append(self.value(node.body, inner))
+        finally:
+            self._quantifiers -= 1
+        return terms
 
     # -- assignments ---------------------------------------------------------------------
     def _assign(self, node: syntax.Assign, scope: Scope) -> Expr:

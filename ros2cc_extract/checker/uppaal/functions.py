@@ -48,6 +48,8 @@ from ros2cc_extract.checker.walks import function_expressions, has_effect, walk
 from ros2cc_extract.errors import ModelFormatError
 
 _MAX_FRAME = 65536
+#: Nodes of an expression that may stand in place of a call; calls inside calls can double them.
+_MAX_INLINED = 2_000
 
 
 @dataclass(eq=False)
@@ -80,6 +82,7 @@ class FunctionCompiler:
         self._known: dict[tuple[object, ...], tuple[int, IntType | None]] = {}
         self._constant_calls: dict[tuple[object, ...], Expr] = {}
         self._open: list[FunctionSymbol] = []
+        self._too_large: set[FunctionSymbol] = set()
 
     def call(self, node: syntax.Call, scope: Scope) -> Expr:
         """Elaborate a call."""
@@ -155,11 +158,17 @@ class FunctionCompiler:
             return None
         if not all(is_atomic(value) for _, value in arguments.values.values()):
             return None
+        if symbol in self._too_large:
+            return None
         scope = self._bound_scope(symbol, arguments)
         for declaration in body.declarations:
             if not self._bind_locals(declaration, scope):
                 return None
-        return self._as_expression(body.statements, scope, returns, symbol.function.name)
+        found = self._as_expression(body.statements, scope, returns, symbol.function.name)
+        if found is not None and len(walk(found)) > _MAX_INLINED:
+            self._too_large.add(symbol)
+            return None
+        return found
 
     def _bind_locals(self, declaration: syntax.Variables | syntax.Typedef, scope: Scope) -> bool:
         """Let local names stand for their initial values; false where that would not do."""

@@ -163,6 +163,11 @@ def test_wrong_system(system: str, expected: str) -> None:
         ({'assignment': 'i = 1', 'select': 'i : int[0,1]'}, 'i is constant and cannot'),
         ({'assignment': 'a = b'}, 'a needs an array of the same size'),
         ({'select': 'i : chan'}, 'chan is no integer type'),
+        ({'select': 'i : int[0, 250000]'}, 'selects and instances make more than 250000 edges'),
+        (
+            {'guard': 'forall (i : int[0, 999]) exists (j : int[0, 999]) i + j > x'},
+            'quantifiers inside quantifiers unfold into more than 200000 terms',
+        ),
         ({'probability': '3'}, "an edge label of kind 'probability' is outside"),
     ],
 )
@@ -268,6 +273,7 @@ def test_queries_of_the_model_keep_comment_and_line() -> None:
         ('y = 2000, y = y * y * y / 2', 'm.xml:7: 8000000000 does not fit into 32 bits'),
         ('y = endless()', 'm.xml:3: endless runs through more than 1000000 loop passes'),
         ('y = deep()', 'm.xml:3: deep runs through more than 1000000 loop passes'),
+        ('y = many40(z)', 'm.xml:3: many0 runs through more than 1000000 loop passes and calls'),
         ('y = partial(z)', 'm.xml:3: partial ended without return'),
         ('y = narrow(9)', 'm.xml:7: 9 is outside the range 0..3 of parameter n of narrow'),
     ],
@@ -279,7 +285,11 @@ def test_run_time_errors_have_a_place(update: str, expected: str, engine: Engine
         'int deep() { int n; for (i : int[0, 9999]) for (j : int[0, 9999]) n = j; return n; }'
         'int partial(int n) { if (n > 0) return 1; }'
         'int narrow(int[0, 3] n) { return n; }'
+        'int many0(int n) { int k = n; k++; return k - 1; }'
     )
+    for k in range(1, 41):
+        twice = f'many{k - 1}(n) + many{k - 1}(n)'
+        declaration += f'int many{k}(int n) {{ return {twice} <? 0; }}'
     model = None
     with pytest.raises(ModelFormatError) as caught:
         model = single(f'a\na -> a; do: {update}', declaration)
@@ -318,6 +328,12 @@ def test_limit_leaves_queries_undecided(limits: Limits, reason: str, engine: Eng
     assert words[0] == ('undecided', reason)
     assert words[1][0] in ('undecided', 'not satisfied')
     assert not result.complete
+
+
+@pytest.mark.parametrize('engine', ENGINES)
+def test_limit_beyond_all_numbers_is_no_limit(engine: EngineKind) -> None:
+    model = single('a b\na -> b')
+    assert verdicts(model, 'E<> P.b', engine=engine, limits=Limits(states=10**30)) == ['satisfied']
 
 
 @pytest.mark.parametrize('engine', ENGINES)
