@@ -13,7 +13,7 @@ from generator_units import closed_unit
 
 from ros2cc_extract.checker.api import Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, RenderedModel, render
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Act, Blocking
 
@@ -121,6 +121,13 @@ def test_the_global_executor_serves_the_node_meanwhile_and_nobody_does_afterward
     assert can_be(unit, f'deadlock and cb_waiting[{TICK}] == 1 and !node_spun[0]')
 
 
+def test_who_spins_on_one_of_several_threads_runs_once():
+    """However many threads there are, and whoever runs inside."""
+    unit = spinning(*until('rclpy', 'arm'), executor=MULTI, threads=3)
+    assert can_be(unit, f'cb_running({ASK}) and cb_running({TICK})')
+    assert decided(unit, f'A[] cb_runs({ASK}) <= 1') is Verdict.SATISFIED
+
+
 def test_under_plain_rclpy_spin_it_is_the_same_executor_and_the_node_stays():
     unit = spinning(*until('rclpy', 'arm'), spun='rclpy.spin')
     assert 'node_taken' not in model_of(unit).xml
@@ -172,6 +179,14 @@ def test_a_loop_of_spins_ends_with_what_it_waits_for():
     step = Blocking(call='rclpy.spin_once', on='arm', seconds=0.1)
     assert not hangs(spinning(loop, step, spun='rclpy.spin'))
     assert hangs(spinning(loop, step, spun='rclpy.spin', reply='g'))
+
+
+def test_a_loop_of_spins_on_plain_data_has_no_known_end():
+    loop = Blocking(call='busy wait', on=Unknown('what ends the loop: not self.arrived'))
+    step = Blocking(call='rclpy.spin_once', on='arm', seconds=0.1)
+    unit = spinning(loop, step, spun='rclpy.spin')
+    left_out = {query.family.value for query in model_of(unit).queries if query.left_out}
+    assert left_out == {'deadlock', 'starvation', 'progress', 'pool_exhaustion'}
 
 
 def test_spin_never_returns_but_serves_others():
