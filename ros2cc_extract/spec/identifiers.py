@@ -1,9 +1,10 @@
 """
 Names that UPPAAL accepts, and how an extracted name is mended into one.
 
-Keywords: docs.uppaal.org, page "Reserved Keywords", and ``exists`` and ``sum`` of its page
-"Grammar". The names that the published declarations define are reserved as well, because a
-callback of such a name would break the model.
+Keywords: docs.uppaal.org, page "Reserved Keywords"; and what UPPAAL 5 has beyond it, the built-in
+functions of the page "Expressions" among them, as its parser knows them
+(github.com/UPPAALModelChecker/utap, ``keywords.cpp``). The names that the published declarations
+define are reserved as well, because a callback of such a name would break the model.
 """
 
 from __future__ import annotations
@@ -20,10 +21,20 @@ chan clock double bool int commit const urgent broadcast init process state inva
 guard sync assign system trans deadlock and or not imply true false for forall while do if else
 return typedef struct rate before_update after_update meta priority progress scalar select void
 default string minE maxE Pr switch case continue break enum exists sum
+xor probability branchpoint import gantt assert IO hybrid dynamic spawn exit numOf foreach query
+abs fabs fmod fma fmax fmin fdim exp exp2 expm1 ln log log10 log2 log1p pow sqrt cbrt hypot
+sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh erf erfc tgamma lgamma
+ceil floor trunc round fint ldexp ilogb logb nextafter copysign
+fpclassify isfinite isinf isnan isnormal signbit isunordered
+random random_arcsine random_beta random_gamma random_normal random_poisson random_tri
+random_weibull
 """
 
 # Words of the query grammar alone: they break a query that names the process, not the model.
-_QUERY_WORD_TEXT = 'A E U W R M inf sup bounds control simulate strategy query under'
+_QUERY_WORD_TEXT = """
+A E U W R M X inf sup bounds control control_t simulate simulation strategy under imitate sat
+loadStrategy saveStrategy Pmax minPr maxPr
+"""
 
 _MODEL_NAME_TEXT = """
 NUM_CB NUM_CB_GROUP NUM_THREAD MAX_CYCLE CbId GroupId ThreadId CbType GroupType TMR SUB SRV
