@@ -164,6 +164,7 @@ class Effects(Machine):
         deeds = self.world.deeds
         if deeds is None and not outside_waits.is_idle(node):
             return
+        place, is_known = frame.place(node), False
         for part in ast.walk(node.test):
             if (
                 isinstance(part, ast.Call)
@@ -171,8 +172,13 @@ class Effects(Machine):
                 and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
             ):
                 owner = self.evaluate(part.func.value, frame)
+                is_known = True
                 if part.func.attr in ('done', 'is_set'):
-                    self.note_blocking('busy wait', owner, None, frame.place(node))
+                    self.note_blocking('busy wait', owner, None, place)
+        if deeds is not None and not is_known and outside_waits.spins(node):
+            # How many callbacks run before it ends is not one.
+            reason = f'what ends the loop: {ast.unparse(node.test)}'
+            self.note_blocking('busy wait', self.mystery(reason, place), None, place)
 
     def note_blocking(
         self, name: str, on: Value | None, seconds: Value | None, place: Place

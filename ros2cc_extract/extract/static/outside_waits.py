@@ -40,6 +40,15 @@ def is_idle(loop: ast.While) -> bool:
     )
 
 
+def spins(loop: ast.While) -> bool:
+    """True for a loop that lets an executor run what is ready, again and again."""
+    return any(
+        isinstance(part, ast.Call) and _called_name(part) == 'spin_once'
+        for statement in loop.body
+        for part in ast.walk(statement)
+    )
+
+
 def _called_name(call: ast.Call | ast.Await) -> str:
     function = call.func if isinstance(call, ast.Call) else None
     if isinstance(function, ast.Attribute):
