@@ -74,6 +74,10 @@ def test_a_baseline_does_not_depend_on_the_order() -> None:
         ('{', 'base.json:1:2: no JSON: Expecting property name'),
         ('[]', 'base.json: no baseline of version 1; write it anew by --write-baseline'),
         ('{"ros2cc_baseline": 2}', 'base.json: no baseline of version 1'),
+        (
+            '{"ros2cc_baseline": 1, "findings": null}',
+            'base.json: a finding of the baseline has no',
+        ),
         ('{"ros2cc_baseline": 1, "findings": [1]}', 'base.json: a finding of the baseline has no'),
     ],
 )

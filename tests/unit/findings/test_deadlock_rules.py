@@ -255,6 +255,22 @@ def test_waiters_of_one_branch_count_together(branches: tuple[int, ...], expecte
     assert ('CC103:40' in found(spec)) is expected
 
 
+@pytest.mark.parametrize('order', [(0, 1, 2), (1, 2, 0), (2, 1, 0)])
+def test_groups_and_branches_are_matched_as_well_as_can_be(order: tuple[int, ...]) -> None:
+    """Group g0 has a member in each of two branches, g1 only in the first: both can wait."""
+    waits = calls('plan_client', 40)
+    either = [
+        timer('left', 'g0', alternative='a', blocking=waits),
+        timer('right', 'g0', alternative='b', blocking=waits),
+        timer('third', 'g1', alternative='a', blocking=waits),
+    ]
+    groups = (exclusive('g0'), exclusive('g1'), OTHER)
+    timers = [either[n] for n in order]
+    client_ = client('plan_client', 'other')
+    assert 'CC103:40' in found(unit(threads(2), *timers, client_, groups=groups))
+    assert 'CC103:40' not in found(unit(threads(3), *timers, client_, groups=groups))
+
+
 def test_entities_that_a_callback_makes_do_not_count() -> None:
     assert found(blockers(2, threads(2), when=When.CALLBACK)) == []
 

@@ -87,6 +87,13 @@ def test_the_verdict_decides(table: dict[str, object]) -> None:
     assert (open_one.code, open_one.severity) == ('CC603', Severity.WARNING)
 
 
+def test_what_was_not_asked_stays_undecided_and_says_so() -> None:
+    requirements = read_requirements({'never_starves': ['on_stop']}, TABLE)
+    (finding,) = check_requirements(requirements, [ARM], [verdicts()])
+    assert finding.code == 'CC603'
+    assert finding.message.endswith('is undecided: the query was not asked')
+
+
 def test_a_violation_stands_at_the_callback() -> None:
     (finding,) = check({'never_together': [['on_stop', 'move']]}, Verdict.NOT_SATISFIED)
     assert finding.place == at(30)

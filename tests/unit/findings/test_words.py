@@ -16,6 +16,11 @@ from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind
         (client('plan_client', source=at(9)), "client 'plan' is created here"),
         (outside('task', EntityKind.TASK, source=at(9)), 'task is created here'),
         (exclusive('arm', source=at(9)), "group 'arm' is created here"),
+        (exclusive('arm', source=at(9), default=True), 'the default group is created here'),
+        (
+            exclusive('arm_default', source=at(9), default=True, node='arm'),
+            "the default group of 'arm' is created here",
+        ),
     ],
 )
 def test_made_at(owner: Callback | CallbackGroup, words: str) -> None:
