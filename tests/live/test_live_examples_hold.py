@@ -123,6 +123,11 @@ def test_every_option_of_a_node_that_adds_entities(
     (static,) = scan([program], lists_builtin=True).units
     assert builtins_of(static) == builtins_of(spec)
     assert len(builtins_of(spec)) == BUILTINS_OF_EVERY_OPTION
+    # rclpy keeps no topic of an event handler; it is read where that is made.
+    assert [
+        (c.key, c.node) for c in spec.callbacks if c.function and 'on_other_qos' in c.function
+    ] == [('stop', 'arm')]
+    assert [each for each in diff([static], [spec]) if not each.marked] == []
 
 
 def builtins_of(spec: Spec) -> list[tuple[object, ...]]:

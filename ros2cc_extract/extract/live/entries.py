@@ -284,6 +284,8 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
         record.library = 'rclpy.create_rate'
     if record.function is not None and _is_of_rclpy(record.function):
         record.builtin = record.builtin or record.library is None
+    if record.kind == 'qos_event' and not record.builtin:
+        record.key = creation.topic
     record.complete = True
 
 

@@ -32,6 +32,7 @@ class Creation:
     :param functions: functions of rclpy passed on the way.
     :param node: node concerned, if one was passed on the way.
     :param callback: what a QoS event handler is going to call.
+    :param topic: of the publisher or subscription concerned.
     """
 
     place: RawPlace | None = None
@@ -42,6 +43,7 @@ class Creation:
     in_configure: bool = False
     node: Any = None
     callback: Any = None
+    topic: str | None = None
     action_name: str | None = None
     execute_callback: Any = None
 
@@ -91,6 +93,8 @@ def _pass_rclpy(creation: Creation, frame: FrameType, module: str) -> None:
         )
     if function == '__init__':
         _read_arguments(creation, module, frame.f_locals)
+    elif function in ('create_publisher', 'create_subscription'):
+        creation.topic = frame.f_locals.get('topic')
 
 
 def _read_arguments(creation: Creation, module: str, arguments: Mapping[str, Any]) -> None:
