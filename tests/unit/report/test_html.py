@@ -23,6 +23,7 @@ from ros2cc_extract.spec.model import (
     Executor,
     GroupType,
     Spec,
+    When,
 )
 from ros2cc_extract.verify.evidence import Sentence
 
@@ -129,6 +130,74 @@ def test_the_picture_holds_groups_callbacks_and_waits() -> None:
     assert chips == {'arm-tick': 'arm-plan', 'arm-plan': ''}
     assert 'every 0.5 s' in text
     assert 'and 1 entity that rclpy itself adds' in text
+
+
+def drawn(callback: Callback, group: CallbackGroup) -> str:
+    unit = replace(ARM, callbacks=(callback,), groups=(group,))
+    return html_report([unit], [], [], {'files': 1}, {})
+
+
+@pytest.mark.parametrize(
+    ('facts', 'said'),
+    [
+        ({'entity': EntityKind.SUBSCRIPTION}, ['subscription']),
+        ({'entity': EntityKind.SUBSCRIPTION, 'key': 'joy'}, ['subscription joy']),
+        ({'key': Unknown('a parameter')}, ['timer ?']),
+        ({'period_s': 0.5, 'count': 3}, ['timer every 0.5 s × 3']),
+        ({'count': Unknown('a loop')}, ['timer × ?']),
+        (
+            {'conditional': True, 'coroutine': True, 'when': When.LATER},
+            ['timer · conditional · created later · coroutine'],
+        ),
+        ({'one_shot': True, 'library': 'tf2_ros'}, ['timer · one-shot · made by tf2_ros']),
+    ],
+)
+def test_a_callback_is_drawn_with_what_is_known_of_it(
+    facts: dict[str, Any], said: list[str]
+) -> None:
+    tick = replace(ARM.callbacks[0], **{'blocking': (), 'period_s': None, **facts})
+    text = drawn(tick, CallbackGroup(name='g', type=GroupType.EXCLUSIVE))
+    assert re.findall('<div class="subject">(.*?)</div>', text) == said
+
+
+@pytest.mark.parametrize(
+    ('block', 'said'),
+    [
+        (Blocking(call='Event.wait'), 'Event.wait'),
+        (Blocking(call='client.call', on='plan'), 'client.call → plan'),
+        (Blocking(call='client.call', on=Unknown('passed in')), 'client.call'),
+        (Blocking(call='time.sleep', seconds=0.5), 'time.sleep 0.5 s'),
+        (Blocking(call='time.sleep', seconds=Unknown('a parameter')), 'time.sleep'),
+    ],
+)
+def test_a_wait_is_drawn_with_what_is_known_of_it(block: Blocking, said: str) -> None:
+    tick = replace(ARM.callbacks[0], blocking=(block,))
+    text = drawn(tick, CallbackGroup(name='g', type=GroupType.EXCLUSIVE))
+    assert re.findall('<ul class="waits"><li>(.*?)</li></ul>', text) == [said]
+
+
+@pytest.mark.parametrize(
+    ('group', 'classes', 'name'),
+    [
+        (CallbackGroup(name='g', type=GroupType.EXCLUSIVE), 'group exclusive', 'g'),
+        (CallbackGroup(name='g', type=GroupType.REENTRANT), 'group reentrant', 'g'),
+        (
+            CallbackGroup(name='g', type=GroupType.REENTRANT, groupless=True),
+            'group outside',
+            'in no group',
+        ),
+        (
+            CallbackGroup(name='g', type=GroupType.EXCLUSIVE, unresolved=Unknown('passed in')),
+            'group exclusive unresolved',
+            'g',
+        ),
+    ],
+)
+def test_a_group_is_drawn_by_its_kind(group: CallbackGroup, classes: str, name: str) -> None:
+    text = drawn(replace(ARM.callbacks[0], blocking=()), group)
+    assert re.findall('<section class="(group.*?)"><header><b>(.*?)</b>', text) == [
+        (classes, name)
+    ]
 
 
 def test_a_run_is_data_for_the_script_and_text_without_it() -> None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
+
+import pytest
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Profile
@@ -17,15 +20,38 @@ EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
 RCLPY = Options(profile=Profile.RCLPY, structural=False)
 
 
-def below_the_table(
-    example: str, threads: range, cycles: tuple[int, ...], options: Options
-) -> str:
+TWO = ('1 thread', '2 threads')
+Cycles = tuple[int | None, ...]
+
+
+def printed(example: str, threads: range, cycles: Cycles, options: Options) -> str:
     (unit,) = scan([EXAMPLES / example / 'node.py']).units
+    swept = run_sweep(unit, Policy(), options, points(threads, cycles), workers=1)
     out = io.StringIO()
-    print_sweep(
-        run_sweep(unit, Policy(), options, points(threads, cycles), workers=1), console_for(out)
-    )
-    return out.getvalue().partition('  seconds ')[2].partition('\n')[2]
+    print_sweep(swept, console_for(out))
+    return out.getvalue()
+
+
+def below_the_table(example: str, threads: range, cycles: Cycles, options: Options) -> str:
+    text = printed(example, threads, cycles, options)
+    return text.partition('  seconds ')[2].partition('\n')[2]
+
+
+@pytest.mark.parametrize(
+    ('cycles', 'heads'),
+    [
+        ((1,), ['#', 'query', *TWO]),
+        (
+            (1, None),
+            ['#', 'query', *(f'{n}, cycle {c}' for c in (1, 'inf') for n in TWO)],
+        ),
+    ],
+)
+def test_a_column_is_headed_by_its_threads_and_where_they_differ_by_its_bound(
+    cycles: Cycles, heads: list[str]
+) -> None:
+    text = printed('paper_case1', range(1, 3), cycles, Options(profile=Profile.PAPER))
+    assert re.split(r'\s{2,}', text.splitlines()[1].strip()) == heads
 
 
 def test_the_smallest_number_of_threads_leads_and_rows_that_turn_are_grouped() -> None:
