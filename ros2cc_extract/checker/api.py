@@ -13,7 +13,13 @@ from ros2cc_extract.checker.limits import Limits, Progress, peak_mb
 from ros2cc_extract.checker.network import Network
 from ros2cc_extract.checker.replay import Replayer
 from ros2cc_extract.checker.run import EdgeRef, Run, StateView, Step
-from ros2cc_extract.checker.search import NO_REDUCTIONS, Fairness, Reductions, Verdict
+from ros2cc_extract.checker.search import (
+    INTERRUPTED,
+    NO_REDUCTIONS,
+    Fairness,
+    Reductions,
+    Verdict,
+)
 from ros2cc_extract.checker.uppaal.document import read_document
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration, elaborate
 from ros2cc_extract.checker.uppaal.queryfile import Query, clean, first_line, read_query_file
@@ -108,6 +114,11 @@ class Answer:
     reason: str | None
     seconds: float
     replay: Callable[[], Run] | None = field(repr=False, compare=False)
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether a Ctrl-C left it undecided."""
+        return self.reason == INTERRUPTED
 
     @cached_property
     def path(self) -> Run | None:

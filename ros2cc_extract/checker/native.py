@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ros2cc_extract.checker.canonical import Reducer
 from ros2cc_extract.checker.dead import forgettings
 from ros2cc_extract.checker.interpret import endless_error, site_error
+from ros2cc_extract.checker.interrupts import noted
 from ros2cc_extract.checker.limits import WITH_LASSOS, Limits, Progress, Watch, states_reason
 from ros2cc_extract.checker.nativecode import Lowering, Predicate
 from ros2cc_extract.checker.network import Network, Property
@@ -137,16 +138,17 @@ class _Question:
         watching = self._watching
         watching.reason = None
         try:
-            result = self._core.search(
-                **vars(self._lowering.tables),
-                goals=self._goals,
-                lassos=self._lassos,
-                is_fair=self._fairness is Fairness.WEAK,
-                runs_chains=self._runs_chains,
-                max_states=MAX_STATES if max_states is None else min(max_states, MAX_STATES),
-                jobs=(min(self._jobs, MOST_JOBS), JOBS_PAY_FROM),
-                watch=watching,
-            )
+            with noted(watching.interrupt):
+                result = self._core.search(
+                    **vars(self._lowering.tables),
+                    goals=self._goals,
+                    lassos=self._lassos,
+                    is_fair=self._fairness is Fairness.WEAK,
+                    runs_chains=self._runs_chains,
+                    max_states=MAX_STATES if max_states is None else min(max_states, MAX_STATES),
+                    jobs=(min(self._jobs, MOST_JOBS), JOBS_PAY_FROM),
+                    watch=watching,
+                )
         except self._core.CheckError as error:
             site, value = error.args
             raise site_error(self._network.sites[site], value) from None
@@ -191,8 +193,16 @@ class _Watching:
     def __init__(self, watch: Watch) -> None:
         self.watch = watch
         self.reason: str | None = None
+        self._is_interrupted = False
+
+    def interrupt(self) -> None:
+        """End the search when the core asks next."""
+        self._is_interrupted = True
 
     def __call__(self, states: int, transitions: int, more_bytes: int, is_exploring: bool) -> bool:
+        if self._is_interrupted:
+            self.reason = INTERRUPTED
+            return True
         try:
             if is_exploring:
                 self.reason = self.watch.broken(states, transitions, more_bytes)

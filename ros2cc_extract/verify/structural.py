@@ -148,6 +148,8 @@ def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Ans
         fairness=Fairness.WEAK,
         reduction=False,
     )
+    if result.answers[0].is_interrupted:
+        raise KeyboardInterrupt  # many more would be asked
     return result.answers[0]
 
 

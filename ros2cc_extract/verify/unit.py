@@ -201,6 +201,8 @@ def _search(
     xml = rendered.xml.encode()
     queries = [Query(query.formula, query.words, None) for query in asked]
     result = _check(model, xml, queries, replace(options, limits=limits), progress)
+    if any(answer.is_interrupted for answer in result.answers):
+        raise KeyboardInterrupt  # findings need verdicts, and other units may be waiting
     teller = _Teller(model, xml, Names.of(closed.spec))
     results = {
         key_of(query): _result(answer, teller, query.family.value, query.words, query.callbacks)
