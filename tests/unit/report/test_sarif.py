@@ -96,6 +96,8 @@ def test_every_rule_is_described_and_found_by_its_index() -> None:
     rules = run['tool']['driver']['rules']
     assert [rule['id'] for rule in rules] == [rule.code for rule in RULES]
     assert rules[0]['helpUri'] == 'https://example.org/rules/CC101.md'
+    nowhere = run_of(*FINDINGS)['tool']['driver']['rules']
+    assert not any('helpUri' in rule for rule in nowhere)
     assert [rules[r['ruleIndex']]['id'] for r in run['results']] == ['CC101', 'CC301', 'CC501']
 
 
