@@ -22,6 +22,7 @@ from ros2cc_extract.generator.serving import (
     executor_kind,
     rank_of,
 )
+from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
 from ros2cc_extract.generator.waits import (
     Lock,
     NamedWait,
@@ -45,8 +46,10 @@ Shape = tuple[object, ...]
 WAITABLE_RANK = 1
 #: Claims that rest on others coming to an end, and on a free thread.
 OF_ENDS = (Family.STARVATION, Family.PROGRESS)
+#: Claims about what a run ends in.
+OF_STANDSTILLS = (Family.DEADLOCK, Family.POOL_EXHAUSTION)
 #: Claims about all callbacks at once.
-OF_THE_UNIT = (Family.DEADLOCK, Family.POOL_EXHAUSTION, Family.SERIAL)
+OF_THE_UNIT = (*OF_STANDSTILLS, Family.SERIAL)
 
 
 class Rests(Enum):
@@ -66,14 +69,39 @@ class Slicer:
 
     def slice_for(self, query: Query) -> Names | None:
         """Name the callbacks that ``query`` depends on; ``None`` where all of them may matter."""
-        if query.family in OF_THE_UNIT or self._spinning:
+        if self._has_spins_of_the_unit:
+            return None
+        if query.family in (*OF_ENDS, *OF_STANDSTILLS) and not self.has_threads_to_spare:
+            return self._with_all_that_wait(query) if self._spinning else None
+        if query.family in OF_THE_UNIT:
             return None
         if query.family not in OF_ENDS:
-            return self._cone((*query.callbacks, *self._closers(query)), Rests.ON_RUNS)
-        if not self.has_threads_to_spare:
-            return None
+            names = (*query.callbacks, *self._closers(query), *self._spinning)
+            return self._cone(names, Rests.ON_RUNS)
         rests = Rests.ON_END if query.family is Family.PROGRESS else Rests.ON_START
         return self._cone(query.callbacks, rests)
+
+    def _with_all_that_wait(self, query: Query) -> Names | None:
+        """
+        Add whoever waits: nothing else keeps a thread, a group or the executor for ever.
+
+        Not where a callback that waits for nobody may end a wait: any that runs ends a
+        ``spin_once``, and wakes a coroutine whose future a thread of the user has made done.
+        """
+        waits = [wait for waits in self._waits.values() for wait in waits]
+        if any(wait.kind is WaitKind.FOREIGN for wait in waits) or any(
+            wait.spin.end is SpinEnd.ONE_CALLBACK for wait in waits if wait.spin
+        ):
+            return None
+        names = self._cone((*self.waiting, *query.callbacks), Rests.ON_END)
+        threads = self.cut(names).spec.executor.threads
+        is_full = len(threads) == self._threads
+        return names if is_full or query.family is not Family.POOL_EXHAUSTION else None
+
+    @property
+    def _threads(self) -> int:
+        has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
+        return len(self._spec.executor.threads) if has_pool else 1
 
     def holders(self, name: str) -> Names:
         """Members of its exclusive group, itself too, that hold it while they wait."""
@@ -98,8 +126,23 @@ class Slicer:
 
     @cached_property
     def _spinning(self) -> Names:
-        """Whoever spins an executor: others run inside, and on a pool may be queued twice."""
+        """Whoever spins an executor: others run inside, and inside these yet others."""
         return frozenset(n for n, waits in self._waits.items() if any(w.spin for w in waits))
+
+    @cached_property
+    def _has_spins_of_the_unit(self) -> bool:
+        """
+        Whether a nested spin may concern callbacks that it does not run.
+
+        On a pool they may be queued twice, the global executor takes them out of theirs, and an
+        executor that is refused stops for all.
+        """
+        spins = [wait.spin for waits in self._waits.values() for wait in waits if wait.spin]
+        has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
+        return any(
+            has_pool or spin.spun is Spun.GLOBAL or spin.refusal is not Refusal.NEVER
+            for spin in spins
+        )
 
     @cached_property
     def has_threads_to_spare(self) -> bool:
@@ -123,9 +166,7 @@ class Slicer:
                 return False
             else:
                 holders[callback.name, callback.group] = self.max_cycle
-        has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
-        threads = len(self._spec.executor.threads) if has_pool else 1
-        return threads > sum(holders.values())
+        return self._threads > sum(holders.values())
 
     def cut(self, names: Names) -> ClosedSpec:
         """Give the slice as a unit, with no more threads than can ever be at work in it."""
