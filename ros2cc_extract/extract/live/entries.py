@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from .frames import Creation, FunctionName, RawPlace, class_name, name_function
@@ -39,13 +39,23 @@ _BUILTIN_MODULES = {
 _LIBRARY_MODULES = ('parameter_client', 'parameter_event_handler')
 
 
+def _ending(record: ExecutorRecord | NodeRecord) -> Callable[[Any], None]:
+    """Note when an object ends: as late as the interpreter itself, when modules are empty."""
+    clock = time.monotonic_ns
+
+    def end(_: Any) -> None:
+        record.died = clock()
+
+    return end
+
+
 class ExecutorRecord:
     """An executor; ``default_threads`` when its program left the number to rclpy."""
 
     def __init__(self, number: int, executor: Any, created: RawPlace | None) -> None:
         self.number = number
         self.died: int | None = None
-        self.ref = weakref.ref(executor, self._end)
+        self.ref = weakref.ref(executor, _ending(self))
         self.cls = class_name(executor)
         self.bases = [base.__name__ for base in type(executor).__mro__]
         self.own_class = not type(executor).__module__.startswith('rclpy')
@@ -54,9 +64,6 @@ class ExecutorRecord:
         self.threads: int | None = None
         self.spun: str | None = None
         self.in_thread: bool | None = None
-
-    def _end(self, _: Any) -> None:
-        self.died = time.monotonic_ns()
 
     def signature(self) -> tuple[Any, ...] | None:
         """Equal for executors that one line of the program has made."""
@@ -71,15 +78,12 @@ class NodeRecord:
     def __init__(self, number: int, node: Any) -> None:
         self.number = number
         self.died: int | None = None
-        self.ref = weakref.ref(node, self._end)
+        self.ref = weakref.ref(node, _ending(self))
         self.cls = class_name(node)
         self.name: str | None = None
         self.namespace: str | None = None
         self.default_group: int | None = None
         self.stays: list[Stay] = []
-
-    def _end(self, _: Any) -> None:
-        self.died = time.monotonic_ns()
 
     def enter(self, executor: int) -> bool:
         """Note that the node is in an executor now; whether it has never been there before."""
