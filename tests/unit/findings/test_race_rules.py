@@ -375,6 +375,10 @@ def test_a_collection_that_changes_while_another_callback_goes_over_it(
     other = subscription('on_set', 'other', writes=(locked,))
     assert races(unit(threads(2), loop('lock'), other)) == []
     assert races(unit(threads(1), loop(), other)) == []
+    elsewhere = subscription('on_set', 'other', writes=appends('Arm.list', 35))
+    assert races(unit(threads(2), loop(), elsewhere)) == []
+    assigned = subscription('on_set', 'other', writes=writes('Arm.table', 35))
+    assert races(unit(threads(2), loop(), assigned)) == []
     same = replace(appends('Arm.table', 35)[0], keeps_size=True)
     other = subscription('on_set', 'other', writes=(same,))
     assert races(unit(threads(2), loop(), other)) == []

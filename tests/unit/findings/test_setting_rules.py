@@ -100,6 +100,15 @@ def test_of_two_programs_the_one_in_the_file_of_the_class_is_told() -> None:
     assert findings_of([other, own], []) == (finding,)
 
 
+@pytest.mark.parametrize(
+    ('seconds', 'is_long'), [(0.99, False), (1.0, True), (Unknown('a parameter'), False)]
+)
+def test_a_sleep_is_long_from_a_second_on(seconds: float | Unknown, is_long: bool) -> None:
+    sleep = replace(sleeps(1.0)[0], seconds=seconds)
+    spec = unit(ONE_THREAD, timer('a', blocking=(sleep,)), timer('b'))
+    assert ('CC201:50 warning' in found(spec)) is is_long
+
+
 def test_an_execute_callback_that_sleeps_hides_the_cancel_request() -> None:
     execute = outside('execute', EntityKind.ACTION_EXECUTE, blocking=sleeps(5.0) + sleeps(5.0, 60))
     assert found(unit(ONE_THREAD, execute)) == ['CC203:50 warning']
