@@ -30,6 +30,11 @@ def test_two_arms_need_a_third_thread() -> None:
     assert sweep(unit_of('pool_exhaustion'), range(1, 5)).least_threads() == 3
 
 
+def test_one_thread_is_enough_where_it_is() -> None:
+    (fine,) = sweep(unit_of('pool_exhaustion'), range(3, 4)).verifications
+    assert Sweep('arms', points([1, 2], [1]), (fine, fine)).least_threads() == 1
+
+
 def test_no_number_of_threads_mends_a_call_in_the_own_group() -> None:
     assert sweep(unit_of('service_deadlock'), range(1, 4)).least_threads() is None
 
