@@ -24,6 +24,12 @@ TWO = ('1 thread', '2 threads')
 Cycles = tuple[int | None, ...]
 
 
+@pytest.fixture(autouse=True)
+def width_of_a_log(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever runs the tests may have a narrow window."""
+    monkeypatch.delenv('COLUMNS', raising=False)
+
+
 def printed(example: str, threads: range, cycles: Cycles, options: Options) -> str:
     (unit,) = scan([EXAMPLES / example / 'node.py']).units
     swept = run_sweep(unit, Policy(), options, points(threads, cycles), workers=1)
