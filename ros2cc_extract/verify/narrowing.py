@@ -137,7 +137,8 @@ class _Slicing:
                     part = self.slicer.cut(names)
                     parts[names] = (part, shape_of(part.spec))
                 part, shape = parts[names]
-                asked.setdefault(shape, []).append(_Question(part, key_of(query)))
+                if self.slicer.has_waits_of(part.spec):
+                    asked.setdefault(shape, []).append(_Question(part, key_of(query)))
         found: Found | None = None
         for questions in asked.values():
             remaining = self.clock.remaining

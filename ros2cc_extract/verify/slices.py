@@ -98,6 +98,15 @@ class Slicer:
         is_full = len(threads) == self._threads
         return names if is_full or query.family is not Family.POOL_EXHAUSTION else None
 
+    def has_waits_of(self, part: Spec) -> bool:
+        """
+        Tell whether a part waits for what the unit waits for.
+
+        What the model of a unit leaves out because of others may be in that of a part without
+        them, and then they say different things.
+        """
+        return all(tuple(waits_of(c, part)) == self._waits[c.name] for c in part.callbacks)
+
     @property
     def _threads(self) -> int:
         has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED

@@ -83,6 +83,7 @@ def differences(units: Iterator[tuple[int, ClosedSpec]], ways: Ways) -> list[obj
 
 #: Numbers of units for which a smaller text, or slice, has once given other verdicts.
 ONCE_OTHER_TEXTS, ONCE_OTHER_SLICES = (1021, 1329), (2007, 2143)
+ONCE_OTHER_SLICES_WITH_LOCKS = range(2418, 2419)
 
 
 def each_of(numbers: tuple[int, ...], callbacks: int) -> Iterator[tuple[int, ClosedSpec]]:
@@ -97,6 +98,12 @@ def test_units_that_have_once_differed() -> None:
 def test_slices_that_have_once_differed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
     assert differences(each_of(ONCE_OTHER_SLICES, 5), by_slices) == []
+
+
+def test_slices_with_locks_that_have_once_differed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    units = locking_units(ONCE_OTHER_SLICES_WITH_LOCKS, callbacks=5)
+    assert differences(units, by_slices) == []
 
 
 def test_texts_agree() -> None:
