@@ -1,4 +1,4 @@
-"""What holds for the whole suite: the same examples on every machine, and patience with real rclpy."""
+"""What holds for the whole suite: the same examples everywhere, patience with real rclpy."""
 
 from __future__ import annotations
 
