@@ -105,7 +105,8 @@ RULE = Rule(
     what='A callback calls `rclpy.spin_until_future_complete`, `rclpy.spin_once` or `rclpy.spin` '
     'on the node it belongs to.',
     why='These functions add the node to the global executor, or to the one that `executor=` '
-    'names, which takes it out of the executor it is in, and remove it afterwards: then it is in none, and none of its callbacks runs '
+    'names, which takes it out of the executor it is in, and remove it afterwards: '
+    'then it is in none, and none of its callbacks runs '
     'again. Under plain `rclpy.spin` it is the same executor: callbacks of other groups run '
     'inside this one, members of its own group do not; before 3.3.15 (Humble) and 7.1.2 (Jazzy) '
     'the node was lost there too, and from 7.1.9 on that raises '
