@@ -134,14 +134,22 @@ def _observations(trace: Trace, executor: int, places: Mapping[int, int]) -> Ite
             is_task = _is_task(subject)
             if act is not None:
                 last = before.get(event.thread, 0)
-                # What is made is told afterwards: it may have been served by then.
-                is_late = act is Act.ARRIVE or (
-                    act is Act.COLLECT and event.clock_ns - last >= ASLEEP_NS
-                )
-                since = last if is_late else event.clock_ns
+                since = last if _is_late(act, subject, event.clock_ns - last) else event.clock_ns
                 before[event.thread] = event.clock_ns
                 seen = _observation(act, places[event.subject], event, since)
                 yield replace(seen, is_task=is_task)
+
+
+def _is_late(act: Act, subject: Subject, silence_ns: int) -> bool:
+    """
+    Tell whether a step may have happened at any time since the one before it in its thread.
+
+    What is made is told afterwards, and may have been served by then. So is an answer: it wakes
+    who awaits it before the client's own handler ends.
+    """
+    is_answer = act is Act.END and subject.kind == EntityKind.CLIENT.value
+    is_asleep = act is Act.COLLECT and silence_ns >= ASLEEP_NS
+    return act is Act.ARRIVE or is_answer or is_asleep
 
 
 def _act(event: Event, subject: Subject) -> Act | None:

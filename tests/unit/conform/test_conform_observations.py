@@ -99,15 +99,16 @@ def test_two_of_one_name_are_two_callbacks() -> None:
     assert found == {2: 0, 3: 1}
 
 
-TICK, ON, GUARD, TASK = 2, 3, 4, 5
+TICK, ON, GUARD, TASK, PLAN = 2, 3, 4, 5, 6
 SUBJECTS = (
     Subject(EXECUTOR, 'executor', None, None, None, 'MultiThreadedExecutor', None),
     subject(TICK, TIMER, 'tick'),
     subject(ON, SUBSCRIPTION, 'on', 'joints'),
     subject(GUARD, EntityKind.GUARD_CONDITION, 'guard'),
     subject(TASK, EntityKind.TASK, 'task', node=None),
+    subject(PLAN, CLIENT, 'plan', 'plan'),
 )
-PLACES = {TICK: 0, ON: 1, GUARD: 2, TASK: 3}
+PLACES = {TICK: 0, ON: 1, GUARD: 2, TASK: 3, PLAN: 4}
 SPIN, WORKER = 100, 101
 
 
@@ -142,6 +143,16 @@ def test_who_collects_long_after_its_last_step_may_have_slept() -> None:
     trace = trace_of(*SUBJECTS, events=(*woken, late))
     assert observe(trace, EXECUTOR, PLACES)[1:] == (
         seen(Act.COLLECT, 0, SPIN, 1 + ASLEEP_NS, earliest_ns=1),
+    )
+
+
+def test_an_answer_is_there_before_the_end_of_the_client_is_told() -> None:
+    steps = [(WORKER, 'begin', PLAN), (SPIN, 'begin', ON), (SPIN, 'end', ON)]
+    assert observed(*steps, (WORKER, 'end', PLAN)) == (
+        seen(Act.BEGIN, 4, WORKER, 0),
+        seen(Act.BEGIN, 1, SPIN, 1),
+        seen(Act.END, 1, SPIN, 2),
+        seen(Act.END, 4, WORKER, 3, earliest_ns=0),
     )
 
 
