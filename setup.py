@@ -1,4 +1,4 @@
-"""Builds the native core of the checker; everything else stands in ``pyproject.toml``."""
+"""Builds what is native: the checker, and the journal of the hook; the rest is pyproject.toml."""
 
 from setuptools import Extension, setup
 
@@ -43,6 +43,13 @@ setup(
             extra_link_args=['-pthread'],
             # Without a compiler the package still works: the checker then is pure Python.
             optional=True,
-        )
+        ),
+        Extension(
+            'ros2cc_extract.extract.live._journal',
+            sources=['ros2cc_extract/extract/live/native/journal.c'],
+            extra_compile_args=['-std=c11', '-O2', '-fvisibility=hidden', '-g0'],
+            # As above: the hook then is pure Python, and what it costs is in docs/live.md.
+            optional=True,
+        ),
     ],
 )

@@ -142,7 +142,7 @@ import rclpy.executors
 hook = Hook(tempfile.mkdtemp())
 hook.wrap(rclpy.executors)
 # The hook's own thread would have taken them.
-empty = hook.recorder.events.clear
+empty = hook.recorder.journal.clear
 hooked = min(timeit.repeat(both, empty, number=2000, repeat=70)) / 4000
 empty()
 for _ in range(500):

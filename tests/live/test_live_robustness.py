@@ -140,16 +140,32 @@ def test_disk_that_fills_up_is_told_and_the_node_runs_on(start: Start, tmp_path:
 
 
 @pytest.mark.parametrize(
-    ('what', 'program'),
-    [(what, 'moving_nodes.py') for what in ('notes', 'events', 'entities', 'lock', 'writer')]
-    + [(what, 'awaiting.py') for what in ('events', 'entities', 'clock')],
+    ('what', 'program', 'native'),
+    [
+        (what, program, native)
+        for what, program in [
+            *((what, 'moving_nodes.py') for what in ('notes', 'entities', 'lock', 'writer')),
+            ('entities', 'awaiting.py'),
+        ]
+        for native in '01'
+    ]
+    # In C these have no parts that could be broken.
+    + [(what, 'awaiting.py', '0') for what in ('journal', 'clock')]
+    + [('journal', 'moving_nodes.py', '0')],
 )
 def test_broken_hook_changes_nothing_but_the_count_of_losses(
-    what: str, program: str, start: Start, tmp_path: Path
+    what: str, program: str, native: str, start: Start, tmp_path: Path
 ) -> None:
     without = start(PROGRAMS / program)
     without.end()
-    child = start(PROGRAMS / 'broken_hook.py', what, program, recorded_into=tmp_path, traced=True)
+    child = start(
+        PROGRAMS / 'broken_hook.py',
+        what,
+        program,
+        recorded_into=tmp_path,
+        traced=True,
+        ROS2CC_LIVE_NATIVE=native,
+    )
     assert (child.end(), child.text) == (0, f'{without.text}lost True\n')
     if what not in ('lock', 'writer'):
         (recording,) = recordings_in(tmp_path)

@@ -15,19 +15,16 @@ from __future__ import annotations
 import functools
 import inspect
 import sys
-import time
 from collections.abc import Callable
-from threading import get_ident
 from typing import Any
 
 from .entries import EntityRecord
-from .events import BEGIN, END, pack
+from .events import BEGIN, END
 from .record import Recorder
 
 Replace = Callable[[type, str, Any], None]
 SPINNING = ('spin', 'spin_once', 'spin_until_future_complete', 'spin_once_until_future_complete')
 _KEPT = '_ros2cc_measured'
-_clock = time.monotonic_ns
 
 
 def mark_spinning(executor_class: Any, replace: Replace) -> None:
@@ -89,19 +86,19 @@ def _measured(recorder: Recorder, entity: Any, function: Any) -> Any:
 
 
 def _measure(function: Any, record: EntityRecord, recorder: Recorder) -> Any:
-    append, lose, number = recorder.events.append, recorder.lose, record.number
+    note, lose, number = recorder.journal.note, recorder.lose, record.number
 
     @functools.wraps(function)
     def measured(*args: Any, **kwargs: Any) -> Any:
         try:
-            append(pack(_clock(), get_ident(), BEGIN, number))
+            note(BEGIN, number)
         except Exception as error:
             lose(error)
         try:
             return function(*args, **kwargs)
         finally:
             try:
-                append(pack(_clock(), get_ident(), END, number))
+                note(END, number)
             except Exception as error:
                 lose(error)
 

@@ -14,12 +14,12 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from threading import get_ident
 from typing import Any
 
-from .events import BEGIN, END, REFUSED, pack
+from .events import BEGIN, END, REFUSED
 from .events_executor import mark_spinning, measure_callbacks
 from .frames import is_node, trace_creation
+from .groups import reporting
 from .record import Recorder
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
 from .writer import Writer
@@ -188,36 +188,8 @@ class Hook:
             ('ending_execution', END, END),
         ):
             if name in group.__dict__:
-                self._set(group, name, self._reporting(group, name, what, otherwise))
-
-    def _reporting(self, group: type, name: str, what: int, otherwise: int) -> Any:
-        """
-        Report each call of a group's method; the only code of ours on the way of a callback.
-
-        :param what: the event when the method gives true, else it is ``otherwise``.
-        """
-        original = group.__dict__[name]
-        recorder, find = self.recorder, self.recorder.note_entity
-        entities, append, lose = recorder.entities, recorder.events.append, recorder.lose
-        clock, thread = time.monotonic_ns, get_ident
-
-        @functools.wraps(original)
-        def method(self: Any, entity: Any) -> Any:
-            result = original(self, entity)
-            try:
-                # A subclass that calls its base is reported once, by its own wrapper.
-                if type(self) is group or getattr(type(self), name) is method:
-                    try:
-                        record = entities[id(entity)]
-                    except KeyError:
-                        record = find(self, entity)
-                    happened = what if result else otherwise
-                    append(pack(clock(), thread(), happened, record.number))
-            except Exception as error:
-                lose(error)
-            return result
-
-        return method
+                wrapper = reporting(self.recorder, group, name, what, otherwise)
+                self._set(group, name, wrapper)
 
     def _after_fork(self) -> None:
         try:

@@ -28,9 +28,10 @@ from .entries import (
     has_waited,
     thread_count,
 )
-from .events import BEGIN, END, unpack
+from .events import BEGIN, END, SIZE, unpack
 from .folding import fold_entities, fold_executors, fold_nodes
 from .frames import Creation, RawPlace, is_node, name_function
+from .journal import new_journal
 from .timings import Timings
 
 # Half a minute of 4 kHz, should the writer not get the processor for that long.
@@ -45,7 +46,7 @@ class Recorder:
 
     def __init__(self, *, traced: bool = False) -> None:
         self.traced = traced
-        self.events: deque[bytes] = deque(maxlen=EVENTS_KEPT)
+        self.journal = new_journal(EVENTS_KEPT)
         self.entities: dict[int, EntityRecord] = {}
         self.losses: deque[str] = deque(maxlen=5)
         # Never used again, also not by a forked child: an event may still be on its way there.
@@ -73,7 +74,7 @@ class Recorder:
         self._timings: dict[int, Timings] = {}
         # The hot path holds these two, so they are emptied and not replaced.
         self.entities.clear()
-        self.events.clear()
+        self.journal.clear()
         self.losses.clear()
 
     def lose(self, error: BaseException) -> None:
@@ -233,9 +234,7 @@ class Recorder:
         At most ``LARGEST_BATCH`` events: what is held at once bounds the memory of a program
         that has fallen behind.
         """
-        popleft = self.events.popleft
-        count = min(len(self.events), LARGEST_BATCH)
-        taken = b''.join([popleft() for _ in range(count)])
+        taken = self.journal.take(LARGEST_BATCH)
         find = self._timings.get
         for clock, thread, what, number in unpack(taken):
             if what <= END:
@@ -248,7 +247,7 @@ class Recorder:
                     timings.end(clock, thread)
                 else:
                     timings.refused += 1
-        self.measured += count
+        self.measured += len(taken) // SIZE
         return taken
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:

@@ -14,7 +14,7 @@ import time
 import weakref
 from collections.abc import Callable
 from threading import get_ident
-from types import FrameType, SimpleNamespace
+from types import CodeType, FrameType
 from typing import Any
 
 from .entries import TaskRecord
@@ -29,8 +29,8 @@ from .events import (
     TASK,
     WAIT,
     WOKEN,
-    pack,
 )
+from .journal import native
 from .record import Recorder
 
 Replace = Callable[[type, str, Any], None]
@@ -41,13 +41,12 @@ _KEPT_WITH_TASKS = {
     '_ros2cc_suspended': False,
     '_ros2cc_awaited': None,
 }
-_NOBODY = SimpleNamespace(number=None)
 _clock = time.monotonic_ns
 
 
 def report(recorder: Recorder, what: int, record: Any) -> None:
     """Report an event that happens here and now."""
-    recorder.events.append(pack(_clock(), get_ident(), what, record.number))
+    recorder.journal.note(what, record.number)
 
 
 def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
@@ -59,36 +58,45 @@ def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
     that from its frame costs less than a wrapper, which would be called for every callback; the
     only executor of a program need not even be read.
     """
-    append, lose = recorder.events.append, recorder.lose
     lap = executors.Executor._wait_for_ready_callbacks.__code__
     wait = executors._rclpy.WaitSet.wait
 
     def asker(caller: FrameType) -> Any:
         asked_by = caller.f_back
         executor = asked_by.f_locals.get('self') if asked_by is not None else None
-        return recorder.executors.get(id(executor), _NOBODY)
+        return recorder.executors.get(id(executor))
 
-    @functools.wraps(wait)
+    if native is None:
+        traced = _plain_wait(recorder, wait, lap, asker)
+    else:
+        journal, lose = recorder.journal, recorder.lose
+        traced = native.wait_method(wait, WAIT, WOKEN, journal, recorder, lap, asker, lose)
+    replace(executors._rclpy.WaitSet, 'wait', functools.update_wrapper(traced, wait))
+
+
+def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any:
+    note, lose = recorder.journal.note, recorder.lose
+
     def traced_wait(wait_set: Any, *args: Any) -> Any:
-        thread, number = 0, None
+        record = None
         try:
             caller = sys._getframe(1)
             if caller.f_code is lap:
-                number = (recorder.only_executor or asker(caller)).number
-                thread = get_ident()
-                append(pack(_clock(), thread, WAIT, number))
+                record = recorder.only_executor or asker(caller)
+            if record is not None:
+                note(WAIT, record.number)
         except Exception as error:
             lose(error)
         try:
             return wait(wait_set, *args)
         finally:
             try:
-                if number is not None:
-                    append(pack(_clock(), thread, WOKEN, number))
+                if record is not None:
+                    note(WOKEN, record.number)
             except Exception as error:
                 lose(error)
 
-    replace(executors._rclpy.WaitSet, 'wait', traced_wait)
+    return traced_wait
 
 
 def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> None:
@@ -101,10 +109,20 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
     original = executor_class.__dict__.get('_make_handler')
     if original is None:
         return
-    entities, find = recorder.entities, recorder.note_entity
-    append, lose = recorder.events.append, recorder.lose
+    if native is None:
+        traced = _plain_make_handler(recorder, original)
+    else:
+        journal, find, lose = recorder.journal, recorder.note_entity, recorder.lose
+        traced = native.make_handler(
+            original, TAKE, COLLECT, journal, recorder.entities, find, lose
+        )
+    replace(executor_class, '_make_handler', functools.update_wrapper(traced, original))
 
-    @functools.wraps(original)
+
+def _plain_make_handler(recorder: Recorder, original: Any) -> Any:
+    entities, find = recorder.entities, recorder.note_entity
+    note, lose = recorder.journal.note, recorder.lose
+
     def make_handler(executor: Any, entity: Any, node: Any, take: Any, *more: Any) -> Any:
         record, number = None, None
         try:
@@ -112,11 +130,13 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
             number = record.number
         except Exception as error:
             lose(error)
+        if number is None:
+            return original(executor, entity, node, take, *more)
 
         def traced_take(taken: Any) -> Any:
             data = take(taken)
             try:
-                append(pack(_clock(), get_ident(), TAKE, number))
+                note(TAKE, number)
             except Exception as error:
                 lose(error)
             return data
@@ -124,12 +144,12 @@ def trace_takes(recorder: Recorder, executor_class: Any, replace: Replace) -> No
         task = original(executor, entity, node, traced_take, *more)
         try:
             task._ros2cc_record = record
-            append(pack(_clock(), get_ident(), COLLECT, number))
+            note(COLLECT, number)
         except Exception as error:
             lose(error)
         return task
 
-    replace(executor_class, '_make_handler', make_handler)
+    return make_handler
 
 
 def trace_submits(recorder: Recorder, executor: Any) -> None:
@@ -140,9 +160,17 @@ def trace_submits(recorder: Recorder, executor: Any) -> None:
     ``executors.py``). Nothing here keeps the pool alive: its threads end when it is let go.
     """
     pool = executor._executor
-    submit, pool_ref, lose = type(pool).submit, weakref.ref(pool), recorder.lose
+    submit, pool_ref = type(pool).submit, weakref.ref(pool)
+    if native is None:
+        traced = _plain_submit(recorder, submit, pool_ref)
+    else:
+        traced = native.submit_function(submit, SUBMIT, recorder.journal, pool_ref, recorder.lose)
+    pool.submit = functools.update_wrapper(traced, submit)
 
-    @functools.wraps(submit)
+
+def _plain_submit(recorder: Recorder, submit: Any, pool_ref: Any) -> Any:
+    lose = recorder.lose
+
     def traced_submit(function: Any, /, *args: Any, **kwargs: Any) -> Any:
         try:
             record = getattr(function, '_ros2cc_record', None)
@@ -153,7 +181,7 @@ def trace_submits(recorder: Recorder, executor: Any) -> None:
             lose(error)
         return submit(pool_ref(), function, *args, **kwargs)
 
-    pool.submit = traced_submit
+    return traced_submit
 
 
 def trace_runs(recorder: Recorder, task_class: Any, replace: Replace) -> None:
@@ -164,10 +192,19 @@ def trace_runs(recorder: Recorder, task_class: Any, replace: Replace) -> None:
     runs that change nothing are left out.
     """
     original = task_class.__dict__['__call__']
-    lose = recorder.lose
     steps = _Steps(recorder)
+    run: Any = _whole_run(recorder, steps, original)
+    if native is not None:
+        journal, lose = recorder.journal, recorder.lose
+        run = native.run_method(original, journal, TaskRecord, run, steps.end, lose)
+    for name, value in _KEPT_WITH_TASKS.items():
+        replace(task_class, name, value)
+    replace(task_class, '__call__', functools.update_wrapper(run, original))
 
-    @functools.wraps(original)
+
+def _whole_run(recorder: Recorder, steps: _Steps, original: Any) -> Any:
+    lose = recorder.lose
+
     def run(task: Any) -> Any:
         record = task._ros2cc_record
         if record is None:
@@ -200,9 +237,7 @@ def trace_runs(recorder: Recorder, task_class: Any, replace: Replace) -> None:
             except Exception as error:
                 lose(error)
 
-    for name, value in _KEPT_WITH_TASKS.items():
-        replace(task_class, name, value)
-    replace(task_class, '__call__', run)
+    return run
 
 
 def mark_task(recorder: Recorder, task: Any, record: TaskRecord) -> None:
@@ -218,15 +253,15 @@ def report_early_run(recorder: Recorder, task: Any) -> None:
     if early is not None:
         began, paused, thread = early
         number = task._ros2cc_record.number
-        recorder.events.append(pack(began, thread, RUN, number))
-        recorder.events.append(pack(paused, thread, PAUSE, number))
+        recorder.journal.put(began, thread, RUN, number)
+        recorder.journal.put(paused, thread, PAUSE, number)
 
 
 class _Steps:
     """What to tell of one run of a task: when it began, and whether that has been told."""
 
     def __init__(self, recorder: Recorder) -> None:
-        self._append = recorder.events.append
+        self._journal = recorder.journal
 
     def begin(self, task: Any, record: Any) -> tuple[int, bool] | None:
         """Give ``None`` when the task runs in another thread or has ended: nothing will happen."""
@@ -237,7 +272,7 @@ class _Steps:
             self._tell_begin(clock, record)
         return clock, moves
 
-    def end(self, task: Any, record: Any, begun: tuple[int, bool] | None) -> None:
+    def end(self, task: Any, record: Any, begun: tuple[int, bool] | None = None) -> None:
         if begun is not None:
             clock, told = begun
             if not told and not _can_go_on(task):
@@ -253,11 +288,11 @@ class _Steps:
         elif not is_work:
             return
         what = PAUSE if is_work else SUSPEND
-        self._append(pack(_clock(), get_ident(), what, record.number))
+        self._journal.note(what, record.number)
 
     def _tell_begin(self, clock: int, record: Any) -> None:
         what = RUN if type(record) is TaskRecord else RESUME
-        self._append(pack(clock, get_ident(), what, record.number))
+        self._journal.put(clock, get_ident(), what, record.number)
 
 
 def _can_go_on(task: Any) -> bool:

@@ -106,7 +106,7 @@ class Writer:
 
     def take_events(self) -> None:
         """Account for what has happened since the last time."""
-        overflowed = len(self._recorder.events) >= EVENTS_KEPT
+        overflowed = len(self._recorder.journal) >= EVENTS_KEPT
         if self._trace is not None and overflowed:
             self._trace.note_loss()
         while events := self._recorder.take_events():

@@ -1,12 +1,17 @@
-"""Runs a program of this folder with a hook that is broken: WHAT PROGRAM, see ``BREAKS``."""
+"""
+Runs a program of this folder with a hook that is broken: WHAT PROGRAM, see ``BREAKS``.
+
+What is written in C cannot be broken from here as its like in Python can; what it is given can.
+"""
 
 import gc
 import runpy
 import sys
-from collections import deque
 from pathlib import Path
 
-modules = {name: sys.modules[f'_ros2cc_live.{name}'] for name in ('hook', 'record', 'writer')}
+modules = {
+    name: sys.modules[f'_ros2cc_live.{name}'] for name in ('hook', 'journal', 'record', 'writer')
+}
 (hook,) = [each for each in gc.get_objects() if type(each) is modules['hook'].Hook]
 
 
@@ -14,16 +19,10 @@ def fail(*arguments: object, **named: object) -> None:
     raise RuntimeError('broken on purpose')
 
 
-class BrokenEvents(deque):  # type: ignore[type-arg]
-    """Takes nothing in."""
-
-    append = fail
-
-
 class BrokenEntities(dict):  # type: ignore[type-arg]
     """Knows nobody."""
 
-    get = fail
+    get = __getitem__ = fail
 
 
 class BrokenLock:
@@ -38,8 +37,8 @@ def break_notes() -> None:
     modules['hook'].trace_creation = fail
 
 
-def break_events() -> None:
-    hook.recorder.events = BrokenEvents()
+def break_journal() -> None:
+    modules['journal'].PlainJournal.note = modules['journal'].PlainJournal.put = fail
 
 
 def break_entities() -> None:
@@ -51,7 +50,7 @@ def break_lock() -> None:
 
 
 def break_clock() -> None:
-    modules['hook'].get_ident = sys.modules['_ros2cc_live.steps'].get_ident = fail
+    modules['journal'].get_ident = sys.modules['_ros2cc_live.steps'].get_ident = fail
 
 
 def break_writer() -> None:
@@ -60,7 +59,7 @@ def break_writer() -> None:
 
 BREAKS = {
     'notes': break_notes,
-    'events': break_events,
+    'journal': break_journal,
     'entities': break_entities,
     'lock': break_lock,
     'clock': break_clock,

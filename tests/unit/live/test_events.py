@@ -31,7 +31,7 @@ def test_events_are_accounted_for_by_number() -> None:
     entity = recorder.note_entity(group, timer)
     steps = [(10, BEGIN), (12, TAKE), (15, END), (20, REFUSED), (40, BEGIN)]
     for clock, what in steps:
-        recorder.events.append(pack(clock, 7, what, entity.number))
+        recorder.journal.put(clock, 7, what, entity.number)
     assert [fields[:3] for fields, _ in rows(recorder.take_events())] == [
         (clock, 7, what) for clock, what in steps
     ]
@@ -48,7 +48,7 @@ def test_events_of_what_was_folded_away_are_passed_over() -> None:
     recorder.settle()
     (kept,) = recorder.all_entities
     for number in numbers:
-        recorder.events.append(pack(10, 7, BEGIN, number))
+        recorder.journal.put(10, 7, BEGIN, number)
     recorder.take_events()
     assert (kept.made, kept.timings.runs) == (3, 1)
 
@@ -56,7 +56,7 @@ def test_events_of_what_was_folded_away_are_passed_over() -> None:
 def test_batch_is_bounded_and_the_rest_is_left_for_the_next() -> None:
     recorder = Recorder()
     for clock in range(LARGEST_BATCH + 2):
-        recorder.events.append(pack(clock, 7, WAIT, 1))
+        recorder.journal.put(clock, 7, WAIT, 1)
     sizes = [len(list(rows(recorder.take_events()))) for _ in range(3)]
     assert sizes == [LARGEST_BATCH, 2, 0]
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from ros2cc_extract.extract.live import entries
-from ros2cc_extract.extract.live.events import BEGIN, END, pack
+from ros2cc_extract.extract.live.events import BEGIN, END
 from ros2cc_extract.extract.live.frames import Creation
 from ros2cc_extract.extract.live.record import Recorder
 
@@ -177,7 +177,7 @@ def test_runs_of_what_was_made_again_are_counted_together() -> None:
         node = made_by(recorder, executor, 'worker', 20)
         number = recorder.all_entities[-1].number
         for clock, what in ((start, BEGIN), (start + 7, END)):
-            recorder.events.append(pack(clock, 1, what, number))
+            recorder.journal.put(clock, 1, what, number)
         recorder.note_removed(executor, node)
         del node
     recorder.take_events()

@@ -1,0 +1,428 @@
+"""
+What stands in the place of rclpy's methods: unseen by whoever calls it, in Python and in C.
+
+The stand-ins have the shapes of rclpy's classes; the tests of ``tests/live`` wrap the real ones.
+"""
+
+from __future__ import annotations
+
+import gc
+import inspect
+import weakref
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from ros2cc_extract.extract.live import groups, journal, steps
+from ros2cc_extract.extract.live.events import BEGIN, END, EVENT_NAMES, REFUSED, rows
+from ros2cc_extract.extract.live.groups import reporting
+from ros2cc_extract.extract.live.record import Recorder
+from ros2cc_extract.extract.live.steps import (
+    mark_task,
+    trace_runs,
+    trace_submits,
+    trace_takes,
+    trace_waits,
+)
+
+Told = Callable[[], list[tuple[str, int]]]
+
+
+class Entities:
+    """A group of theirs."""
+
+
+class Entity:
+    """As much of an entity as is looked at."""
+
+    callback: Any = None
+
+    def __init__(self, group: Any = None) -> None:
+        self.callback_group = group or Entities()
+
+
+class Broken:
+    """A record without a number."""
+
+
+@pytest.fixture(params=['plain', 'native'])
+def recorder(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Recorder:
+    """Give a recorder whose wrappers are in Python or in C."""
+    if request.param == 'plain':
+        for module in (groups, journal, steps):
+            monkeypatch.setattr(module, 'native', None)
+    return Recorder(traced=True)
+
+
+@pytest.fixture
+def told(recorder: Recorder) -> Told:
+    def tell() -> list[tuple[str, int]]:
+        fields = (fields for fields, _ in rows(recorder.take_events()))
+        return [(EVENT_NAMES[what], number) for _, _, what, number in fields]
+
+    return tell
+
+
+@pytest.fixture
+def group_class(recorder: Recorder) -> type:
+    class Group:
+        """A callback group."""
+
+        answer: Any = True
+
+        def beginning_execution(self, entity: Any) -> Any:
+            """Say whether it may begin."""
+            if isinstance(self.answer, BaseException):
+                raise self.answer
+            return self.answer
+
+    wrap(recorder, Group)
+    return Group
+
+
+def wrap(recorder: Recorder, group: Any) -> None:
+    name = 'beginning_execution'
+    setattr(group, name, reporting(recorder, group, name, BEGIN, REFUSED))
+
+
+def test_group_is_reported_and_its_answer_given_back(
+    recorder: Recorder, group_class: Any, told: Told
+) -> None:
+    group = group_class()
+    entity = Entity(group)
+    number = recorder.note_entity(group, entity).number
+    answers = [True, False, None, [], 'yes', (1,)]
+    for group.answer in answers:
+        assert group.beginning_execution(entity) is group.answer
+    group.answer = True
+    assert group.beginning_execution(entity=entity) is True
+    bound = group.beginning_execution
+    assert bound(entity) is True
+    assert told() == [
+        ('begin' if answer else 'refused', number) for answer in [*answers, True, True]
+    ]
+    assert recorder.loss_count == 0
+
+
+def test_wrapper_looks_like_what_it_wraps(group_class: Any) -> None:
+    method = group_class.beginning_execution
+    assert (method.__name__, method.__doc__) == (
+        'beginning_execution',
+        'Say whether it may begin.',
+    )
+    assert list(inspect.signature(method).parameters) == ['self', 'entity']
+    assert method.__wrapped__.__code__.co_name == 'beginning_execution'
+    assert group_class().beginning_execution.__self__.__class__ is group_class
+
+
+def test_error_of_a_group_is_its_own(recorder: Recorder, group_class: Any, told: Told) -> None:
+    group = group_class()
+    group.answer = ValueError('none of ours')
+    with pytest.raises(ValueError, match='none of ours') as caught:
+        group.beginning_execution(Entity(group))
+    assert caught.value is group.answer
+    with pytest.raises(TypeError):
+        group.beginning_execution()
+    with pytest.raises(TypeError):
+        group.beginning_execution(Entity(group), 1)
+    assert (told(), recorder.loss_count) == ([], 0)
+
+
+def test_entity_not_met_before_is_recorded(
+    recorder: Recorder, group_class: Any, told: Told
+) -> None:
+    group = group_class()
+    entity = Entity(group)
+    group.beginning_execution(entity)
+    (record,) = recorder.all_entities
+    assert record.ref() is entity
+    assert told() == [('begin', record.number)]
+
+
+def test_subclass_that_asks_its_base_is_reported_once(
+    recorder: Recorder, group_class: Any, told: Told
+) -> None:
+    class Careful(group_class):  # type: ignore[misc]
+        def beginning_execution(self, entity: Any) -> Any:
+            return not super().beginning_execution(entity)
+
+    class Plain(group_class):  # type: ignore[misc]
+        """Has no method of its own."""
+
+    wrap(recorder, Careful)
+    careful, plain = Careful(), Plain()
+    mine, yours = Entity(careful), Entity(plain)
+    assert careful.beginning_execution(mine) is False
+    assert plain.beginning_execution(yours) is True
+    numbers = [record.number for record in recorder.all_entities]
+    assert told() == [('refused', numbers[0]), ('begin', numbers[1])]
+
+
+@pytest.mark.parametrize('record', [Broken(), SimpleNamespace(number='one'), None])
+def test_failure_of_ours_is_counted_and_changes_nothing(
+    record: Any, recorder: Recorder, group_class: Any, told: Told
+) -> None:
+    group = group_class()
+    entity = Entity(group)
+    recorder.entities[id(entity)] = record
+    assert group.beginning_execution(entity) is True
+    assert (told(), recorder.loss_count) == ([], 1)
+
+
+def test_ctrl_c_within_our_own_steps_is_not_swallowed(
+    recorder: Recorder, group_class: Any
+) -> None:
+    class Interrupted:
+        @property
+        def number(self) -> int:
+            raise KeyboardInterrupt
+
+    group = group_class()
+    entity = Entity(group)
+    recorder.entities[id(entity)] = Interrupted()  # type: ignore[assignment]
+    with pytest.raises(KeyboardInterrupt):
+        group.beginning_execution(entity)
+    assert recorder.loss_count == 0
+
+
+class Handler:
+    """A task as rclpy makes one: runs once, lets go of its handler when it is done."""
+
+    def __init__(self, handler: Any, taken: Any = None) -> None:
+        self._handler = handler
+        self._taken = taken
+        self._done = False
+
+    def executing(self) -> bool:
+        return False
+
+    def done(self) -> bool:
+        return self._done
+
+    def __call__(self) -> Any:
+        try:
+            if inspect.iscoroutine(self._handler):
+                try:
+                    return self._handler.send(None)
+                except StopIteration:
+                    self._done, self._handler = True, None
+                    return None
+            result = self._handler()
+            self._done, self._handler = True, None
+            return result
+        except ZeroDivisionError:
+            self._done, self._handler = True, None
+            raise
+
+
+@pytest.fixture
+def replaced() -> Iterator[Callable[[type, str, Any], None]]:
+    """Replace attributes of classes, until the test has ended."""
+    kept: list[tuple[type, str, Any]] = []
+
+    def replace(owner: type, name: str, value: Any) -> None:
+        kept.append((owner, name, owner.__dict__.get(name)))
+        setattr(owner, name, value)
+
+    yield replace
+    for owner, name, value in reversed(kept):
+        delattr(owner, name) if value is None else setattr(owner, name, value)
+
+
+class Executor:
+    """Makes handlers as rclpy's executor does."""
+
+    def _make_handler(self, entity: Any, node: Any, take: Any, *more: Any) -> Handler:
+        if entity is None:
+            raise ValueError('no entity')
+        return Handler(lambda: (take(entity), more))
+
+
+def test_collecting_and_taking_are_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
+    trace_runs(recorder, Handler, replaced)
+    trace_takes(recorder, Executor, replaced)
+    entity = Entity()
+    task = Executor()._make_handler(entity, 'node', lambda each: ('data of', each), 1, 2)
+    (record,) = recorder.all_entities
+    assert task._ros2cc_record is record  # type: ignore[attr-defined]
+    assert told() == [('collect', record.number)]
+    assert task() == (('data of', entity), (1, 2))
+    assert told() == [('take', record.number)]
+    assert recorder.loss_count == 0
+
+
+def test_error_of_a_take_is_not_told_as_one(recorder: Recorder, told: Told, replaced: Any) -> None:
+    trace_runs(recorder, Handler, replaced)
+    trace_takes(recorder, Executor, replaced)
+    task = Executor()._make_handler(Entity(), 'node', lambda _: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        task()
+    with pytest.raises(ValueError, match='no entity'):
+        Executor()._make_handler(None, 'node', lambda _: 1)
+    with pytest.raises(TypeError):
+        Executor()._make_handler(Entity())  # type: ignore[call-arg]
+    assert [name for name, _ in told()] == ['collect']
+
+
+def test_take_of_an_unknown_record_is_left_alone(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    trace_takes(recorder, Executor, replaced)
+    entity = Entity()
+    recorder.entities[id(entity)] = Broken()  # type: ignore[assignment]
+    task = Executor()._make_handler(entity, 'node', lambda _: 'data')
+    assert task() == ('data', ())
+    assert (told(), recorder.loss_count) == ([], 1)
+
+
+def test_nothing_of_a_task_outlives_it(recorder: Recorder, replaced: Any) -> None:
+    trace_takes(recorder, Executor, replaced)
+    executor, entity = Executor(), Entity()
+    task: Any = executor._make_handler(entity, 'node', executor.__repr__)
+    executor.tasks = [task]  # type: ignore[attr-defined]
+    gone = weakref.ref(executor), weakref.ref(task)
+    del executor, task
+    gc.collect()
+    assert [each() for each in gone] == [None, None]
+
+
+def test_task_is_reported_when_it_is_first_handed_over(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    trace_runs(recorder, Handler, replaced)
+    trace_takes(recorder, Executor, replaced)
+    task = Executor()._make_handler(Entity(), 'node', lambda _: 'data')
+    with ThreadPoolExecutor(1) as pool:
+        trace_submits(recorder, SimpleNamespace(_executor=pool))
+        assert pool.submit(task).result() == ('data', ())
+        assert pool.submit(divmod, 7, 2).result() == (3, 1)
+        assert pool.submit(dict, a=1).result() == {'a': 1}
+        with pytest.raises(TypeError):
+            pool.submit()
+    assert [name for name, _ in told()] == ['collect', 'submit', 'take']
+    with pytest.raises(RuntimeError):
+        pool.submit(task)
+    assert recorder.loss_count == 0
+
+
+def test_pool_is_not_kept_alive(recorder: Recorder) -> None:
+    pool = ThreadPoolExecutor(1)
+    trace_submits(recorder, SimpleNamespace(_executor=pool))
+    gone = weakref.ref(pool)
+    del pool
+    gc.collect()
+    assert gone() is None
+
+
+class Pause:
+    """Awaited, gives its thread back once."""
+
+    def __await__(self) -> Iterator[None]:
+        yield
+
+
+def test_coroutine_that_pauses_and_goes_on_is_reported(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    trace_runs(recorder, Handler, replaced)
+    trace_takes(recorder, Executor, replaced)
+
+    async def wait_twice() -> None:
+        await Pause()
+        await Pause()
+
+    task = Executor()._make_handler(Entity(), 'node', None)
+    task._handler = wait_twice()
+    for _ in range(3):
+        task()
+    assert [name for name, _ in told()] == [
+        'collect',
+        'suspend',
+        'resume',
+        'suspend',
+        'resume',
+    ]
+    assert task.done()
+
+
+def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
+    def work() -> str:
+        return 'worked'
+
+    trace_runs(recorder, Handler, replaced)
+    early, late = Handler(work), Handler(work)
+    assert early() == 'worked'
+    record = recorder.note_task(Entity(), 'task', work)
+    assert record is not None
+    mark_task(recorder, early, record)
+    mark_task(recorder, late, record)
+    assert late() == 'worked'
+    assert [name for name, _ in told()] == ['task', 'run', 'pause'] * 2
+
+
+class WaitSet:
+    """Gives what it was given."""
+
+    def wait(self, timeout: Any) -> Any:
+        if timeout is None:
+            raise OSError('interrupted')
+        return timeout
+
+
+class Waiting:
+    """An executor that waits in a generator, as rclpy's do."""
+
+    def _wait_for_ready_callbacks(self, timeout: Any) -> Iterator[Any]:
+        yield WaitSet().wait(timeout)
+
+    def wait_for_ready_callbacks(self, timeout: Any) -> Any:
+        return next(self._wait_for_ready_callbacks(timeout))
+
+
+RCLPY = SimpleNamespace(Executor=Waiting, _rclpy=SimpleNamespace(WaitSet=WaitSet))
+
+
+@pytest.mark.parametrize('only', [False, True])
+def test_waits_of_executors_are_reported(
+    only: bool, recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    trace_waits(recorder, RCLPY, replaced)
+    recorder.sees_every_executor = only
+    executor = Waiting()
+    number = recorder.note_executor(executor).number
+    assert (recorder.only_executor is not None) == only
+    assert executor.wait_for_ready_callbacks(5) == 5
+    assert told() == [('wait>', number), ('wait<', number)]
+    with pytest.raises(OSError, match='interrupted'):
+        executor.wait_for_ready_callbacks(None)
+    assert told() == [('wait>', number), ('wait<', number)]
+    assert recorder.loss_count == 0
+
+
+def test_other_waits_are_none_of_ours(recorder: Recorder, told: Told, replaced: Any) -> None:
+    trace_waits(recorder, RCLPY, replaced)
+    assert WaitSet().wait(1) == 1
+    assert Waiting().wait_for_ready_callbacks(2) == 2
+    assert (told(), recorder.loss_count) == ([], 0)
+
+
+def test_wait_of_a_broken_record_is_counted(recorder: Recorder, replaced: Any) -> None:
+    trace_waits(recorder, RCLPY, replaced)
+    executor = Waiting()
+    recorder.executors[id(executor)] = Broken()  # type: ignore[assignment]
+    assert executor.wait_for_ready_callbacks(5) == 5
+    assert recorder.loss_count
+
+
+def test_end_of_a_group_is_one_whatever_it_gives(recorder: Recorder, told: Told) -> None:
+    class Group:
+        def ending_execution(self, entity: Any) -> None:
+            """Free the group."""
+
+    Group.ending_execution = reporting(recorder, Group, 'ending_execution', END, END)  # type: ignore[method-assign]
+    group = Group()
+    group.ending_execution(Entity(group))
+    assert [name for name, _ in told()] == ['end']
