@@ -3,7 +3,7 @@ What the live hook costs: one load without it, with it, and with a trace.
 
     python benchmarks/hook.py                     CPU time and latency, 2.5 minutes
     python benchmarks/hook.py --processes 5       the same from processes of their own, 4 minutes
-    python benchmarks/hook.py --memory 10         memory over ten minutes
+    python benchmarks/hook.py --memory 10         memory over ten minutes; twice that for each kind
 
 The interpreter with rclpy is that of ``ROS2CC_RCLPY_PYTHON``, else this one. The first form puts
 the hook on and off in slices of half a second within one process; what it costs is the median over
@@ -19,7 +19,6 @@ import contextlib
 import json
 import math
 import os
-import signal
 import statistics
 import subprocess
 import sys
@@ -35,8 +34,9 @@ WAYS = ('without', 'spec', 'trace')
 COSTS = {'cpu_us_per_callback': 'cost of CPU', 'latency_median_us': 'of latency'}
 PYTHON = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
 SAMPLE_EVERY_S = 5.0
-# The allocator takes what it needs in the first minute.
-WARM_UP_SHARE = 0.2
+# Of the minutes of a measurement; in the first fifth the allocator takes what it needs.
+SHOWN_SHARES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+WARM_UP_S = 5.0
 Result = Mapping[str, float]
 
 
@@ -157,36 +157,56 @@ print(f'{bare * 1e6:.2f} us without, {hooked * 1e6:.2f} us with the hook, '
 
 
 def measure_memory(kind: str, minutes: float) -> None:
-    """Print how the memory of three processes of ``minutes`` each, side by side, grows."""
-    until = time.monotonic() + 60 * minutes
-    samples: dict[str, list[tuple[float, float]]] = {way: [] for way in WAYS}
+    """Print how the memory of a process of ``minutes`` grows, each way on a core of its own."""
+    heads = ''.join(f'{share:>9.0%}' for share in SHOWN_SHARES)
+    print(f'\n{kind}-threaded     callbacks/s   RSS in KB at{heads} of {minutes:g} min', end='')
+    print(f'    slope after {SHOWN_SHARES[1]:.0%}')
+    cores = sorted(os.sched_getaffinity(0))
+    ways = list(WAYS)
+    while ways:
+        measure_memory_of(ways[: len(cores)], cores, kind, minutes)
+        ways = ways[len(cores) :]
+
+
+def measure_memory_of(
+    ways: Sequence[str], cores: Sequence[int], kind: str, minutes: float
+) -> None:
+    samples: dict[str, list[tuple[float, float]]] = {way: [] for way in ways}
     with contextlib.ExitStack() as stack:
-        pids = {way: stack.enter_context(_running(kind, 60 * minutes + 60, way)) for way in WAYS}
-        begun = time.monotonic()
-        while time.monotonic() < until:
+        loads = {
+            way: stack.enter_context(_running(kind, 60 * minutes + WARM_UP_S, way, core))
+            for way, core in zip(ways, cores, strict=False)
+        }
+        # What it needs at its start and at its end is no growth.
+        begun = time.monotonic() + WARM_UP_S
+        time.sleep(WARM_UP_S)
+        while (minute := (time.monotonic() - begun) / 60) < minutes:
+            for way, load in loads.items():
+                samples[way].append((minute, rss_kb(load.pid)))
             time.sleep(SAMPLE_EVERY_S)
-            for way, pid in pids.items():
-                samples[way].append(((time.monotonic() - begun) / 60, rss_kb(pid)))
-    print(f'\n{kind}-threaded        RSS begin      end (KB)    slope after a fifth of the time')
+        results = {way: json.loads(load.communicate()[0]) for way, load in loads.items()}
     for way, all_of_way in samples.items():
-        settled = [each for each in all_of_way if each[0] >= WARM_UP_SHARE * minutes]
-        minute, kb = zip(*settled, strict=True)
-        slope = statistics.linear_regression(minute, kb).slope
-        print(f'{way:<17}{kb[0]:12.0f}{kb[-1]:12.0f}{slope:+17.1f} KB per minute')
+        settled = [each for each in all_of_way if each[0] >= SHOWN_SHARES[1] * minutes]
+        slope = statistics.linear_regression(*zip(*settled, strict=True)).slope
+        shown = (all_of_way[round(share * (len(all_of_way) - 1))][1] for share in SHOWN_SHARES)
+        cells = ''.join(f'{kb:9.0f}' for kb in shown)
+        rate = results[way]['callbacks_per_s']
+        print(f'{way:<17}{rate:13.0f}{"":15}{cells}{slope:+26.2f} KB per minute', flush=True)
 
 
 @contextlib.contextmanager
-def _running(kind: str, seconds: float, way: str) -> Iterator[int]:
+def _running(kind: str, seconds: float, way: str, core: int) -> Iterator[subprocess.Popen[bytes]]:
     with tempfile.TemporaryDirectory() as folder:
         load = subprocess.Popen(
             [PYTHON, str(HERE / 'hook_load.py'), kind, str(seconds)],
             env=environment_of(way, folder),
-            stdout=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            preexec_fn=lambda: os.sched_setaffinity(0, {core}),
         )
         try:
-            yield load.pid
+            yield load
         finally:
-            load.send_signal(signal.SIGKILL)
+            load.kill()
             load.wait()
 
 
