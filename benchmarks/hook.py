@@ -31,7 +31,11 @@ from ros2cc_extract.extract.live.environment import hooked_environment
 
 HERE = Path(__file__).resolve().parent
 WAYS = ('without', 'spec', 'trace')
-COSTS = {'cpu_us_per_callback': 'cost of CPU', 'latency_median_us': 'of latency'}
+COSTS = {
+    'cpu_us_per_callback': 'cost of CPU',
+    'latency_median_us': 'of latency',
+    'latency_p99_us': 'of its p99',
+}
 PYTHON = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
 SAMPLE_EVERY_S = 5.0
 # Of the minutes of a measurement; in the first fifth the allocator takes what it needs.

@@ -76,7 +76,7 @@ def measure_slice(way: Switch, load: Load) -> dict[str, float] | None:
     received, cpu = load.received, cpu_s()
     time.sleep(SLICE_S)
     callbacks = 2 * (load.received - received)
-    latencies = list(load.latencies_ns)
+    latencies = sorted(load.latencies_ns)
     way.settle_accounts()
     spent = cpu_s() - cpu
     way.take_off()
@@ -85,6 +85,7 @@ def measure_slice(way: Switch, load: Load) -> dict[str, float] | None:
     return {
         'cpu_us_per_callback': spent / callbacks * 1e6,
         'latency_median_us': statistics.median(latencies) / 1e3,
+        'latency_p99_us': latencies[len(latencies) * 99 // 100] / 1e3,
     }
 
 

@@ -26,6 +26,8 @@ INTERVAL_S = 0.24
 # Writing mere counts takes at most this share of one processor, however much there is to write.
 LARGEST_SHARE = 0.02
 RETRY_S = 5.0
+# Long enough that a thread that waits for the interpreter gets it.
+PAUSE_S = 0.0001
 
 
 class Writer:
@@ -112,6 +114,8 @@ class Writer:
         while events := self._recorder.take_events():
             if self._trace is not None:
                 self._trace.write(events)
+            # Whoever has something to do would else wait for the last batch, or for 5 ms.
+            time.sleep(PAUSE_S)
 
     def _write(self, *, ended: bool) -> bool:
         with self._recorder.lock:
