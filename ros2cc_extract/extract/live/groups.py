@@ -14,6 +14,10 @@ from typing import Any
 from .journal import native
 from .record import Recorder
 
+# Of types whose objects become methods of the instance that they are found on, as functions do:
+# Py_TPFLAGS_METHOD_DESCRIPTOR.
+_BINDS = 1 << 17
+
 
 def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: int) -> Any:
     """
@@ -22,13 +26,16 @@ def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: 
     A subclass that calls its base is reported once, by its own wrapper.
 
     :param what: the event when the method gives true, else it is ``otherwise``.
+    :raises TypeError: when it is something else than a function, which would be called otherwise.
     """
     original = group.__dict__[name]
+    if not type(original).__flags__ & _BINDS:
+        raise TypeError(f'{group.__qualname__}.{name} is no function')
     if native is None:
         return _plain(recorder, group, name, what, otherwise)
     journal, find, lose = recorder.journal, recorder.note_entity, recorder.lose
     method = native.group_method(
-        original, group, what, otherwise, journal, recorder.entities, find, lose
+        original, (group, name), what, otherwise, journal, recorder.entities, find, lose
     )
     return functools.update_wrapper(method, original)
 
@@ -39,14 +46,15 @@ def _plain(recorder: Recorder, group: type, name: str, what: int, otherwise: int
     note, lose = recorder.journal.note, recorder.lose
 
     @functools.wraps(original)
-    def method(self: Any, entity: Any) -> Any:
-        result = original(self, entity)
+    def method(*args: Any, **named: Any) -> Any:
+        result = original(*args, **named)
         try:
-            if type(self) is group or getattr(type(self), name) is method:
+            asked, entity = args[0], args[1] if len(args) > 1 else named['entity']
+            if type(asked) is group or getattr(type(asked), name) is method:
                 try:
                     record = entities[id(entity)]
                 except KeyError:
-                    record = find(self, entity)
+                    record = find(asked, entity)
                 note(what if result else otherwise, record.number)
         except Exception as error:
             lose(error)

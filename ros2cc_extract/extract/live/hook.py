@@ -188,8 +188,12 @@ class Hook:
             ('ending_execution', END, END),
         ):
             if name in group.__dict__:
-                wrapper = reporting(self.recorder, group, name, what, otherwise)
-                self._set(group, name, wrapper)
+                try:
+                    wrapper = reporting(self.recorder, group, name, what, otherwise)
+                except TypeError as error:
+                    self.recorder.lose(error)
+                else:
+                    self._set(group, name, wrapper)
 
     def _after_fork(self) -> None:
         try:

@@ -18,6 +18,8 @@ from typing import Any, Protocol
 from .events import pack
 
 NATIVE_VARIABLE = 'ROS2CC_LIVE_NATIVE'
+# Of what is called in native/journal.c.
+_REVISION = 2
 
 
 class Journal(Protocol):
@@ -67,7 +69,8 @@ def _load_native() -> Any:
         from . import _journal  # type: ignore[attr-defined]
     except ImportError:
         return None
-    return _journal
+    # Where the tool is used in place, what was built of an older text of it stays there.
+    return _journal if getattr(_journal, 'REVISION', 1) == _REVISION else None
 
 
 native = _load_native()

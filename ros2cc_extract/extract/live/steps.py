@@ -77,22 +77,25 @@ def trace_waits(recorder: Recorder, executors: Any, replace: Replace) -> None:
 def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any:
     note, lose = recorder.journal.note, recorder.lose
 
-    def traced_wait(wait_set: Any, *args: Any) -> Any:
-        record = None
+    def traced_wait(*args: Any, **named: Any) -> Any:
+        told = None
         try:
             caller = sys._getframe(1)
+            record = None
             if caller.f_code is lap:
                 record = recorder.only_executor or asker(caller)
             if record is not None:
-                note(WAIT, record.number)
+                number = record.number
+                note(WAIT, number)
+                told = number
         except Exception as error:
             lose(error)
         try:
-            return wait(wait_set, *args)
+            return wait(*args, **named)
         finally:
             try:
-                if record is not None:
-                    note(WOKEN, record.number)
+                if told is not None:
+                    note(WOKEN, told)
             except Exception as error:
                 lose(error)
 
@@ -123,15 +126,16 @@ def _plain_make_handler(recorder: Recorder, original: Any) -> Any:
     entities, find = recorder.entities, recorder.note_entity
     note, lose = recorder.journal.note, recorder.lose
 
-    def make_handler(executor: Any, entity: Any, node: Any, take: Any, *more: Any) -> Any:
+    def make_handler(*args: Any, **named: Any) -> Any:
         record, number = None, None
         try:
+            executor, entity, node, take, *more = args
             record = entities.get(id(entity)) or find(entity.callback_group, entity)
             number = record.number
         except Exception as error:
             lose(error)
         if number is None:
-            return original(executor, entity, node, take, *more)
+            return original(*args, **named)
 
         def traced_take(taken: Any) -> Any:
             data = take(taken)
@@ -141,7 +145,7 @@ def _plain_make_handler(recorder: Recorder, original: Any) -> Any:
                 lose(error)
             return data
 
-        task = original(executor, entity, node, traced_take, *more)
+        task = original(executor, entity, node, traced_take, *more, **named)
         try:
             task._ros2cc_record = record
             note(COLLECT, number)

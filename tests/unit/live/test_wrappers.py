@@ -6,19 +6,21 @@ The stand-ins have the shapes of rclpy's classes; the tests of ``tests/live`` wr
 
 from __future__ import annotations
 
+import copy
 import gc
 import inspect
+import pickle
 import weakref
-from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live import groups, journal, steps
-from ros2cc_extract.extract.live.events import BEGIN, END, EVENT_NAMES, REFUSED, rows
+from ros2cc_extract.extract.live.events import END
 from ros2cc_extract.extract.live.groups import reporting
+from ros2cc_extract.extract.live.hook import Hook
 from ros2cc_extract.extract.live.record import Recorder
 from ros2cc_extract.extract.live.steps import (
     mark_task,
@@ -27,65 +29,18 @@ from ros2cc_extract.extract.live.steps import (
     trace_takes,
     trace_waits,
 )
-
-Told = Callable[[], list[tuple[str, int]]]
-
-
-class Entities:
-    """A group of theirs."""
-
-
-class Entity:
-    """As much of an entity as is looked at."""
-
-    callback: Any = None
-
-    def __init__(self, group: Any = None) -> None:
-        self.callback_group = group or Entities()
-
-
-class Broken:
-    """A record without a number."""
-
-
-@pytest.fixture(params=['plain', 'native'])
-def recorder(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Recorder:
-    """Give a recorder whose wrappers are in Python or in C."""
-    if request.param == 'plain':
-        for module in (groups, journal, steps):
-            monkeypatch.setattr(module, 'native', None)
-    return Recorder(traced=True)
-
-
-@pytest.fixture
-def told(recorder: Recorder) -> Told:
-    def tell() -> list[tuple[str, int]]:
-        fields = (fields for fields, _ in rows(recorder.take_events()))
-        return [(EVENT_NAMES[what], number) for _, _, what, number in fields]
-
-    return tell
-
-
-@pytest.fixture
-def group_class(recorder: Recorder) -> type:
-    class Group:
-        """A callback group."""
-
-        answer: Any = True
-
-        def beginning_execution(self, entity: Any) -> Any:
-            """Say whether it may begin."""
-            if isinstance(self.answer, BaseException):
-                raise self.answer
-            return self.answer
-
-    wrap(recorder, Group)
-    return Group
-
-
-def wrap(recorder: Recorder, group: Any) -> None:
-    name = 'beginning_execution'
-    setattr(group, name, reporting(recorder, group, name, BEGIN, REFUSED))
+from tests.unit.live.stand_ins import (
+    RCLPY,
+    Broken,
+    Entity,
+    Executor,
+    Handler,
+    Pause,
+    Told,
+    Waiting,
+    WaitSet,
+    wrap,
+)
 
 
 def test_group_is_reported_and_its_answer_given_back(
@@ -116,6 +71,71 @@ def test_wrapper_looks_like_what_it_wraps(group_class: Any) -> None:
     assert list(inspect.signature(method).parameters) == ['self', 'entity']
     assert method.__wrapped__.__code__.co_name == 'beginning_execution'
     assert group_class().beginning_execution.__self__.__class__ is group_class
+    assert list(inspect.signature(group_class().beginning_execution).parameters) == ['entity']
+    assert repr(method).startswith(f'<function {method.__qualname__} at 0x')
+    assert inspect.isroutine(method)
+    assert callable(method)
+
+
+def test_wrapper_is_referred_to_copied_and_pickled_as_a_function(group_class: Any) -> None:
+    group, method = group_class(), group_class.beginning_execution
+    bound = weakref.WeakMethod(group.beginning_execution)
+    assert bound() == group.beginning_execution
+    assert copy.deepcopy(method) is copy.copy(method) is method
+    globals()['Group'] = group_class
+    method.__module__, method.__qualname__ = __name__, 'Group.beginning_execution'
+    try:
+        assert pickle.loads(pickle.dumps(method)) is method
+    finally:
+        del globals()['Group']
+    gone = weakref.ref(method)
+    del group_class.beginning_execution, method, group
+    gc.collect()
+    assert gone() is None
+
+
+def test_method_of_another_name_is_found_in_a_subclass(recorder: Recorder, told: Told) -> None:
+    def answer(self: Any, entity: Any) -> bool:
+        return True
+
+    class Group:
+        beginning_execution = answer
+
+    class Derived(Group):
+        """Has no method of its own."""
+
+    wrap(recorder, Group)
+    assert Derived().beginning_execution(Entity())
+    assert [name for name, _ in told()] == ['begin']
+    assert recorder.loss_count == 0
+
+
+def test_group_may_ask_for_more_than_an_entity(recorder: Recorder, told: Told) -> None:
+    class Group:
+        def beginning_execution(self, item: Any, weight: int = 0) -> int:
+            return weight
+
+    wrap(recorder, Group)
+    group = Group()
+    assert group.beginning_execution(Entity(), 2) == 2
+    assert group.beginning_execution(Entity(), weight=0) == 0
+    assert [name for name, _ in told()] == ['begin', 'refused']
+    assert recorder.loss_count == 0
+    # Nothing says that this is the entity, so it is counted and the group is asked all the same.
+    assert group.beginning_execution(item=Entity()) == 0
+    assert Group.beginning_execution(self=group, item=Entity()) == 0  # type: ignore[call-arg]
+    assert (told(), recorder.loss_count) == ([], 2)
+
+
+@pytest.mark.parametrize('method', [staticmethod(bool), classmethod(bool), partial(bool, 1), len])
+def test_what_would_be_called_otherwise_is_no_function(recorder: Recorder, method: Any) -> None:
+    Group = type('Group', (), {'beginning_execution': method})  # noqa: N806
+    with pytest.raises(TypeError, match='is no function'):
+        wrap(recorder, Group)
+    hook = Hook('unused')
+    hook._wrap_group(Group)
+    assert hook.recorder.loss_count == 1
+    assert vars(Group)['beginning_execution'] is method
 
 
 def test_error_of_a_group_is_its_own(recorder: Recorder, group_class: Any, told: Told) -> None:
@@ -140,6 +160,16 @@ def test_entity_not_met_before_is_recorded(
     (record,) = recorder.all_entities
     assert record.ref() is entity
     assert told() == [('begin', record.number)]
+
+
+def test_two_hooks_are_both_told(recorder: Recorder, group_class: Any, told: Told) -> None:
+    other = Recorder()
+    wrap(other, group_class)
+    group = group_class()
+    group.beginning_execution(Entity(group))
+    assert [name for name, _ in told()] == ['begin']
+    assert len(other.journal) == 1
+    assert (recorder.loss_count, other.loss_count) == (0, 0)
 
 
 def test_subclass_that_asks_its_base_is_reported_once(
@@ -186,59 +216,6 @@ def test_ctrl_c_within_our_own_steps_is_not_swallowed(
     with pytest.raises(KeyboardInterrupt):
         group.beginning_execution(entity)
     assert recorder.loss_count == 0
-
-
-class Handler:
-    """A task as rclpy makes one: runs once, lets go of its handler when it is done."""
-
-    def __init__(self, handler: Any, taken: Any = None) -> None:
-        self._handler = handler
-        self._taken = taken
-        self._done = False
-
-    def executing(self) -> bool:
-        return False
-
-    def done(self) -> bool:
-        return self._done
-
-    def __call__(self) -> Any:
-        try:
-            if inspect.iscoroutine(self._handler):
-                try:
-                    return self._handler.send(None)
-                except StopIteration:
-                    self._done, self._handler = True, None
-                    return None
-            result = self._handler()
-            self._done, self._handler = True, None
-            return result
-        except ZeroDivisionError:
-            self._done, self._handler = True, None
-            raise
-
-
-@pytest.fixture
-def replaced() -> Iterator[Callable[[type, str, Any], None]]:
-    """Replace attributes of classes, until the test has ended."""
-    kept: list[tuple[type, str, Any]] = []
-
-    def replace(owner: type, name: str, value: Any) -> None:
-        kept.append((owner, name, owner.__dict__.get(name)))
-        setattr(owner, name, value)
-
-    yield replace
-    for owner, name, value in reversed(kept):
-        delattr(owner, name) if value is None else setattr(owner, name, value)
-
-
-class Executor:
-    """Makes handlers as rclpy's executor does."""
-
-    def _make_handler(self, entity: Any, node: Any, take: Any, *more: Any) -> Handler:
-        if entity is None:
-            raise ValueError('no entity')
-        return Handler(lambda: (take(entity), more))
 
 
 def test_collecting_and_taking_are_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
@@ -317,13 +294,6 @@ def test_pool_is_not_kept_alive(recorder: Recorder) -> None:
     assert gone() is None
 
 
-class Pause:
-    """Awaited, gives its thread back once."""
-
-    def __await__(self) -> Iterator[None]:
-        yield
-
-
 def test_coroutine_that_pauses_and_goes_on_is_reported(
     recorder: Recorder, told: Told, replaced: Any
 ) -> None:
@@ -361,28 +331,6 @@ def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replace
     mark_task(recorder, late, record)
     assert late() == 'worked'
     assert [name for name, _ in told()] == ['task', 'run', 'pause'] * 2
-
-
-class WaitSet:
-    """Gives what it was given."""
-
-    def wait(self, timeout: Any) -> Any:
-        if timeout is None:
-            raise OSError('interrupted')
-        return timeout
-
-
-class Waiting:
-    """An executor that waits in a generator, as rclpy's do."""
-
-    def _wait_for_ready_callbacks(self, timeout: Any) -> Iterator[Any]:
-        yield WaitSet().wait(timeout)
-
-    def wait_for_ready_callbacks(self, timeout: Any) -> Any:
-        return next(self._wait_for_ready_callbacks(timeout))
-
-
-RCLPY = SimpleNamespace(Executor=Waiting, _rclpy=SimpleNamespace(WaitSet=WaitSet))
 
 
 @pytest.mark.parametrize('only', [False, True])

@@ -10,6 +10,8 @@
 #include <Python.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #ifdef Py_GIL_DISABLED
@@ -24,45 +26,30 @@ typedef struct {
     uint32_t number;
 } Event;
 
-enum { FIRST_CAPACITY = 1024, MOST_ARGUMENTS = 16 };
+/* REVISION: counted up, also in journal.py, when what Python calls here changes. */
+enum { REVISION = 2, MOST_ARGUMENTS = 16 };
 
 static PyObject *str_number, *str_callback_group, *str_only_executor, *str_handler, *str_record,
-    *str_submitted, *str_suspended;
+    *str_submitted, *str_suspended, *str_qualname;
 
 /* ---- Journal: the steps that the hook's thread has not taken yet ---- */
 
+/* A ring for all that may be kept; of its memory the system gives what was ever in use. */
 typedef struct {
     PyObject_HEAD
     Event *events;
-    size_t capacity, first, count, kept;
+    size_t kept, first, count;
 } Journal;
 
 static PyTypeObject JournalType;
 
-static void grow(Journal *self) {
-    size_t wanted = self->capacity ? 2 * self->capacity : FIRST_CAPACITY;
-    if (wanted > self->kept) wanted = self->kept;
-    Event *larger = malloc(wanted * sizeof(Event));
-    if (!larger) return;
-    for (size_t i = 0; i < self->count; i++) {
-        larger[i] = self->events[(self->first + i) % self->capacity];
-    }
-    free(self->events);
-    self->events = larger;
-    self->capacity = wanted;
-    self->first = 0;
-}
-
 /* The oldest step makes room when as many are kept as may be. */
 static void put(Journal *self, Event event) {
-    if (self->count == self->capacity && self->capacity < self->kept) grow(self);
-    if (self->capacity == 0) return;
-    if (self->count == self->capacity) {
-        self->first = (self->first + 1) % self->capacity;
+    if (self->count == self->kept) {
+        self->first = (self->first + 1) % self->kept;
         self->count--;
     }
-    size_t at = self->first + self->count++;
-    self->events[at < self->capacity ? at : at - self->capacity] = event;
+    self->events[(self->first + self->count++) % self->kept] = event;
 }
 
 static void note(Journal *self, uint32_t what, uint32_t number) {
@@ -70,6 +57,12 @@ static void note(Journal *self, uint32_t what, uint32_t number) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     put(self, (Event){(int64_t)now.tv_sec * 1000000000 + now.tv_nsec,
                       PyThread_get_thread_ident(), what, number});
+}
+
+/* Forget the oldest steps. An empty ring begins anew, and so uses few pages of its memory. */
+static void forget(Journal *self, size_t count) {
+    self->count -= count;
+    self->first = self->count ? (self->first + count) % self->kept : 0;
 }
 
 static PyObject *journal_new(PyTypeObject *type, PyObject *args, PyObject *kwargs) {
@@ -80,14 +73,21 @@ static PyObject *journal_new(PyTypeObject *type, PyObject *args, PyObject *kwarg
         PyErr_SetString(PyExc_ValueError, "kept must be at least 1");
         return NULL;
     }
+    Event *events = calloc((size_t)kept, sizeof(Event));
+    if (!events) return PyErr_NoMemory();
     Journal *self = (Journal *)type->tp_alloc(type, 0);
-    if (self) self->kept = (size_t)kept;
+    if (!self) {
+        free(events);
+        return NULL;
+    }
+    self->events = events;
+    self->kept = (size_t)kept;
     return (PyObject *)self;
 }
 
-static void journal_dealloc(Journal *self) {
-    free(self->events);
-    Py_TYPE(self)->tp_free((PyObject *)self);
+static void journal_dealloc(PyObject *self) {
+    free(((Journal *)self)->events);
+    Py_TYPE(self)->tp_free(self);
 }
 
 static int small(PyObject *object, uint32_t *value) {
@@ -101,59 +101,63 @@ static int small(PyObject *object, uint32_t *value) {
     return 0;
 }
 
-static PyObject *journal_note(Journal *self, PyObject *const *args, Py_ssize_t count) {
+static PyObject *journal_note(PyObject *self, PyObject *const *args, Py_ssize_t count) {
     uint32_t what, number;
     if (count != 2) {
         PyErr_SetString(PyExc_TypeError, "note() takes what happened and whose number");
         return NULL;
     }
     if (small(args[0], &what) < 0 || small(args[1], &number) < 0) return NULL;
-    note(self, what, number);
+    note((Journal *)self, what, number);
     Py_RETURN_NONE;
 }
 
-static PyObject *journal_put(Journal *self, PyObject *args) {
-    long long clock_ns;
-    unsigned long long thread;
-    unsigned int what, number;
-    if (!PyArg_ParseTuple(args, "LKII", &clock_ns, &thread, &what, &number)) return NULL;
-    put(self, (Event){clock_ns, thread, what, number});
+static PyObject *journal_put(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    Event event;
+    if (count != 4) {
+        PyErr_SetString(PyExc_TypeError, "put() takes clock, thread, what and number");
+        return NULL;
+    }
+    event.clock_ns = PyLong_AsLongLong(args[0]);
+    if (event.clock_ns == -1 && PyErr_Occurred()) return NULL;
+    event.thread = PyLong_AsUnsignedLongLong(args[1]);
+    if (event.thread == (uint64_t)-1 && PyErr_Occurred()) return NULL;
+    if (small(args[2], &event.what) < 0 || small(args[3], &event.number) < 0) return NULL;
+    put((Journal *)self, event);
     Py_RETURN_NONE;
 }
 
-static PyObject *journal_take(Journal *self, PyObject *most_object) {
+static PyObject *journal_take(PyObject *object, PyObject *most_object) {
+    Journal *self = (Journal *)object;
     Py_ssize_t most = PyLong_AsSsize_t(most_object);
     if (most == -1 && PyErr_Occurred()) return NULL;
     size_t count = most < 0 ? 0 : (size_t)most < self->count ? (size_t)most : self->count;
     PyObject *taken = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)(count * sizeof(Event)));
-    /* Making it may have run other code that has taken steps itself. */
-    if (!taken) return NULL;
-    Event *to = (Event *)PyBytes_AS_STRING(taken);
-    if (count > self->count) {
-        Py_DECREF(taken);
-        return PyBytes_FromStringAndSize(NULL, 0);
-    }
-    for (size_t i = 0; i < count; i++) to[i] = self->events[(self->first + i) % self->capacity];
-    if (count) self->first = (self->first + count) % self->capacity;
-    self->count -= count;
+    if (!taken || !count) return taken;
+    size_t until_end = self->kept - self->first;
+    size_t at_once = count < until_end ? count : until_end;
+    char *to = PyBytes_AS_STRING(taken);
+    memcpy(to, self->events + self->first, at_once * sizeof(Event));
+    memcpy(to + at_once * sizeof(Event), self->events, (count - at_once) * sizeof(Event));
+    forget(self, count);
     return taken;
 }
 
-static PyObject *journal_clear(Journal *self, PyObject *Py_UNUSED(none)) {
-    self->first = self->count = 0;
+static PyObject *journal_clear(PyObject *self, PyObject *Py_UNUSED(none)) {
+    forget((Journal *)self, ((Journal *)self)->count);
     Py_RETURN_NONE;
 }
 
-static Py_ssize_t journal_length(Journal *self) { return (Py_ssize_t)self->count; }
+static Py_ssize_t journal_length(PyObject *self) { return (Py_ssize_t)((Journal *)self)->count; }
 
 static PyMethodDef journal_methods[] = {
     {"note", (PyCFunction)(void (*)(void))journal_note, METH_FASTCALL, NULL},
-    {"put", (PyCFunction)journal_put, METH_VARARGS, NULL},
-    {"take", (PyCFunction)journal_take, METH_O, NULL},
-    {"clear", (PyCFunction)journal_clear, METH_NOARGS, NULL},
-    {NULL}};
+    {"put", (PyCFunction)(void (*)(void))journal_put, METH_FASTCALL, NULL},
+    {"take", journal_take, METH_O, NULL},
+    {"clear", journal_clear, METH_NOARGS, NULL},
+    {NULL, NULL, 0, NULL}};
 
-static PySequenceMethods journal_as_sequence = {.sq_length = (lenfunc)journal_length};
+static PySequenceMethods journal_as_sequence = {.sq_length = journal_length};
 
 static PyTypeObject JournalType = {
     PyVarObject_HEAD_INIT(NULL, 0)
@@ -162,7 +166,7 @@ static PyTypeObject JournalType = {
     .tp_basicsize = sizeof(Journal),
     .tp_flags = Py_TPFLAGS_DEFAULT,
     .tp_new = journal_new,
-    .tp_dealloc = (destructor)journal_dealloc,
+    .tp_dealloc = journal_dealloc,
     .tp_methods = journal_methods,
     .tp_as_sequence = &journal_as_sequence,
 };
@@ -172,7 +176,7 @@ static PyTypeObject JournalType = {
 typedef struct {
     PyObject_HEAD
     vectorcallfunc call;
-    PyObject *original, *lose, *dict;
+    PyObject *original, *lose, *dict, *weak_references;
     Journal *journal;
     /* Of a take and of a group's method: what to note. */
     uint32_t what, otherwise, number;
@@ -182,7 +186,12 @@ typedef struct {
 
 static PyTypeObject WrapperType;
 
-static int wrapper_traverse(Wrapper *self, visitproc visit, void *arg) {
+/* There is no tp_clear: a wrapper may be called as long as anybody has it, also by what runs while
+ * the garbage collector takes a cycle apart. It is made with all that it refers to and none of it
+ * is put there later but its dictionary, so each of its cycles goes through something else that
+ * can be cleared. Tuples rely on the same. */
+static int wrapper_traverse(PyObject *object, visitproc visit, void *arg) {
+    Wrapper *self = (Wrapper *)object;
     Py_VISIT(self->original);
     Py_VISIT(self->lose);
     Py_VISIT(self->dict);
@@ -193,34 +202,47 @@ static int wrapper_traverse(Wrapper *self, visitproc visit, void *arg) {
     return 0;
 }
 
-static int wrapper_clear(Wrapper *self) {
-    Py_CLEAR(self->original);
-    Py_CLEAR(self->lose);
-    Py_CLEAR(self->dict);
-    Py_CLEAR(self->journal);
-    Py_CLEAR(self->first);
-    Py_CLEAR(self->second);
-    Py_CLEAR(self->third);
-    return 0;
-}
-
-static void wrapper_dealloc(Wrapper *self) {
-    PyObject_GC_UnTrack(self);
-    wrapper_clear(self);
-    Py_TYPE(self)->tp_free((PyObject *)self);
+static void wrapper_dealloc(PyObject *object) {
+    Wrapper *self = (Wrapper *)object;
+    PyObject_GC_UnTrack(object);
+    if (self->weak_references) PyObject_ClearWeakRefs(object);
+    Py_DECREF(self->original);
+    Py_DECREF(self->lose);
+    Py_XDECREF(self->dict);
+    Py_DECREF(self->journal);
+    Py_XDECREF(self->first);
+    Py_XDECREF(self->second);
+    Py_XDECREF(self->third);
+    Py_TYPE(object)->tp_free(object);
 }
 
 /* As a function does: found on an instance, it becomes a method of that. */
 static PyObject *wrapper_bind(PyObject *self, PyObject *instance, PyObject *Py_UNUSED(type)) {
-    if (!instance || instance == Py_None) {
-        Py_INCREF(self);
-        return self;
-    }
-    return PyMethod_New(self, instance);
+    return instance && instance != Py_None ? PyMethod_New(self, instance) : Py_NewRef(self);
 }
 
+static PyObject *wrapper_repr(PyObject *self) {
+    PyObject *name = PyObject_GetAttr(self, str_qualname);
+    if (!name) {
+        PyErr_Clear();
+        return PyBaseObject_Type.tp_repr(self);
+    }
+    PyObject *text = PyUnicode_FromFormat("<function %S at %p>", name, (void *)self);
+    Py_DECREF(name);
+    return text;
+}
+
+/* Functions are pickled by their name, and are their own copies. */
+static PyObject *wrapper_reduce(PyObject *self, PyObject *Py_UNUSED(none)) {
+    return PyObject_GetAttr(self, str_qualname);
+}
+
+static PyMethodDef wrapper_methods[] = {{"__reduce__", wrapper_reduce, METH_NOARGS, NULL},
+                                        {NULL, NULL, 0, NULL}};
+
 static PyGetSetDef wrapper_attributes[] = {
-    {"__dict__", PyObject_GenericGetDict, PyObject_GenericSetDict, NULL, NULL}, {NULL}};
+    {"__dict__", PyObject_GenericGetDict, PyObject_GenericSetDict, NULL, NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
 
 static PyTypeObject WrapperType = {
     PyVarObject_HEAD_INIT(NULL, 0)
@@ -232,11 +254,13 @@ static PyTypeObject WrapperType = {
     .tp_vectorcall_offset = offsetof(Wrapper, call),
     .tp_call = PyVectorcall_Call,
     .tp_dictoffset = offsetof(Wrapper, dict),
+    .tp_weaklistoffset = offsetof(Wrapper, weak_references),
     .tp_descr_get = wrapper_bind,
+    .tp_repr = wrapper_repr,
+    .tp_methods = wrapper_methods,
     .tp_getset = wrapper_attributes,
-    .tp_traverse = (traverseproc)wrapper_traverse,
-    .tp_clear = (inquiry)wrapper_clear,
-    .tp_dealloc = (destructor)wrapper_dealloc,
+    .tp_traverse = wrapper_traverse,
+    .tp_dealloc = wrapper_dealloc,
 };
 
 static Wrapper *wrap(vectorcallfunc call, PyObject *original, PyObject *lose, Journal *journal,
@@ -246,7 +270,7 @@ static Wrapper *wrap(vectorcallfunc call, PyObject *original, PyObject *lose, Jo
     self->call = call;
     self->original = Py_NewRef(original);
     self->lose = Py_NewRef(lose);
-    self->dict = NULL;
+    self->dict = self->weak_references = NULL;
     self->journal = (Journal *)Py_NewRef((PyObject *)journal);
     self->what = self->otherwise = self->number = 0;
     self->first = Py_XNewRef(first);
@@ -256,18 +280,46 @@ static Wrapper *wrap(vectorcallfunc call, PyObject *original, PyObject *lose, Jo
     return self;
 }
 
-/* Count a failure of our own; -1 for what no hook may swallow, such as a Ctrl-C. */
-static int swallow(Wrapper *self) {
-    if (!PyErr_ExceptionMatches(PyExc_Exception)) return -1;
+/* Take the exception that is set, and set it again. */
+#if PY_VERSION_HEX < 0x030C0000
+static PyObject *take_error(void) {
     PyObject *type, *error, *traceback;
     PyErr_Fetch(&type, &error, &traceback);
     PyErr_NormalizeException(&type, &error, &traceback);
-    PyObject *done = PyObject_CallOneArg(self->lose, error);
+    if (traceback) PyException_SetTraceback(error, traceback);
     Py_XDECREF(type);
-    Py_XDECREF(error);
     Py_XDECREF(traceback);
-    if (!done) return -1;
+    return error;
+}
+
+static void give_error(PyObject *error) {
+    PyErr_Restore(Py_NewRef((PyObject *)Py_TYPE(error)), error, PyException_GetTraceback(error));
+}
+#else
+#define take_error PyErr_GetRaisedException
+#define give_error PyErr_SetRaisedException
+#endif
+
+/* As what is raised while another exception is dealt with: it tells of that. */
+static void raise_during(PyObject *error) {
+    PyObject *newer = take_error(), *known = PyException_GetContext(newer);
+    if (!known && newer != error) PyException_SetContext(newer, Py_NewRef(error));
+    Py_XDECREF(known);
+    Py_DECREF(error);
+    give_error(newer);
+}
+
+/* Count a failure of our own; -1 for what no hook may swallow, such as a Ctrl-C. */
+static int swallow(Wrapper *self) {
+    if (!PyErr_ExceptionMatches(PyExc_Exception)) return -1;
+    PyObject *error = take_error();
+    PyObject *done = PyObject_CallOneArg(self->lose, error);
+    if (!done) {
+        raise_during(error);
+        return -1;
+    }
     Py_DECREF(done);
+    Py_DECREF(error);
     return 0;
 }
 
@@ -275,15 +327,6 @@ static int swallow(Wrapper *self) {
 static PyObject *after_all(Wrapper *self, PyObject *result) {
     if (swallow(self) < 0) Py_CLEAR(result);
     return result;
-}
-
-/* The record of an entity, from the recorder's dictionary by identity, else by its `find`. */
-static PyObject *record_of(PyObject *entities, PyObject *entity) {
-    PyObject *key = PyLong_FromVoidPtr(entity);
-    if (!key) return NULL;
-    PyObject *record = PyObject_GetItem(entities, key);
-    Py_DECREF(key);
-    return record;
 }
 
 static int number_of(PyObject *record, uint32_t *number) {
@@ -303,55 +346,80 @@ static int is_true(PyObject *object, PyObject *name) {
     return answer;
 }
 
+/* first: the recorder's entities by identity; second: its note_entity, for one that is not there.
+ * Of a group that is not given the entity knows. */
+static PyObject *record_of(Wrapper *self, PyObject *group, PyObject *entity) {
+    PyObject *key = PyLong_FromVoidPtr(entity);
+    if (!key) return NULL;
+    PyObject *record = Py_XNewRef(PyDict_GetItemWithError(self->first, key));
+    Py_DECREF(key);
+    if (record || PyErr_Occurred()) return record;
+    group = group ? Py_NewRef(group) : PyObject_GetAttr(entity, str_callback_group);
+    if (!group) return NULL;
+    record = PyObject_CallFunctionObjArgs(self->second, group, entity, NULL);
+    Py_DECREF(group);
+    return record;
+}
+
 /* ---- group_method: beginning_execution and ending_execution ---- */
 
-/* first: the recorder's entities; second: its note_entity; third: the class, whose wrapper counts. */
+/* third: the class that was wrapped, and the name of its method. */
 static int is_reported_by(Wrapper *self, PyObject *group) {
-    if ((PyObject *)Py_TYPE(group) == self->third) return 1;
-    PyObject *name = PyDict_GetItemString(self->dict, "__name__");
-    PyObject *found = name ? PyObject_GetAttr((PyObject *)Py_TYPE(group), name) : NULL;
+    PyObject *type = (PyObject *)Py_TYPE(group);
+    if (type == PyTuple_GET_ITEM(self->third, 0)) return 1;
+    PyObject *found = PyObject_GetAttr(type, PyTuple_GET_ITEM(self->third, 1));
     if (!found) return -1;
     Py_DECREF(found);
     return found == (PyObject *)self;
 }
 
-static int report_group(Wrapper *self, PyObject *group, PyObject *entity, uint32_t what) {
+/* The entity is what a group is asked about, by place or by name; borrowed. */
+static PyObject *asked_about(PyObject *const *args, Py_ssize_t given, PyObject *names) {
+    if (given > 1) return args[1];
+    for (Py_ssize_t i = 0; given && names && i < PyTuple_GET_SIZE(names); i++) {
+        PyObject *name = PyTuple_GET_ITEM(names, i);
+        if (PyUnicode_CompareWithASCIIString(name, "entity") == 0) return args[given + i];
+    }
+    PyErr_SetString(PyExc_KeyError, "entity");
+    return NULL;
+}
+
+static int report_group(Wrapper *self, PyObject *group, PyObject *entity, PyObject *result) {
     int reported = is_reported_by(self, group);
     if (reported < 1) return reported;
-    PyObject *record = record_of(self->first, entity);
-    if (!record && PyErr_ExceptionMatches(PyExc_KeyError)) {
-        PyErr_Clear();
-        record = PyObject_CallFunctionObjArgs(self->second, group, entity, NULL);
-    }
+    PyObject *record = record_of(self, group, entity);
+    if (!record) return -1;
     uint32_t number;
-    int done = record ? number_of(record, &number) : -1;
-    Py_XDECREF(record);
-    if (done == 0) note(self->journal, what, number);
+    int truth = PyObject_IsTrue(result);
+    int done = truth < 0 ? -1 : number_of(record, &number);
+    Py_DECREF(record);
+    if (done == 0) note(self->journal, truth ? self->what : self->otherwise, number);
     return done;
 }
 
-static PyObject *call_group_method(Wrapper *self, PyObject *const *args, size_t flags,
+static PyObject *call_group_method(PyObject *wrapper, PyObject *const *args, size_t flags,
                                    PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     PyObject *result = PyObject_Vectorcall(self->original, args, flags, names);
     if (!result) return NULL;
-    Py_ssize_t count = PyVectorcall_NARGS(flags) + (names ? PyTuple_GET_SIZE(names) : 0);
-    int truth = PyObject_IsTrue(result);
-    int done = truth < 0 || count != 2
-                   ? truth
-                   : report_group(self, args[0], args[1], truth ? self->what : self->otherwise);
-    return done < 0 ? after_all(self, result) : result;
+    PyObject *entity = asked_about(args, PyVectorcall_NARGS(flags), names);
+    if (entity && report_group(self, args[0], entity, result) == 0) return result;
+    return after_all(self, result);
 }
 
 static PyObject *group_method(PyObject *Py_UNUSED(module), PyObject *args) {
     PyObject *original, *owner, *entities, *find, *lose;
     Journal *journal;
     unsigned int what, otherwise;
-    if (!PyArg_ParseTuple(args, "OOIIO!OOO", &original, &owner, &what, &otherwise, &JournalType,
-                          &journal, &entities, &find, &lose)) {
+    if (!PyArg_ParseTuple(args, "OO!IIO!O!OO", &original, &PyTuple_Type, &owner, &what, &otherwise,
+                          &JournalType, &journal, &PyDict_Type, &entities, &find, &lose)) {
         return NULL;
     }
-    Wrapper *self = wrap((vectorcallfunc)call_group_method, original, lose, journal, entities,
-                         find, owner);
+    if (PyTuple_GET_SIZE(owner) != 2) {
+        PyErr_SetString(PyExc_ValueError, "owner must be a class and a name");
+        return NULL;
+    }
+    Wrapper *self = wrap(call_group_method, original, lose, journal, entities, find, owner);
     if (!self) return NULL;
     self->what = what;
     self->otherwise = otherwise;
@@ -382,7 +450,9 @@ static int begin_wait(Wrapper *self, uint32_t *number) {
     return done;
 }
 
-static PyObject *call_wait(Wrapper *self, PyObject *const *args, size_t flags, PyObject *names) {
+static PyObject *call_wait(PyObject *wrapper, PyObject *const *args, size_t flags,
+                           PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     uint32_t number = 0;
     int known = begin_wait(self, &number);
     if (known < 0 && swallow(self) < 0) return NULL;
@@ -400,7 +470,7 @@ static PyObject *wait_method(PyObject *Py_UNUSED(module), PyObject *args) {
                           &recorder, &lap, &asker, &lose)) {
         return NULL;
     }
-    Wrapper *self = wrap((vectorcallfunc)call_wait, original, lose, journal, recorder, lap, asker);
+    Wrapper *self = wrap(call_wait, original, lose, journal, recorder, lap, asker);
     if (!self) return NULL;
     self->what = begin;
     self->otherwise = end;
@@ -409,62 +479,53 @@ static PyObject *wait_method(PyObject *Py_UNUSED(module), PyObject *args) {
 
 /* ---- make_handler: Executor._make_handler, and the take of what it makes ---- */
 
-static PyObject *call_take(Wrapper *self, PyObject *const *args, size_t flags, PyObject *names) {
+static PyObject *call_take(PyObject *wrapper, PyObject *const *args, size_t flags,
+                           PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     PyObject *result = PyObject_Vectorcall(self->original, args, flags, names);
     if (result) note(self->journal, self->what, self->number);
     return result;
 }
 
-/* first: the recorder's entities; second: its note_entity. */
-static PyObject *record_of_ready(Wrapper *self, PyObject *entity) {
-    PyObject *record = record_of(self->first, entity);
-    if (record || !PyErr_ExceptionMatches(PyExc_KeyError)) return record;
-    PyErr_Clear();
-    PyObject *group = PyObject_GetAttr(entity, str_callback_group);
-    if (!group) return NULL;
-    record = PyObject_CallFunctionObjArgs(self->second, group, entity, NULL);
-    Py_DECREF(group);
-    return record;
-}
-
-/* Take for take: the one that rclpy gave, in another that notes what it did. */
-static PyObject *make_traced(Wrapper *self, PyObject *record, uint32_t number,
-                             PyObject *const *args, size_t flags, PyObject *names) {
-    Py_ssize_t count = PyVectorcall_NARGS(flags) + (names ? PyTuple_GET_SIZE(names) : 0);
-    Wrapper *take = wrap((vectorcallfunc)call_take, args[3], self->lose, self->journal, NULL,
-                         NULL, NULL);
+/* The executor, an entity, its node and the take are given by place: a traced take for that. */
+static PyObject *traced_take(Wrapper *self, PyObject *const *args, Py_ssize_t given,
+                             Py_ssize_t count, PyObject **record) {
+    if (given < 4 || count > MOST_ARGUMENTS) {
+        PyErr_SetString(PyExc_ValueError, "a handler was asked for in a way not known");
+        return NULL;
+    }
+    uint32_t number;
+    *record = record_of(self, NULL, args[1]);
+    if (!*record || number_of(*record, &number) < 0) return NULL;
+    Wrapper *take = wrap(call_take, args[3], self->lose, self->journal, NULL, NULL, NULL);
     if (!take) return NULL;
     take->what = self->what;
     take->number = number;
-    PyObject *given[MOST_ARGUMENTS];
-    memcpy(given, args, (size_t)count * sizeof(PyObject *));
-    given[3] = (PyObject *)take;
-    PyObject *task =
-        PyObject_Vectorcall(self->original, given, (size_t)PyVectorcall_NARGS(flags), names);
-    Py_DECREF(take);
-    if (!task) return NULL;
-    if (PyObject_SetAttr(task, str_record, record) < 0) return after_all(self, task);
-    note(self->journal, self->otherwise, number);
-    return task;
+    return (PyObject *)take;
 }
 
-static PyObject *call_make_handler(Wrapper *self, PyObject *const *args, size_t flags,
+static PyObject *call_make_handler(PyObject *wrapper, PyObject *const *args, size_t flags,
                                    PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     Py_ssize_t given = PyVectorcall_NARGS(flags);
     Py_ssize_t count = given + (names ? PyTuple_GET_SIZE(names) : 0);
-    PyObject *record = NULL, *task;
-    uint32_t number = 0;
-    int known = 0;
-    if (given >= 4 && count <= MOST_ARGUMENTS) {
-        record = record_of_ready(self, args[1]);
-        known = record && number_of(record, &number) == 0;
-        if (!known && swallow(self) < 0) {
-            Py_XDECREF(record);
-            return NULL;
+    PyObject *changed[MOST_ARGUMENTS], *record = NULL, *task;
+    PyObject *take = traced_take(self, args, given, count, &record);
+    if (take) {
+        memcpy(changed, args, (size_t)count * sizeof(PyObject *));
+        changed[3] = take;
+        task = PyObject_Vectorcall(self->original, changed, (size_t)given, names);
+        if (task && PyObject_SetAttr(task, str_record, record) < 0) {
+            task = after_all(self, task);
+        } else if (task) {
+            note(self->journal, self->otherwise, ((Wrapper *)take)->number);
         }
+        Py_DECREF(take);
+    } else if (swallow(self) < 0) {
+        task = NULL;
+    } else {
+        task = PyObject_Vectorcall(self->original, args, flags, names);
     }
-    task = known ? make_traced(self, record, number, args, flags, names)
-                 : PyObject_Vectorcall(self->original, args, flags, names);
     Py_XDECREF(record);
     return task;
 }
@@ -473,12 +534,11 @@ static PyObject *make_handler(PyObject *Py_UNUSED(module), PyObject *args) {
     PyObject *original, *entities, *find, *lose;
     Journal *journal;
     unsigned int take, collect;
-    if (!PyArg_ParseTuple(args, "OIIO!OOO", &original, &take, &collect, &JournalType, &journal,
-                          &entities, &find, &lose)) {
+    if (!PyArg_ParseTuple(args, "OIIO!O!OO", &original, &take, &collect, &JournalType, &journal,
+                          &PyDict_Type, &entities, &find, &lose)) {
         return NULL;
     }
-    Wrapper *self = wrap((vectorcallfunc)call_make_handler, original, lose, journal, entities,
-                         find, NULL);
+    Wrapper *self = wrap(call_make_handler, original, lose, journal, entities, find, NULL);
     if (!self) return NULL;
     self->what = take;
     self->otherwise = collect;
@@ -488,6 +548,16 @@ static PyObject *make_handler(PyObject *Py_UNUSED(module), PyObject *args) {
 /* ---- submit: of a pool of threads, which is not kept alive ---- */
 
 /* first: a weak reference to the pool. */
+static int report_first_submit(Wrapper *self, PyObject *task, PyObject *record) {
+    uint32_t number;
+    int submitted = is_true(task, str_submitted);
+    if (submitted) return submitted;
+    if (PyObject_SetAttr(task, str_submitted, Py_True) < 0) return -1;
+    if (number_of(record, &number) < 0) return -1;
+    note(self->journal, self->what, number);
+    return 0;
+}
+
 static int report_submit(Wrapper *self, PyObject *task) {
     PyObject *record = PyObject_GetAttr(task, str_record);
     if (!record) {
@@ -495,21 +565,14 @@ static int report_submit(Wrapper *self, PyObject *task) {
         PyErr_Clear();
         return 0;
     }
-    uint32_t number;
-    int done = 0;
-    if (record != Py_None) {
-        int told = is_true(task, str_submitted);
-        done = told;
-        if (told == 0) done = PyObject_SetAttr(task, str_submitted, Py_True);
-        if (told == 0 && done == 0) done = number_of(record, &number);
-        if (told == 0 && done == 0) note(self->journal, self->what, number);
-    }
+    int done = record == Py_None ? 0 : report_first_submit(self, task, record);
     Py_DECREF(record);
     return done;
 }
 
-static PyObject *call_submit(Wrapper *self, PyObject *const *args, size_t flags,
+static PyObject *call_submit(PyObject *wrapper, PyObject *const *args, size_t flags,
                              PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     Py_ssize_t given = PyVectorcall_NARGS(flags);
     Py_ssize_t count = given + (names ? PyTuple_GET_SIZE(names) : 0);
     if (given > 0 && report_submit(self, args[0]) < 0 && swallow(self) < 0) return NULL;
@@ -521,7 +584,7 @@ static PyObject *call_submit(Wrapper *self, PyObject *const *args, size_t flags,
         return PyErr_NoMemory();
     }
     all[0] = pool;
-    memcpy(all + 1, args, (size_t)count * sizeof(PyObject *));
+    if (count) memcpy(all + 1, args, (size_t)count * sizeof(PyObject *));
     PyObject *result = PyObject_Vectorcall(self->original, all, (size_t)given + 1, names);
     PyMem_Free(all);
     Py_DECREF(pool);
@@ -536,7 +599,7 @@ static PyObject *submit_function(PyObject *Py_UNUSED(module), PyObject *args) {
                           &lose)) {
         return NULL;
     }
-    Wrapper *self = wrap((vectorcallfunc)call_submit, original, lose, journal, pool, NULL, NULL);
+    Wrapper *self = wrap(call_submit, original, lose, journal, pool, NULL, NULL);
     if (self) self->what = submit;
     return (PyObject *)self;
 }
@@ -564,31 +627,33 @@ static int end_run(Wrapper *self, PyObject *task, PyObject *record) {
     return done ? 0 : -1;
 }
 
-static PyObject *call_run(Wrapper *self, PyObject *const *args, size_t flags, PyObject *names) {
+static PyObject *call_run(PyObject *wrapper, PyObject *const *args, size_t flags,
+                          PyObject *names) {
+    Wrapper *self = (Wrapper *)wrapper;
     if (PyVectorcall_NARGS(flags) != 1 || names) {
         return PyObject_Vectorcall(self->original, args, flags, names);
     }
     PyObject *record = NULL;
     int plain = is_plain(self, args[0], &record);
-    if (plain < 0 && swallow(self) < 0) return NULL;
+    if (plain < 0 && swallow(self) < 0) {
+        Py_XDECREF(record);
+        return NULL;
+    }
     if (plain < 1) {
         Py_XDECREF(record);
         return PyObject_Vectorcall(plain ? self->original : self->second, args, flags, names);
     }
     PyObject *result = PyObject_Vectorcall(self->original, args, flags, names);
-    PyObject *type = NULL, *error = NULL, *traceback = NULL;
-    if (!result) PyErr_Fetch(&type, &error, &traceback);
+    PyObject *error = result ? NULL : take_error();
     int done = end_run(self, args[0], record);
     Py_DECREF(record);
-    if (done < 0 && swallow(self) < 0) {
-        Py_CLEAR(result);
-        Py_XDECREF(type);
-        Py_XDECREF(error);
-        Py_XDECREF(traceback);
-    } else if (!result) {
-        PyErr_Restore(type, error, traceback);
+    if (done == 0 || swallow(self) == 0) {
+        if (error) give_error(error);
+        return result;
     }
-    return result;
+    Py_XDECREF(result);
+    if (error) raise_during(error);
+    return NULL;
 }
 
 static PyObject *run_method(PyObject *Py_UNUSED(module), PyObject *args) {
@@ -598,14 +663,14 @@ static PyObject *run_method(PyObject *Py_UNUSED(module), PyObject *args) {
                           &lose)) {
         return NULL;
     }
-    return (PyObject *)wrap((vectorcallfunc)call_run, original, lose, journal, work, whole, end);
+    return (PyObject *)wrap(call_run, original, lose, journal, work, whole, end);
 }
 
 /* ---- The module ---- */
 
 static PyMethodDef functions[] = {
     {"group_method", group_method, METH_VARARGS,
-     "(original, owner, what, otherwise, journal, entities, find, lose)"},
+     "(original, (owner, name), what, otherwise, journal, entities, find, lose)"},
     {"wait_method", wait_method, METH_VARARGS,
      "(original, begin, end, journal, recorder, lap, asker, lose)"},
     {"make_handler", make_handler, METH_VARARGS,
@@ -613,7 +678,7 @@ static PyMethodDef functions[] = {
     {"submit_function", submit_function, METH_VARARGS, "(original, what, journal, pool_ref, lose)"},
     {"run_method", run_method, METH_VARARGS,
      "(original, journal, class_of_work, whole, end, lose)"},
-    {NULL}};
+    {NULL, NULL, 0, NULL}};
 
 static struct PyModuleDef module = {
     PyModuleDef_HEAD_INIT,
@@ -634,6 +699,7 @@ static const struct {
     {&str_record, "_ros2cc_record"},
     {&str_submitted, "_ros2cc_submitted"},
     {&str_suspended, "_ros2cc_suspended"},
+    {&str_qualname, "__qualname__"},
 };
 
 PyMODINIT_FUNC PyInit__journal(void) {
@@ -642,7 +708,8 @@ PyMODINIT_FUNC PyInit__journal(void) {
     }
     if (PyType_Ready(&JournalType) < 0 || PyType_Ready(&WrapperType) < 0) return NULL;
     PyObject *self = PyModule_Create(&module);
-    if (self && PyModule_AddObjectRef(self, "Journal", (PyObject *)&JournalType) < 0) {
+    if (self && (PyModule_AddObjectRef(self, "Journal", (PyObject *)&JournalType) < 0 ||
+                 PyModule_AddIntConstant(self, "REVISION", REVISION) < 0)) {
         Py_CLEAR(self);
     }
     return self;
