@@ -73,6 +73,7 @@ def ways(recorder: Recorder, replaced: Any) -> Iterator[tuple[str, Callable[[], 
     recorder.entities[id(entity)] = recorder.note_entity(entity.callback_group, entity)
     recorder.entities[id(unknown)] = Broken()  # type: ignore[assignment]
     recorder.entities[id(interrupted)] = Interrupted()  # type: ignore[assignment]
+    yield 'make a journal', functools.partial(native.Journal, 100)
     yield from _group_ways(recorder, entity, unknown, interrupted)
     yield from _handler_ways(entity, unknown, interrupted)
     yield from _submit_ways(recorder, entity)
@@ -154,9 +155,11 @@ def test_calls_keep_nothing(replaced: Any) -> None:
     recorder.journal = native.Journal(10)
     # Of an entity not met before there would be a record for each call.
     known = recorder.note_entity(Entity(), Entity())
+    known.number = CALLS * 2
     recorder.note_entity = lambda *_: known  # type: ignore[method-assign]
     for name, call in ways(recorder, replaced):
-        lent = [recorder, recorder.journal, recorder.entities, known, Handler, Executor, call]
+        lent = [recorder, recorder.journal, recorder.entities, known, known.number, Handler, call]
+        lent += [None, True]
         before = _held(call, 500, lent)
         after = _held(call, CALLS, lent)
         assert [now - then for now, then in zip(after, before, strict=True)] == [
@@ -176,26 +179,46 @@ def _held(call: Callable[[], Any], times: int, lent: list[Any]) -> list[int]:
 
 
 def test_wrapper_can_be_called_while_it_is_taken_apart() -> None:
-    called = []
+    def call_all(_: Any) -> None:
+        found = [each for each in gc.get_objects() if type(each) is Wrapper]
+        called.extend(each('task') for each in found)
 
-    class Last:
-        """No concern of the garbage collector: its end comes with whoever has it last."""
+    called: list[Any] = []
+    gc.collect()
+    # What is made first is taken apart first; functions of Python 3.10 cannot be called then.
+    method = native.submit_function(max, 0, native.Journal(1), str, len)
+    Wrapper = type(method)  # noqa: N806
+    # Code is no concern of the garbage collector, so what waits for its end is told in between.
+    code = compile('None', '', 'eval')
+    ended = weakref.ref(code, call_all)
+    cycle = [method, code]
+    cycle.append(cycle)
+    del method, code, cycle
+    gc.collect()
+    assert ended() is None
+    assert called == ['task']
 
-        __slots__ = ()
 
-        def __del__(self) -> None:
-            called.append(type(self).method(self, None))
+class Holder:
+    """Refers to what refers to it; called, does nothing."""
 
-    journal = native.Journal(1)
-    Last.method = native.group_method(  # type: ignore[attr-defined]
-        lambda group, entity: 'answer', (int, 'real'), 0, 1, journal, {}, print, called.append
-    )
-    Last.method.last = Last()  # type: ignore[attr-defined]
-    gone = weakref.ref(Last)
-    del Last
+    def __call__(self, *_: Any) -> None: ...
+
+
+@pytest.mark.parametrize('place', ['original', 'first', 'second', 'third', 'lose', 'dict'])
+def test_cycle_through_a_wrapper_is_collected(place: str) -> None:
+    holder: Any = Holder()
+    lent = [holder if place == each else len for each in ('original', 'first', 'second', 'third')]
+    lose = holder if place == 'lose' else len
+    holder.wrapper = native.run_method(lent[0], native.Journal(1), *lent[1:], lose)
+    if place == 'dict':
+        holder.wrapper.holder = holder
+    gone = weakref.ref(holder)
+    gc.collect()
+    del holder, lent, lose
+    assert gone() is not None
     gc.collect()
     assert gone() is None
-    assert called[-1] == 'answer'
 
 
 def test_wrapper_is_made_here_only_and_of_no_other_class(recorder: Recorder) -> None:

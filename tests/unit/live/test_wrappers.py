@@ -88,10 +88,11 @@ def test_wrapper_is_referred_to_copied_and_pickled_as_a_function(group_class: An
         assert pickle.loads(pickle.dumps(method)) is method
     finally:
         del globals()['Group']
-    gone = weakref.ref(method)
+    died: list[Any] = []
+    gone = weakref.ref(method, died.append)
     del group_class.beginning_execution, method, group
     gc.collect()
-    assert gone() is None
+    assert died == [gone]
 
 
 def test_method_of_another_name_is_found_in_a_subclass(recorder: Recorder, told: Told) -> None:
@@ -255,6 +256,37 @@ def test_take_of_an_unknown_record_is_left_alone(
     assert (told(), recorder.loss_count) == ([], 1)
 
 
+def test_ctrl_c_tells_of_the_error_that_it_came_upon(recorder: Recorder, replaced: Any) -> None:
+    class Task(Handler):
+        def executing(self) -> bool:
+            raise KeyboardInterrupt
+
+        def __call__(self) -> Any:
+            raise ValueError('none of ours')
+
+    trace_runs(recorder, Task, replaced)
+    trace_takes(recorder, Executor, replaced)
+    replaced(Executor, 'task_class', Task)
+    task = Executor()._make_handler(Entity(), 'node', None)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        task()
+    assert repr(caught.value.__context__) == "ValueError('none of ours')"
+
+
+def test_task_that_cannot_be_marked_is_given_back(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    class Closed:
+        __slots__ = ('mark_raises',)
+
+        def __init__(self, handler: Any) -> None: ...
+
+    trace_takes(recorder, Executor, replaced)
+    replaced(Executor, 'task_class', Closed)
+    assert type(Executor()._make_handler(Entity(), 'node', None)) is Closed
+    assert (recorder.loss_count, told()) == (1, [])
+
+
 def test_nothing_of_a_task_outlives_it(recorder: Recorder, replaced: Any) -> None:
     trace_takes(recorder, Executor, replaced)
     executor, entity = Executor(), Entity()
@@ -275,6 +307,7 @@ def test_task_is_reported_when_it_is_first_handed_over(
     with ThreadPoolExecutor(1) as pool:
         trace_submits(recorder, SimpleNamespace(_executor=pool))
         assert pool.submit(task).result() == ('data', ())
+        assert isinstance(pool.submit(task).exception(), TypeError)
         assert pool.submit(divmod, 7, 2).result() == (3, 1)
         assert pool.submit(dict, a=1).result() == {'a': 1}
         with pytest.raises(TypeError):
