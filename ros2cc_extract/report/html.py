@@ -22,6 +22,7 @@ from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.html_findings import finding_card
 from ros2cc_extract.report.html_parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html_unit import Numbered, unit_picture
+from ros2cc_extract.report.owners import is_about
 from ros2cc_extract.report.run_lanes import Lane, lanes_of
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence, Moment
@@ -81,7 +82,8 @@ def html_report(
     sections = []
     for unit, verification in zip(units, verdicts, strict=True):
         runs.callbacks = names[unit.name]
-        sections.append(_unit_section(unit, verification, numbered, runs))
+        mine = [(number, f) for number, f in numbered if is_about(f, unit, units)]
+        sections.append(_unit_section(unit, verification, mine, runs))
     body = _header(findings, summary) + _findings(cards) + ''.join(sections)
     return _page(body, [data for _, data in runs.kept])
 

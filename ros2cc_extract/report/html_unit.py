@@ -102,11 +102,7 @@ def _group_kind(group: CallbackGroup) -> str:
 
 def _chip(spec: Spec, callback: Callback, findings: Numbered, numbers: dict[str, int]) -> str:
     identity = f'{spec.name}-{callback.name}'
-    about = [
-        (number, f)
-        for number, f in findings
-        if f.unit == spec.name and callback.name in f.subjects
-    ]
+    about = [(number, f) for number, f in findings if callback.name in f.subjects]
     letter = _LETTERS.get(callback.entity, '·') if callback.entity else callback.type.value[0]
     return tag(
         'div',

@@ -12,6 +12,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.counts import counted
+from ros2cc_extract.report.owners import is_about
 from ros2cc_extract.report.style import table
 from ros2cc_extract.spec.model import Executor, Spec
 from ros2cc_extract.verify.unit import Verdict, Verification
@@ -29,8 +30,9 @@ def print_overview(
     rows = table('unit', 'entry', 'executor', 'callbacks', 'groups', 'overlapping', 'findings')
     left_out = 0
     shared = Counter(source for unit, _ in verified for source in unit.sources)
+    units = [unit for unit, _ in verified]
     for unit, verification in verified:
-        weight = _weight([finding for finding in findings if finding.unit == unit.name])
+        weight = _weight([finding for finding in findings if is_about(finding, unit, units)])
         if isinstance(unit.executor.kind, Unknown) and not weight:
             left_out += 1
             continue

@@ -155,11 +155,12 @@ TABLE = Library(
             }
         ),
         'rclpy.action.client.ClientGoalHandle': LibraryClass(
+            state=lambda machine, instance: PlainState('goal handle', place=instance.place),
             methods={
                 'get_result_async': _goal_future('result'),
                 'cancel_goal_async': _goal_future('cancel'),
                 'get_result': _get_result,
-            }
+            },
         ),
         'rclpy.publisher.Publisher': LibraryClass(methods={'publish': _publish}),
         'rclpy.task.Future': future_class('future'),

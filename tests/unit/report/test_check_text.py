@@ -168,3 +168,39 @@ def test_a_run_of_the_published_starvation_is_left_to_verify(
         'counterexample for 5: on_map_ready and drive never run at the same time: not satisfied'
     ]
     assert '  3 more runs: ros2cc-extract verify shows them' in lines
+
+
+def test_programs_that_name_their_node_alike_have_the_findings_of_their_own_files(
+    checked: tuple[Spec, Verification],
+) -> None:
+    unit, verification = checked
+    many = [
+        (replace(unit, name='arm', sources=(f'{file}.py',), entry=f'{file}.py:main'), verification)
+        for file in ('old', 'new', 'newest', 'other')
+    ]
+    many[3] = (replace(many[3][0], name='other'), verification)
+    made = Remark(at('new.py'), 'made here')
+    about_new = replace(CALL, unit='arm', place=at('library.py'), chain=(), related=(made,))
+    stream = io.StringIO()
+    print_check(many, [about_new], SUMMARY, console_for(stream))
+    rows = {line.split()[1]: line for line in stream.getvalue().splitlines() if '.py:main' in line}
+    assert rows['new.py:main'].endswith('1 error')
+    assert all(rows[f'{name}.py:main'].endswith('-') for name in ('old', 'newest', 'other'))
+
+
+def test_namesakes_share_a_finding_that_shows_none_of_their_files(
+    checked: tuple[Spec, Verification],
+) -> None:
+    unit, verification = checked
+    many = [
+        (replace(unit, name='arm', sources=(f'{n}.py',), entry=f'{n}.py:main'), verification)
+        for n in range(4)
+    ]
+    nowhere = replace(CALL, unit='arm', place=at('library.py'), chain=(), related=())
+    stream = io.StringIO()
+    print_check(many, [nowhere], SUMMARY, console_for(stream))
+    assert stream.getvalue().count('1 error\n') == len(many)
+
+
+def at(file: str) -> Place:
+    return Place(file, 3, 1)
