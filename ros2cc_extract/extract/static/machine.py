@@ -49,6 +49,8 @@ class Frame:
     :param breaks: what the branches that leave the running loop had written to own names.
     :param copies: own names that hold what other functions may have changed.
     :param continues: the same of the branches that go on with its next round.
+    :param tests: undecided ones with the place of the first ``if``, whether that asks the
+        opposite, and the options of the values that were asked.
     """
 
     scope: Scope
@@ -61,6 +63,9 @@ class Frame:
     breaks: list[Writes] = field(default_factory=list)
     continues: list[Writes] = field(default_factory=list)
     copies: frozenset[str] = frozenset()
+    tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
+        default_factory=dict
+    )
 
     @property
     def module(self) -> Module:

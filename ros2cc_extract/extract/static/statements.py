@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, loops
+from ros2cc_extract.extract.static import changing, loops, same_tests
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.lock_paths import locks_given_back
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
@@ -207,7 +207,10 @@ def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
         return machine.execute_block(node.body if holds else node.orelse, frame)
     note_open_test(machine.world, node.test, frame.place(node))
     bodies = _arms(machine, node, frame)
-    return machine.branches(bodies, frame.place(node), frame)
+    if len(bodies) != len(('then', 'else')):
+        return machine.branches(bodies, frame.place(node), frame)
+    place, is_opposite = same_tests.first_place(machine, node, frame)
+    return machine.branches(bodies[::-1] if is_opposite else bodies, place, frame)
 
 
 def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], int]]:

@@ -25,7 +25,8 @@ def find(context: Context) -> Iterator[Hit]:
     losing = list(_losing(context))
     told = set(_told_of_others(context)) if losing else set()
     for use in losing:
-        if (use.access.name, use.place) not in told:
+        name = use.access.name
+        if not told & {(name, use.place), (name, use.callback.name)}:
             yield _hit(use, context)
 
 
@@ -40,10 +41,13 @@ def _losing(context: Context) -> Iterator[Use]:
                 yield Use(callback, unlocked[0])
 
 
-def _told_of_others(context: Context) -> Iterator[tuple[str, Place]]:
+def _told_of_others(context: Context) -> Iterator[tuple[str, Place | str]]:
+    """Attributes with the place of the update that is told, and with who else is named there."""
     for race in races_of(context):
         if race.kind is RaceKind.LOST_UPDATE:
-            yield from ((name, race.first.place) for name in race.names)
+            for name in race.names:
+                yield name, race.first.place
+                yield from ((name, use.callback.name) for use in race.others)
 
 
 def _hit(use: Use, context: Context) -> Hit:

@@ -315,10 +315,22 @@ def test_an_update_that_others_lose_too_is_one_finding() -> None:
     assert races(unit(threads(2), image)) == ['CC304:30 warning']
 
 
+def test_one_lock_mends_a_chain_of_done_callbacks_which_is_one_finding() -> None:
+    steps = [
+        outside(f'on_step_{n}', EntityKind.DONE_CALLBACK, writes=updates('Arm.step', 30 + n))
+        for n in range(4)
+    ]
+    alone = outside('on_stop', EntityKind.DONE_CALLBACK, writes=updates('Arm.stops', 50))
+    several = unit(threads(2), *steps, alone)
+    assert races(several) == ['CC303:30 warning', 'CC304:50 warning']
+    told = {remark.text for remark in only(several, 'CC303').related}
+    assert told == {f'on_step_{n} writes Arm.step here' for n in (1, 2, 3)}
+
+
 def test_work_outside_every_group_overlaps_the_exclusive_group_too() -> None:
     done = outside('on_done', EntityKind.DONE_CALLBACK, writes=updates('Arm.pending', 40))
     tick = timer('tick', writes=updates('Arm.pending', 30))
-    assert races(unit(threads(2), tick, done)) == ['CC303:30 warning', 'CC304:40 warning']
+    assert races(unit(threads(2), tick, done)) == ['CC303:30 warning']
     assert races(unit(ONE_THREAD, tick, done)) == []
     message = only(unit(threads(2), tick, done), 'CC303').message
     assert message.endswith('on_done is a done-callback and runs outside every callback group')
