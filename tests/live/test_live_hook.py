@@ -139,7 +139,9 @@ def test_hidden_entities_and_groupless_work_are_recorded(run: RunProgram) -> Non
         (EntityKind.SUBSCRIPTION, 'on_log', 'log', When.START),
         (EntityKind.DONE_CALLBACK, 'on_answer', None, When.START),
         (EntityKind.TASK, 'work_later', None, When.START),
+        (EntityKind.TASK, 'think', None, When.START),
     }
+    assert (named(unit, 'think').coroutine, named(unit, 'work_later').coroutine) == (True, False)
     assert named(unit, 'on_press').coroutine
     assert unit.group_of(named(unit, 'work_later')).groupless
 

@@ -52,6 +52,11 @@ def test_end_by_a_signal_passes_through(start_run: Callable[..., Child]) -> None
     assert start_run('sh', '-c', 'kill -USR1 $$').end() == -signal.SIGUSR1
 
 
+def test_end_by_kill_passes_through(start_run: Callable[..., Child]) -> None:
+    child = start_run('sh', '-c', 'kill -KILL $$')
+    assert (child.end(), 'Error' in child.text) == (-signal.SIGKILL, False)
+
+
 @pytest.mark.parametrize('name', ['INT', 'TERM', 'HUP', 'USR1'])
 def test_signal_sent_to_us_reaches_the_command(name: str, start_run: Callable[..., Child]) -> None:
     waits = f'trap "echo got {name}; exit 5" {name}; echo up; while :; do sleep 0.05; done'

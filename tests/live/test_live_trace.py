@@ -17,6 +17,7 @@ from recorded import recordings_in
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.run import collect_directory, run_command
 from ros2cc_extract.extract.live.trace import read_trace
+from ros2cc_extract.spec.yaml_io import load_specs
 
 PROGRAMS = Path(__file__).with_name('programs')
 Lines = Sequence[Mapping[str, Any]]
@@ -59,6 +60,13 @@ def events_of(lines: Lines, name: str) -> list[str]:
 def test_callback_is_collected_begun_taken_ended(two_groups: Lines) -> None:
     steps = events_of(two_groups, 'plan')
     assert steps[:5] == ['collect', 'submit', 'begin', 'take', 'end']
+
+
+@pytest.mark.usefixtures('two_groups')
+def test_executor_is_made_where_the_program_makes_it(tmp_path: Path) -> None:
+    (unit,) = load_specs(tmp_path / 'live.yaml')
+    assert unit.executor.source is not None
+    assert unit.executor.source.file.endswith('two_groups/node.py')
 
 
 def test_two_members_of_an_exclusive_group_never_overlap(two_groups: Lines) -> None:

@@ -39,7 +39,7 @@ _BUILTIN_MODULES = {
 _LIBRARY_MODULES = ('parameter_client', 'parameter_event_handler')
 
 
-def _ending(record: ExecutorRecord | NodeRecord) -> Callable[[Any], None]:
+def _ending(record: ExecutorRecord | NodeRecord | EntityRecord) -> Callable[[Any], None]:
     """Note when an object ends: as late as the interpreter itself, when modules are empty."""
     clock = time.monotonic_ns
 
@@ -179,6 +179,11 @@ class GroupRecord:
         self.default = False
         self.rate = False
 
+    def signature(self) -> tuple[Any, ...]:
+        """Equal for groups that one line of the program has made."""
+        place = self.creation.place if self.creation else None
+        return self.kind, self.cls, self.default, self.rate, place
+
 
 _GROUP_KINDS = {
     'MutuallyExclusiveCallbackGroup': 'exclusive',
@@ -191,7 +196,9 @@ class EntityRecord:
 
     def __init__(self, number: int, entity: Any, group: int) -> None:
         self.number = number
-        self.ref = weakref.ref(entity)
+        self.born = time.monotonic_ns()
+        self.died: int | None = None
+        self.ref = weakref.ref(entity, _ending(self))
         self.group = group
         self.node: int | None = None
         self.creation: Creation | None = None
@@ -224,9 +231,13 @@ class EntityRecord:
 
     def signature(self) -> tuple[Any, ...]:
         """Equal for entities that one line of the program makes again and again."""
+        return self.group, *self.signature_in_any_group()
+
+    def signature_in_any_group(self) -> tuple[Any, ...]:
+        """Equal also where that line makes a group for each of them."""
         place = self.creation.place if self.creation else None
         name = self.function.name if self.function else None
-        return self.kind, self.node, self.group, place, self.key, self.period_ns, name
+        return self.kind, self.node, place, self.key, self.period_ns, name
 
 
 class TaskRecord:

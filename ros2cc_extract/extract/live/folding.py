@@ -62,6 +62,7 @@ def fold_nodes(
     tasks: Tasks,
 ) -> tuple[list[NodeRecord], list[EntityRecord]]:
     """Give what is left of nodes and entities; what a node has made again counts once."""
+    entities = _fold_with_their_groups(entities, groups)
     members: dict[int | None, list[EntityRecord]] = defaultdict(list)
     for entity in entities:
         members[entity.node].append(entity)
@@ -83,6 +84,43 @@ def fold_nodes(
         [node for node in nodes if node.number not in lost_nodes],
         [entity for entity in entities if entity.number not in lost_entities],
     )
+
+
+def _fold_with_their_groups(
+    entities: list[EntityRecord], groups: list[GroupRecord]
+) -> list[EntityRecord]:
+    """
+    Give what is left where each time a group was made too, for that entity alone.
+
+    A coroutine that sleeps by way of a timer of its own does so. What was there at the same time
+    stays apart: two groups are two, however alike.
+    """
+    users: dict[int, int] = defaultdict(int)
+    for entity in entities:
+        users[entity.group] += 1
+    passing = {each.number: each.signature() for each in groups if each.ref() is None}
+    lanes: dict[tuple[Any, ...], list[EntityRecord]] = defaultdict(list)
+    kept = []
+    for entity in entities:
+        group = passing.get(entity.group) if users[entity.group] == 1 else None
+        if entity.died is None or group is None:
+            kept.append(entity)
+            continue
+        lane = lanes[(*group, *entity.signature_in_any_group())]
+        first = next((each for each in lane if _died(each) <= entity.born), None)
+        if first is None:
+            lane.append(entity)
+            kept.append(entity)
+        else:
+            first.made += entity.made
+            first.died = entity.died
+            first.timings.take_over(entity.timings)
+    return kept
+
+
+def _died(entity: EntityRecord) -> int:
+    assert entity.died is not None
+    return entity.died
 
 
 def _pairs(records: list[Gone], spans: dict[int, Span]) -> list[tuple[Gone, Gone]]:
@@ -156,8 +194,7 @@ def _ordered_groups(
     found: dict[tuple[Any, ...], int] = {}
     for group in groups:
         if group.number in used:
-            place = group.creation.place if group.creation else None
-            signature = (group.kind, group.cls, group.default, group.rate, place)
+            signature = group.signature()
             order = sum(known[:-1] == signature for known in found)
             told_apart = (*signature, order)
             found[told_apart] = group.number

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import PurePath
-from types import CodeType, FrameType
+from types import CodeType, CoroutineType, FrameType
 from typing import Any
 
 # file, line, column; line and column 1-based, column 0 where the interpreter does not keep it.
@@ -21,6 +21,8 @@ RawPlace = tuple[str, int, int]
 
 # Libraries that create entities on a node's behalf; the place of interest is their caller's.
 LIBRARIES = frozenset({'tf2_ros', 'message_filters', 'diagnostic_updater'})
+# Our wrappers lie between rclpy and the program.
+_OURS = __name__.rpartition('.')[0]
 
 
 @dataclass
@@ -60,6 +62,8 @@ def trace_creation(frame: FrameType | None, made: Any = None) -> Creation:
         package, _, rest = module.partition('.')
         if package == 'rclpy':
             _pass_rclpy(creation, frame, rest)
+        elif module.rpartition('.')[0] == _OURS:
+            pass
         elif package in LIBRARIES and creation.place is None:
             creation.library = package
         elif not _is_constructor_of(made, frame):
@@ -145,9 +149,11 @@ class FunctionName:
 
 
 def name_function(callback: Any) -> FunctionName | None:
-    """Look through partials, decorators, methods and callable objects."""
+    """Look through partials, decorators, methods and callable objects; a coroutine may be begun."""
     if callback is None:
         return None
+    if inspect.iscoroutine(callback):
+        return _name_coroutine(callback)
     while isinstance(callback, functools.partial):
         callback = callback.func
     callback = inspect.unwrap(callback)
@@ -160,6 +166,13 @@ def name_function(callback: Any) -> FunctionName | None:
     return FunctionName(
         f'{_module_name(module, code)}.{qualname}', module, _defined(code), coroutine
     )
+
+
+def _name_coroutine(begun: CoroutineType[Any, Any, Any]) -> FunctionName:
+    code, frame = begun.cr_code, begun.cr_frame
+    module = str(frame.f_globals.get('__name__', '')) if frame is not None else ''
+    name = f'{_module_name(module, code)}.{begun.__qualname__}'
+    return FunctionName(name, module, _defined(code), coroutine=True)
 
 
 def _defined(code: CodeType | None) -> RawPlace | None:

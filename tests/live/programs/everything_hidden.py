@@ -46,6 +46,9 @@ class Switch(Node):
     def work_later(self) -> None:
         self.answers += 1
 
+    async def think(self) -> None:
+        self.answers += 1
+
 
 rclpy.init()
 lamp, switch = Lamp('lamp'), Switch()
@@ -56,7 +59,8 @@ lamp.trigger_configure()
 switch.client.wait_for_service()
 switch.client.call_async(Trigger.Request()).add_done_callback(switch.on_answer)
 executor.create_task(switch.work_later)
-while switch.answers < 2:
+executor.create_task(switch.think())
+while switch.answers < 3:
     executor.spin_once(timeout_sec=1)
 print('answers', switch.answers)
 executor.shutdown()

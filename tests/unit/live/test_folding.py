@@ -208,3 +208,33 @@ def test_trace_keeps_every_number_it_has_told() -> None:
         recorder.note_removed(executor, node)
         del executor, node
     assert settled(recorder) == (2, 2, 2, 2)
+
+
+def sleep_once(recorder: Recorder, node: Node) -> Entity:
+    """Make a timer in a group of its own, as a coroutine does that sleeps by one."""
+    group = Group()
+    recorder.note_group(group, Creation(place=('sleep.py', 30, 9)))
+    timer = Entity(group)
+    place = ('sleep.py', 31, 9)
+    recorder.note_entity(group, timer, Creation(place=place, node=node))
+    return timer
+
+
+def test_timers_made_again_with_a_group_of_their_own_are_one() -> None:
+    recorder, executor = Recorder(), Executor()
+    node = made_by(recorder, executor, 'worker', 20)
+    for _ in range(5):
+        one, other = sleep_once(recorder, node), sleep_once(recorder, node)
+        del one, other
+        gc.collect()
+        settled(recorder)
+    assert settled(recorder) == (1, 1, 3, 3)
+    assert [entity.made for entity in recorder.all_entities] == [1, 5, 5]
+
+
+def test_timers_with_groups_that_were_there_at_a_time_stay_apart() -> None:
+    recorder, executor = Recorder(), Executor()
+    node = made_by(recorder, executor, 'worker')
+    timers = [sleep_once(recorder, node) for _ in range(3)]
+    del timers
+    assert settled(recorder) == (1, 1, 4, 3)
