@@ -63,11 +63,16 @@ Pair = tuple[Callback, Callback]
 
 @dataclass(frozen=True)
 class Matching:
-    """Which callbacks of two units are the same one."""
+    """
+    Which callbacks of two units are the same one.
+
+    :param more: those on the right, by identity, that the left has without knowing how many.
+    """
 
     pairs: tuple[Pair, ...]
     only_left: tuple[Callback, ...]
     only_right: tuple[Callback, ...]
+    more: frozenset[int] = frozenset()
 
 
 def diff(left: Sequence[Spec], right: Sequence[Spec]) -> tuple[Difference, ...]:
@@ -99,7 +104,8 @@ def diff_units(left: Spec, right: Spec) -> Iterator[Difference]:
     for callback in matching.only_left:
         yield _missing(left.name, callback, Kind.ONLY_LEFT)
     for callback in matching.only_right:
-        yield _missing(left.name, callback, Kind.ONLY_RIGHT)
+        missing = _missing(left.name, callback, Kind.ONLY_RIGHT)
+        yield replace(missing, marked=missing.marked or id(callback) in matching.more)
 
 
 def merge_units(static: Spec, live: Spec) -> Spec:
@@ -155,25 +161,58 @@ def match_units(
     return pairs, rest_left, rest_right
 
 
-def _likeness(left: Spec, right: Spec) -> tuple[int, int, int]:
-    shared = _node_names(left) & _node_names(right)
-    return len(shared), len(_new_names(left, right)), int(left.name == right.name)
+def _likeness(left: Spec, right: Spec) -> tuple[int, int, int, int]:
+    """Of two programs that call their nodes alike, that with the same lines is the one."""
+    shared = len(_node_names(left) & _node_names(right))
+    renamed = len(_new_names(left, right))
+    is_called_alike = int(left.name == right.name)
+    may_be_one = shared or renamed or is_called_alike
+    lines = len(_lines(left) & _lines(right)) if may_be_one else 0
+    return shared, renamed, lines, is_called_alike
 
 
 def _new_names(left: Spec, right: Spec) -> dict[str, str]:
-    """Name of a node on the right to its name on the left, if only the name is another."""
+    """
+    Name of a node on the right to its name on the left, if only the name is another.
+
+    Several may be one on the left if that does not know how many it makes.
+    """
     mine, theirs = _node_names(left), _node_names(right)
-    if mine & theirs or len(mine) != 1 or len(theirs) != 1:
+    if mine & theirs:
         return {}
-    here, there = _functions(left), _functions(right)
-    is_same = here and there and (here <= there or there <= here)
-    return dict(zip(theirs, mine, strict=True)) if is_same else {}
+    names: dict[str, str] = {}
+    for name in theirs:
+        there = _functions(right, name)
+        fitting = [each for each in mine if _are_alike(_functions(left, each), there)]
+        if len(fitting) != 1:
+            return {}
+        names[name] = fitting[0]
+    for name in mine:
+        times = list(names.values()).count(name)
+        if times == 0 or (times > 1 and not _is_made_again(left, name)):
+            return {}
+    return names
 
 
-def _functions(unit: Spec) -> set[str]:
+def _are_alike(here: set[str], there: set[str]) -> bool:
+    return bool(here and there) and (here <= there or there <= here)
+
+
+def _is_made_again(unit: Spec, node: str) -> bool:
+    callbacks = [callback for callback in unit.callbacks if callback.node == node]
+    return all(isinstance(callback.count, Unknown) for callback in callbacks)
+
+
+def _functions(unit: Spec, node: str) -> set[str]:
     """Give class and function of what somebody wrote; the module depends on how it is started."""
-    callbacks = (callback for callback in unit.callbacks if not callback.builtin)
+    callbacks = (c for c in unit.callbacks if not c.builtin and c.node in (node, None))
     return {'.'.join(c.function.split('.')[-2:]) for c in callbacks if c.function}
+
+
+def _lines(unit: Spec) -> set[tuple[str, int]]:
+    """Give where a unit makes what somebody wrote, whatever folder its files are named from."""
+    places = {c.source for c in unit.callbacks if not c.builtin} | {unit.executor.source}
+    return {(place.file.rpartition('/')[2], place.line) for place in places if place}
 
 
 def _node_names(unit: Spec) -> set[str]:
@@ -198,7 +237,10 @@ def match_callbacks(left: Spec, right: Spec) -> Matching:
                 rest_right.remove(theirs)
     order = {id(callback): number for number, callback in enumerate(left.callbacks)}
     pairs.sort(key=lambda pair: order[id(pair[0])])
-    return Matching(tuple(pairs), tuple(rest_left), tuple(rest_right))
+    many = [mine for mine in left.callbacks if isinstance(mine.count, Unknown)]
+    known = {identity(mine) for mine in many for identity in _KINDS_OF_MANY} - {None}
+    more = (c for c in rest_right if {of(called[id(c)]) for of in _KINDS_OF_MANY} & known)
+    return Matching(tuple(pairs), tuple(rest_left), tuple(rest_right), frozenset(map(id, more)))
 
 
 Identity = tuple[object, ...] | None
@@ -232,7 +274,21 @@ def _key(callback: Callback) -> str | None:
     return None
 
 
-_IDENTITIES: tuple[Function[[Callback], Identity], ...] = (_full, _without_key, _without_function)
+def _by_line(callback: Callback) -> Identity:
+    """What has no function may have a name that only a run knows."""
+    place = callback.source
+    if place is None or callback.function:
+        return None
+    return callback.node, callback.entity, place.file.rpartition('/')[2], place.line
+
+
+_IDENTITIES: tuple[Function[[Callback], Identity], ...] = (
+    _full,
+    _without_key,
+    _without_function,
+    _by_line,
+)
+_KINDS_OF_MANY: tuple[Function[[Callback], Identity], ...] = (_without_key, _by_line)
 
 
 def _diff_executors(left: Spec, right: Spec) -> Iterator[Difference]:
@@ -348,6 +404,8 @@ def _may_be_missing(callback: Callback) -> bool:
 
 
 def _missing_unit(unit: Spec, kind: Kind) -> Difference:
+    """A class that nobody in sight makes or spins proves nothing by not being there."""
+    written = [callback for callback in unit.callbacks if not callback.builtin]
     is_left = kind is Kind.ONLY_LEFT
     nodes = ', '.join(unit.nodes)
     return Difference(
@@ -357,6 +415,8 @@ def _missing_unit(unit: Spec, kind: Kind) -> Difference:
         fact='unit',
         left=nodes if is_left else '',
         right='' if is_left else nodes,
+        marked=isinstance(unit.executor.kind, Unknown)
+        or (bool(written) and all(map(_may_be_missing, written))),
     )
 
 

@@ -185,3 +185,71 @@ def test_merging_adds_what_only_the_run_holds() -> None:
 def test_merging_is_idempotent() -> None:
     once = merge_units(STATIC, LIVE)
     assert merge_units(once, LIVE) == once
+
+
+ANY_NUMBER = Unknown('made in a loop', AT)
+
+
+def test_client_whose_name_only_the_run_knows_is_the_one_made_in_that_line() -> None:
+    client = replace(ON_JOINT, name='client', entity=EntityKind.CLIENT, function=None)
+    static = replace(STATIC, callbacks=(TICK, replace(client, key=Unknown('a parameter', AT))))
+    seen = replace(client, key='lamp/change_state', group='group_1', source=SEEN)
+    live = replace(LIVE, callbacks=(TICK, seen))
+    (difference,) = diff([static], [live])
+    assert (difference.kind, difference.right) == (Kind.NOT_KNOWN, 'lamp/change_state')
+    assert difference.marked
+    elsewhere = replace(seen, source=Place('arm.py', 13))
+    assert len(diff([static], [replace(live, callbacks=(TICK, elsewhere))])) == 2
+
+
+def test_more_of_what_is_made_any_number_of_times_is_announced() -> None:
+    key = Unknown('a parameter', AT)
+    static = replace(STATIC, callbacks=(TICK, replace(ON_JOINT, key=key, count=ANY_NUMBER)))
+    seen = replace(ON_JOINT, group='group_1', source=SEEN)
+    topics = tuple(replace(seen, name=f's_{n}', key=f'joint_{n}') for n in range(3))
+    live = replace(LIVE, callbacks=(TICK, *topics))
+    assert [difference.marked for difference in diff([static], [live])] == [True, True, True]
+    once = replace(static, callbacks=(TICK, replace(ON_JOINT, key=key)))
+    assert [difference.marked for difference in diff([once], [live])] == [True, False, False]
+
+
+def test_class_that_nobody_spins_may_be_missing() -> None:
+    executor = replace(STATIC.executor, kind=Unknown('no executor found', AT))
+    (difference,) = diff([replace(STATIC, executor=executor)], [])
+    assert (difference.kind, difference.marked) == (Kind.ONLY_LEFT, True)
+    maybe = tuple(replace(callback, conditional=True) for callback in STATIC.callbacks)
+    assert [found.marked for found in diff([replace(STATIC, callbacks=maybe)], [])] == [True]
+    mixed = replace(STATIC, callbacks=(maybe[0], ON_JOINT))
+    assert [found.marked for found in diff([mixed], [])] == [False]
+
+
+def test_of_two_programs_with_one_name_of_a_node_that_with_the_same_lines_is_paired() -> None:
+    callbacks = tuple(replace(c, source=Place('other.py', 3)) for c in STATIC.callbacks)
+    other = replace(STATIC, callbacks=callbacks)
+    assert match_units([other, STATIC], [LIVE])[0] == [(STATIC, LIVE)]
+    assert match_units([STATIC, other], [LIVE])[0] == [(STATIC, LIVE)]
+
+
+def nodes_of(names: dict[str, str], unit: Spec) -> Spec:
+    """Give a unit nodes with a callback of their class each."""
+    callbacks = tuple(
+        replace(TICK, name=f'tick_{node}', node=node, function=f'arm.{cls}.tick')
+        for node, cls in names.items()
+    )
+    groups = STATIC.groups[:1]
+    return replace(
+        unit, name='+'.join(names), nodes=tuple(names), callbacks=callbacks, groups=groups
+    )
+
+
+def test_nodes_renamed_together_are_the_same_nodes() -> None:
+    static = nodes_of({'arm': 'Arm', 'leg': 'Leg'}, STATIC)
+    live = nodes_of({'leg_0': 'Leg', 'arm_0': 'Arm'}, LIVE)
+    (difference,) = diff([static], [live])
+    assert (difference.fact, difference.marked) == ('node', True)
+    more = nodes_of({'leg_0': 'Leg', 'arm_0': 'Arm', 'arm_1': 'Arm'}, LIVE)
+    assert match_units([static], [more])[0] == []
+    callbacks = (replace(static.callbacks[0], count=ANY_NUMBER), static.callbacks[1])
+    pairs, _, _ = match_units([replace(static, callbacks=callbacks)], [more])
+    assert len(pairs) == 1
+    assert match_units([static], [nodes_of({'arm_0': 'Arm'}, LIVE)])[0] == []

@@ -106,7 +106,7 @@ def _fold_with_their_groups(
         if entity.died is None or group is None:
             kept.append(entity)
             continue
-        lane = lanes[(*group, *entity.signature_in_any_group())]
+        lane = lanes[group + entity.signature_in_any_group()]
         first = next((each for each in lane if _died(each) <= entity.born), None)
         if first is None:
             lane.append(entity)

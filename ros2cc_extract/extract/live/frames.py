@@ -149,7 +149,7 @@ class FunctionName:
 
 
 def name_function(callback: Any) -> FunctionName | None:
-    """Look through partials, decorators, methods and callable objects; a coroutine may be begun."""
+    """Look through partials, decorators, methods and callable objects; a coroutine may run."""
     if callback is None:
         return None
     if inspect.iscoroutine(callback):
