@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 EVENTS_SHOWN = 12
 STATES_SHOWN = 4
 ALLOWED_SHOWN = 12
+_MEND_AWAIT = 'a live run cannot see it, so give the source, or what merge makes of both'
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -69,8 +70,13 @@ def _status(comparison: Comparison) -> int:
 
     if comparison.answer.outcome is Outcome.CONFORMS:
         return EXIT_CLEAN
-    is_open = comparison.answer.outcome is Outcome.UNDECIDED or comparison.lacking
+    is_open = comparison.answer.outcome is Outcome.UNDECIDED or _is_gap(comparison)
     return EXIT_UNDECIDED if is_open else EXIT_FINDINGS
+
+
+def _is_gap(comparison: Comparison) -> bool:
+    """Whether it is the specification that does not tell enough."""
+    return bool(comparison.lacking or comparison.untold)
 
 
 def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
@@ -83,8 +89,11 @@ def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
     elif answer.outcome is Outcome.UNDECIDED:
         yield f'{spec.name}: undecided: {answer.seen} states looked at, {events} events'
     else:
-        yield f'{spec.name}: diverges after {answer.steps} of {events} events'
+        verdict = 'undecided' if _is_gap(comparison) else 'diverges'
+        yield f'{spec.name}: {verdict} after {answer.steps} of {events} events'
         yield from _divergence(comparison, trace, shown)
+        for untold in comparison.untold:
+            yield f'  the specification does not tell what it awaits: {untold}; {_MEND_AWAIT}'
     for lacking in comparison.lacking:
         yield f'  not in the specification, but it ran: {lacking}'
     if trace.lost:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from ros2cc_extract.cli.main import EXIT_ERROR
+
 if TYPE_CHECKING:
     from ros2cc_extract.spec.model import Spec
 
@@ -55,17 +57,32 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
     named = {name for unit in units for name in unit.nodes}
 
     def compare(live: tuple[Spec, ...]) -> int:
-        scanned = [unit for unit in live if _is_of(unit, source, units)]
-        found = diff(_distinct(units, named), _distinct(scanned, named))
-        status = report(found, (str(source), 'live'), 'text', stdout)
+        scanned = _distinct([unit for unit in live if _is_of(unit, source, units)], named)
+        if not scanned:
+            mend = 'see above how the command ended, or name the source of what it runs'
+            print(f'{source}: nothing of it ran, so nothing is compared; {mend}', file=stderr)
+            return EXIT_ERROR
+        started = _started(_distinct(units, named), scanned)
+        status = report(diff(started, scanned), (str(source), 'live'), 'text', stdout)
+        for unit in _distinct(units, named):
+            if unit not in started:
+                print(f'not run: {unit.name} of {unit.entry}', file=stdout)
         for unit in live:
-            if unit not in scanned:
+            if not _is_of(unit, source, units):
                 made = unit.executor.source
                 files = [*unit.sources, *([made.file] if made else [])]
                 print(f'not scanned: {unit.name}', *files[:1], sep=' of ', file=stdout)
         return status
 
     return compare
+
+
+def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
+    """Leave out other programs of a package: those of whose units the run holds none."""
+    from ros2cc_extract.merge import match_units
+
+    entries = {unit.entry for unit, _ in match_units(units, live)[0]}
+    return [unit for unit in units if unit.entry is None or not entries or unit.entry in entries]
 
 
 def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:

@@ -19,6 +19,7 @@ from ros2cc_extract.conform.observations import (
 from ros2cc_extract.conform.search import STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
 from ros2cc_extract.generator.build import Freedom, Profile, render
+from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.model import Spec
 
@@ -37,11 +38,13 @@ class Comparison:
 
     :param unit: with those of rclpy's own entities that ran.
     :param lacking: names of what the executor ran and the specification lacks.
+    :param untold: names of what was seen to await, where the specification tells of no await.
     """
 
     unit: ClosedSpec
     observations: tuple[Observation, ...] = field(repr=False)
     lacking: tuple[str, ...]
+    untold: tuple[str, ...]
     answer: Answer
     model: ObservedModel = field(repr=False)
 
@@ -94,6 +97,7 @@ def compare(
         unit=unit,
         observations=seen,
         lacking=tuple(s.name for s in own if s.number not in places),
+        untold=tuple(_untold(seen, unit.spec)),
         answer=conform(model, seen, states=states),
         model=model,
     )
@@ -152,6 +156,17 @@ def _most_on_a_thread(seen: Sequence[Observation]) -> int:
         now[each.thread] += _RUNS_OPEN.get(each.act, 0)
         most = max(most, now[each.thread])
     return most
+
+
+def _untold(seen: Sequence[Observation], spec: Spec) -> Iterator[str]:
+    """A live run does not see what a coroutine waits for, so that its model never awaits."""
+    paused = {each.callback for each in seen if each.act is Act.SUSPEND}
+    times = Counter((each.callback, each.act) for each in seen if each.is_task)
+    for place, callback in enumerate(spec.callbacks):
+        went_on = times[place, Act.BEGIN] > times[place, Act.ARRIVE] > 0
+        is_told = any(wait.frees_thread for wait in waits_of(callback, spec))
+        if (place in paused or went_on) and not is_told:
+            yield callback.name
 
 
 def _tasks(unit: ClosedSpec) -> frozenset[int]:

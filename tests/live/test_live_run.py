@@ -200,3 +200,38 @@ def test_variables_for_a_shell_are_those_of_a_run(tmp_path: Path) -> None:
     shown = subprocess.run(['sh', '-c', script], capture_output=True, text=True, check=True).stdout
     assert shown == f'{hooked["PYTHONPATH"]}|{tmp_path}'
     assert hooked['PYTHONPATH'].split(os.pathsep)[1:] == ['first', 'second']
+
+
+@pytest.fixture
+def _ros(ros_env: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let commands that are run by the command line see ROS."""
+    for name, value in ros_env.items():
+        monkeypatch.setenv(name, value)
+
+
+@pytest.mark.usefixtures('_ros')
+def test_other_programs_of_a_package_are_no_difference(tmp_path: Path, rclpy_python: str) -> None:
+    package, said = tmp_path / 'package', io.StringIO()
+    package.mkdir()
+    for name in ('own_classes.py', 'moving_nodes.py'):
+        (package / name).write_text((PROGRAMS / name).read_text())
+    checked = ['run', '-o', str(tmp_path / 'live.yaml'), '--check', str(package)]
+    main([*checked, '--', rclpy_python, str(package / 'own_classes.py')], said, said)
+    told = said.getvalue().splitlines()
+    assert sum(line.startswith('not run: ') for line in told) > 0, told
+    assert not [line for line in told if line.endswith('only left')]
+
+
+@pytest.mark.usefixtures('_ros')
+@pytest.mark.parametrize(('command', 'expected'), [('true', 2), ('false', 1)])
+def test_run_of_nothing_is_compared_with_nothing(
+    command: str, expected: int, tmp_path: Path
+) -> None:
+    said, source = io.StringIO(), PROGRAMS / 'own_classes.py'
+    checked = ['run', '-o', str(tmp_path / 'live.yaml'), '--check', str(source), '--', command]
+    assert main(checked, said, said) == expected
+    assert said.getvalue().splitlines()[-1] == (
+        f'{source}: nothing of it ran, so nothing is compared; see above how the command ended, '
+        'or name the source of what it runs'
+    )
+    assert 'only left' not in said.getvalue()

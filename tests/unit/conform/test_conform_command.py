@@ -130,3 +130,27 @@ def test_something_else_than_a_trace_is_refused(tmp_path: Path) -> None:
     stderr = io.StringIO()
     assert main(['conform', *paths], io.StringIO(), stderr) == 2
     assert 'run.jsonl:1: is no line of a trace; record it with' in stderr.getvalue()
+
+
+AWAITING = """
+    spin wait> 1, spin wait< 1, spin collect 3, a begin 3, a take 3, a suspend 3,
+    a resume 3, a end 3
+"""
+COROUTINE = SPEC.replace('callback: Arm.on_tick,', 'callback: Arm.on_tick, coroutine: true,')
+
+
+def test_what_a_coroutine_awaits_is_asked_for_where_nobody_tells(tmp_path: Path) -> None:
+    status, told, _ = conform(AWAITING, tmp_path, spec=COROUTINE)
+    lines = told.splitlines()
+    assert (status, lines[0]) == (3, 'arm: undecided after 3 of 6 events')
+    assert lines[-1] == (
+        '  the specification does not tell what it awaits: on_tick; a live run cannot see it, so '
+        'give the source, or what merge makes of both'
+    )
+
+
+def test_a_coroutine_whose_await_is_told_is_judged(tmp_path: Path) -> None:
+    told_await = 'coroutine: true, blocking: [{call: await, waits_for: on_joint}],'
+    spec = COROUTINE.replace('coroutine: true,', told_await)
+    status, told, _ = conform(AWAITING, tmp_path, spec=spec)
+    assert (status, told.splitlines()[0]) == (1, 'arm: diverges after 4 of 6 events')
