@@ -87,8 +87,26 @@ def test_trace_for_perfetto_has_a_track_for_each_thread_and_group(
     events = json.loads((tmp_path / 'run.perfetto.json').read_text())['traceEvents']
     names = {event['args']['name'] for event in events if event['name'] == 'thread_name'}
     assert set(header['threads'].values()) <= names
-    drawn = {event['tid'] for event in events if event['ph'] == 'X' and event['pid'] < 0}
-    assert len(drawn) == 2
+    named = [event for event in events if event['name'] == 'process_name']
+    (groups,) = [event['pid'] for event in named if 'groups' in event['args']['name']]
+    assert len({e['tid'] for e in events if e['ph'] == 'X' and e['pid'] == groups}) == 2
+    assert nested_or_apart(events)
+
+
+def nested_or_apart(events: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether slices of one track are one inside the other, or one after the other."""
+    ends: dict[Any, list[int]] = {}
+    shown = [event for event in events if event['ph'] == 'X']
+    for event in sorted(shown, key=lambda e: (e['ts'], -e['dur'])):
+        begin = round(event['ts'] * 1000)
+        end = begin + round(event['dur'] * 1000)
+        around = ends.setdefault((event['pid'], event['tid']), [])
+        while around and around[-1] <= begin:
+            around.pop()
+        if around and end > around[-1]:
+            return False
+        around.append(end)
+    return True
 
 
 def test_work_outside_every_group_is_traced(

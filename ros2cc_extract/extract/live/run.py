@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -12,16 +11,19 @@ from typing import TextIO
 
 from ros2cc_extract.errors import InputError, Ros2ccError
 from ros2cc_extract.extract.live.child import end_alike, run_child
+from ros2cc_extract.extract.live.chrome import write_chrome
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.recording import Recording, read_recording
-from ros2cc_extract.extract.live.trace import Trace, read_trace, to_chrome, write_lines
+from ros2cc_extract.extract.live.trace import Trace, read_trace, write_lines
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import write_specs
 
 DEFAULT_OUTPUT = Path('live.spec.yaml')
 EXIT_ERROR = 2
+# Some seconds of writing, which somebody at a terminal is told of.
+MANY_EVENTS = 100_000
 Finish = Callable[[tuple[Spec, ...]], int]
 
 
@@ -63,16 +65,18 @@ def run_command(
     check_output(output)
     if trace is not None:
         check_trace(trace)
-    recorded = record(command, environment, stderr, traced=trace is not None)
-    report_losses(recorded.recordings, stderr)
-    try:
-        write_output(recorded, output, stderr)
-        if trace is not None:
-            write_traces(recorded.traces, trace)
-    except Ros2ccError as error:
-        print(error, file=stderr)
-        return end_alike(recorded.status) or EXIT_ERROR
-    finished = finish(recorded.specs) if finish else 0
+    with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as folder:
+        recorded = record(command, environment, stderr, Path(folder), traced=trace is not None)
+        report_losses(recorded.recordings, stderr)
+        try:
+            write_output(recorded, output, stderr)
+            if trace is not None:
+                write_traces(recorded.traces, trace, stderr)
+        except Ros2ccError as error:
+            print(error, file=stderr)
+            finished = EXIT_ERROR
+        else:
+            finished = finish(recorded.specs) if finish else 0
     return end_alike(recorded.status) or finished
 
 
@@ -97,7 +101,7 @@ def collect_directory(
     recorded = Recorded(0, recordings)
     write_output(recorded, output, stderr)
     if trace is not None:
-        write_traces(tuple(filter(None, map(read_trace, recordings))), trace)
+        write_traces(tuple(filter(None, map(read_trace, recordings))), trace, stderr)
     return 0 if recorded.specs else EXIT_ERROR
 
 
@@ -105,16 +109,19 @@ def record(
     command: Sequence[str],
     environment: Mapping[str, str],
     stderr: TextIO,
+    folder: Path,
     *,
     traced: bool = False,
 ) -> Recorded:
-    """Run ``command`` with the hook; say what could not be read of its recordings."""
-    with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as directory:
-        folder = Path(directory)
-        status = run_child(command, hooked_environment(environment, folder, traced=traced))
-        recordings = read_directory(folder, stderr)
-        traces = (read_trace(recording) for recording in recordings) if traced else ()
-        return Recorded(status, tuple(recordings), tuple(filter(None, traces)))
+    """
+    Run ``command`` with the hook; say what could not be read of its recordings.
+
+    :param folder: for the recordings; the traces are read from there whenever they are asked for.
+    """
+    status = run_child(command, hooked_environment(environment, folder, traced=traced))
+    recordings = read_directory(folder, stderr)
+    traces = (read_trace(recording) for recording in recordings) if traced else ()
+    return Recorded(status, tuple(recordings), tuple(filter(None, traces)))
 
 
 def read_directory(directory: Path, stderr: TextIO) -> list[Recording]:
@@ -184,15 +191,21 @@ def check_trace(trace: Path) -> None:
     check_output(trace)
 
 
-def write_traces(traces: Sequence[Trace], path: Path) -> None:
+def write_traces(traces: Sequence[Trace], path: Path, stderr: TextIO) -> None:
     """
     Write the trace as JSON lines, and for Perfetto beside it (``NAME.perfetto.json``).
 
     :raises InputError: when writing fails; what was there before is kept.
     """
+    count = sum(trace.count for trace in traces)
+    if not count:
+        print(f'ros2cc-extract: no executor was traced; {path} is not written', file=stderr)
+        return
+    if count > MANY_EVENTS and stderr.isatty():
+        print(f'ros2cc-extract: writing {count:,} events to {path} …', file=stderr)
     _write_whole(path, lambda stream: write_lines(traces, stream))
     for_perfetto = path.with_name(f'{path.stem}.perfetto.json')
-    _write_whole(for_perfetto, lambda stream: json.dump(to_chrome(traces), stream))
+    _write_whole(for_perfetto, lambda stream: write_chrome(traces, stream))
 
 
 def _write_whole(path: Path, write: Callable[[TextIO], object]) -> None:

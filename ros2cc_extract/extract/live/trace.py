@@ -1,42 +1,41 @@
 """
-Execution traces: read what a traced process wrote, write it for people and for Perfetto.
+Execution traces: read what a traced process wrote, write it for people.
 
 The exported trace is JSON lines. First one line for each process, then its entities, then its
 events in the order of their clock; two threads may be out of order by the time that one step
-takes. ``to_chrome`` gives the JSON of ``chrome://tracing`` and ui.perfetto.dev.
+takes. An hour of it is many gigabytes: it is read as it is written, and never held as a whole.
 """
 
 from __future__ import annotations
 
 import json
+import mmap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from heapq import heappush, heappushpop
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, NamedTuple, TextIO, cast
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.collect import home_of
-from ros2cc_extract.extract.live.events import EVENT_NAMES, LOST, RAW_SUFFIX, THREAD_NAME, rows
+from ros2cc_extract.extract.live.events import (
+    EVENT_NAMES,
+    LOST,
+    RAW_SUFFIX,
+    THREAD_NAME,
+    Fields,
+    rows,
+)
 from ros2cc_extract.extract.live.recording import Recording
 from ros2cc_extract.places import Place
 
 FORMAT = 'ros2cc trace'
 VERSION = 1
-# What ends a stretch of time, and what it can have begun with. A coroutine that pauses leaves its
-# thread and stays in its group.
-_ON_THREADS = {
-    'end': ('begin', 'resume'),
-    'suspend': ('begin', 'resume'),
-    'pause': ('run',),
-    'wait<': ('wait>',),
-}
-_IN_GROUPS = {'end': ('begin',), 'pause': ('run',)}
-_MOMENTS = ('refused', 'collect', 'submit', 'task')
-_NO_GROUP = 0
+# How many events later one may stand than its clock says, to begin with.
+_NEAR = 256
 
 
-@dataclass(frozen=True)
-class Event:
+class Event(NamedTuple):
     """
     One step of an executor.
 
@@ -55,52 +54,101 @@ class Event:
 @dataclass(frozen=True)
 class Trace:
     """
-    What one process did.
+    What one process did; its events are read from the file whenever they are asked for.
 
     :param lost: how often events came faster than they could be kept.
+    :param count: how many events there are.
+    :param reach: how many events must be held to put them in order.
     """
 
     recording: Recording
-    events: tuple[Event, ...]
+    file: Path
     threads: Mapping[int, str]
     lost: int
+    count: int
+    reach: int
+
+    def events(self) -> Iterator[Event]:
+        """Read the events in the order of their clock."""
+        for clock_ns, thread, what, subject in _ordered(_steps(self.file), self.reach):
+            yield Event(clock_ns, thread, EVENT_NAMES[what], subject)
 
 
 def read_trace(recording: Recording) -> Trace | None:
     """
-    Read the trace beside a recording; ``None`` if there is none.
+    Find the trace beside a recording; ``None`` if there is none.
 
     A last row cut off in the middle, as a killed process leaves it, is left out.
 
     :raises InputError: when the file cannot be read.
     """
     path = Path(f'{recording.file}{RAW_SUFFIX}')
+    threads: dict[int, str] = {}
+    lost = count = 0
     try:
-        raw = path.read_bytes()
+        for (_, thread, what, _), name in _raw_rows(path):
+            if what == THREAD_NAME:
+                threads[thread] = name
+            elif what == LOST:
+                lost += 1
+            elif what < len(EVENT_NAMES):
+                count += 1
+        reach = _NEAR
+        while not _is_in_order(_ordered(_steps(path), reach)):
+            reach *= 8
     except FileNotFoundError:
         return None
     except OSError as error:
         raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
-    events, threads, lost = [], {}, 0
-    for (clock_ns, thread, what, subject), name in rows(raw):
-        if what == THREAD_NAME:
-            threads[thread] = name
-        elif what == LOST:
-            lost += 1
-        elif what < len(EVENT_NAMES):
-            events.append(Event(clock_ns, thread, EVENT_NAMES[what], subject))
-    events.sort(key=lambda event: event.clock_ns)
-    return Trace(recording, tuple(events), threads, lost)
+    return Trace(recording, path, threads, lost, count, reach)
+
+
+def _raw_rows(path: Path) -> Iterator[tuple[Fields, str]]:
+    with path.open('rb') as stream:
+        if path.stat().st_size:
+            with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as mapped:
+                yield from rows(cast(bytes, mapped))
+
+
+def _steps(path: Path) -> Iterator[Fields]:
+    return (fields for fields, _ in _raw_rows(path) if fields[2] < len(EVENT_NAMES))
+
+
+def _ordered(steps: Iterable[Fields], reach: int) -> Iterator[Fields]:
+    """Put in the order of the clock what is out of it by less than ``reach`` steps."""
+    held: list[tuple[int, int, Fields]] = []
+    for number, fields in enumerate(steps):
+        row = fields[0], number, fields
+        if len(held) < reach:
+            heappush(held, row)
+        else:
+            yield heappushpop(held, row)[2]
+    yield from (fields for _, _, fields in sorted(held))
+
+
+def _is_in_order(steps: Iterable[Fields]) -> bool:
+    before = 0
+    for clock, *_ in steps:
+        if clock < before:
+            return False
+        before = clock
+    return True
 
 
 def write_lines(traces: Iterable[Trace], stream: TextIO) -> None:
     """Write traces as JSON lines."""
     for trace in traces:
-        for line in _lines(trace):
+        for line in _head(trace):
             stream.write(json.dumps(line) + '\n')
+        pid = trace.recording.pid
+        for clock_ns, thread, name, subject in trace.events():
+            stream.write(
+                f'{{"process": {pid}, "clock_ns": {clock_ns}, "thread": {thread}, '
+                f'"event": "{name}", "entity": {subject}}}\n'
+            )
 
 
-def _lines(trace: Trace) -> Iterator[Mapping[str, Any]]:
+def _head(trace: Trace) -> Iterator[Mapping[str, Any]]:
     recording = trace.recording
     pid = recording.pid
     yield {
@@ -112,19 +160,11 @@ def _lines(trace: Trace) -> Iterator[Mapping[str, Any]]:
         'lost': trace.lost,
         'threads': {str(number): name for number, name in trace.threads.items()},
     }
-    for subject in _subjects(recording).values():
+    for subject in subjects_of(recording).values():
         yield {'process': pid, **subject}
-    for event in trace.events:
-        yield {
-            'process': pid,
-            'clock_ns': event.clock_ns,
-            'thread': event.thread,
-            'event': event.event,
-            'entity': event.subject,
-        }
 
 
-def _subjects(recording: Recording) -> dict[int, dict[str, Any]]:
+def subjects_of(recording: Recording) -> dict[int, dict[str, Any]]:
     """Describe entities, tasks and executors by their numbers."""
     nodes = {node.number: node.name for node in recording.nodes}
     homes = {node.number: home_of(node) for node in recording.nodes}
@@ -163,88 +203,3 @@ def _groupless(number: int, kind: str, name: str, **known: Any) -> dict[str, Any
         'period_s': None,
         **known,
     }
-
-
-def to_chrome(traces: Iterable[Trace]) -> dict[str, Any]:
-    """Give the trace-event JSON: one track for each thread and one for each callback group."""
-    events = [event for trace in traces for event in _chrome_events(trace)]
-    return {'traceEvents': events, 'displayTimeUnit': 'ms'}
-
-
-def _chrome_events(trace: Trace) -> Iterator[dict[str, Any]]:
-    pid = trace.recording.pid
-    groups_pid = -pid
-    subjects = _subjects(trace.recording)
-    yield _named('process_name', pid, 0, f'threads of process {pid}')
-    yield _named('process_name', groups_pid, 0, f'callback groups of process {pid}')
-    for number, name in trace.threads.items():
-        yield _named('thread_name', pid, number, name)
-    for number in {subject['group'] or _NO_GROUP for subject in subjects.values()}:
-        yield _named('thread_name', groups_pid, number, _group_name(trace.recording, number))
-    for begin, end in _stretches(trace.events, _ON_THREADS):
-        yield _drawn(begin, end, subjects, pid, begin.thread)
-    for begin, end in _stretches(trace.events, _IN_GROUPS):
-        group = subjects.get(begin.subject, {}).get('group') or _NO_GROUP
-        yield _drawn(begin, end, subjects, groups_pid, group)
-    for event in trace.events:
-        if event.event in _MOMENTS:
-            yield {
-                'ph': 'i',
-                's': 't',
-                'name': f'{event.event} {_short_name(event, subjects)}',
-                'ts': event.clock_ns / 1e3,
-                'pid': pid,
-                'tid': event.thread,
-            }
-
-
-def _drawn(
-    begin: Event, end: Event, subjects: Mapping[int, Mapping[str, Any]], pid: int, tid: int
-) -> dict[str, Any]:
-    name = _short_name(begin, subjects)
-    return {
-        'ph': 'X',
-        'name': f'{name} waits' if begin.event == 'wait>' else name,
-        'ts': begin.clock_ns / 1e3,
-        'dur': (end.clock_ns - begin.clock_ns) / 1e3,
-        'args': subjects.get(begin.subject, {}),
-        'pid': pid,
-        'tid': tid,
-    }
-
-
-def _short_name(event: Event, subjects: Mapping[int, Mapping[str, Any]]) -> str:
-    name: str = subjects.get(event.subject, {}).get('name', '?')
-    return name.rpartition('.')[2]
-
-
-def _stretches(
-    events: Iterable[Event], begun_by: Mapping[str, tuple[str, ...]]
-) -> Iterator[tuple[Event, Event]]:
-    """Pair begins with ends; what had not ended when the trace stopped is left out."""
-    openers = {name for names in begun_by.values() for name in names}
-    opened: dict[int, list[Event]] = {}
-    for event in events:
-        if event.event in openers:
-            opened.setdefault(event.subject, []).append(event)
-        elif event.event in begun_by:
-            begun = opened.get(event.subject, [])
-            fitting = [each for each in begun if each.event in begun_by[event.event]]
-            # A coroutine may end in another thread than it began in.
-            own = [each for each in fitting if each.thread == event.thread] or fitting
-            if own:
-                begun.remove(own[-1])
-                yield own[-1], event
-
-
-def _group_name(recording: Recording, number: int) -> str:
-    group = next((each for each in recording.groups if each.number == number), None)
-    if group is None:
-        return 'in no group'
-    node = next((each.name for each in recording.nodes if each.number == group.node), None)
-    default = f'default group of {node}' if group.default else f'group {number}'
-    return f'{default} ({group.kind})'
-
-
-def _named(what: str, pid: int, tid: int, name: str) -> dict[str, Any]:
-    return {'ph': 'M', 'name': what, 'pid': pid, 'tid': tid, 'args': {'name': name}}

@@ -5,13 +5,15 @@ from __future__ import annotations
 import io
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.live.chrome import write_chrome
 from ros2cc_extract.extract.live.events import loss, thread_name
 from ros2cc_extract.extract.live.recording import read_recording
-from ros2cc_extract.extract.live.trace import Event, read_trace, to_chrome, write_lines
+from ros2cc_extract.extract.live.trace import Event, Trace, read_trace, write_lines
 from tests.unit.live.recordings import data, event, group, node, recording, timer, trace
 
 
@@ -51,7 +53,7 @@ TRACE = (
 
 def test_trace_is_ordered_and_a_cut_off_row_left_out(tmp_path: Path) -> None:
     read = trace(recording(tmp_path), *TRACE)
-    assert read.events == (
+    assert tuple(read.events()) == (
         Event(90, 11, 'collect', 4),
         Event(100, 11, 'begin', 4),
         Event(130, 12, 'end', 4),
@@ -62,7 +64,7 @@ def test_trace_is_ordered_and_a_cut_off_row_left_out(tmp_path: Path) -> None:
 def test_name_cut_off_hides_nothing_before_it(tmp_path: Path) -> None:
     cut = thread_name(12, 'ThreadPoolExecutor-0_0')[:-3]
     read = trace(recording(tmp_path), event(100, 11, 'begin', 4), cut)
-    assert read.events == (Event(100, 11, 'begin', 4),)
+    assert tuple(read.events()) == (Event(100, 11, 'begin', 4),)
 
 
 def test_process_without_a_trace_has_none(tmp_path: Path) -> None:
@@ -81,6 +83,16 @@ def test_exported_lines_tell_process_entities_events(tmp_path: Path) -> None:
     assert [event['event'] for event in events] == ['collect', 'begin', 'end']
 
 
+def drawn(read: Trace) -> list[dict[str, Any]]:
+    stream = io.StringIO()
+    write_chrome([read], stream)
+    return json.loads(stream.getvalue())['traceEvents']
+
+
+def tracks(events: list[dict[str, Any]]) -> dict[tuple[int, int], str]:
+    return {(e['pid'], e['tid']): e['args']['name'] for e in events if e['name'] == 'thread_name'}
+
+
 def test_stretch_is_drawn_on_its_thread_and_its_group(tmp_path: Path) -> None:
     recorded = recording(
         tmp_path,
@@ -88,11 +100,16 @@ def test_stretch_is_drawn_on_its_thread_and_its_group(tmp_path: Path) -> None:
         groups=[group(3, node=2, default=True)],
         entities=[timer(4, 2, 3, 'arm.Arm.tick')],
     )
-    events = to_chrome([trace(recorded, *TRACE)])['traceEvents']
-    drawn = [(e['pid'], e['tid'], e['name'], e['dur']) for e in events if e['ph'] == 'X']
-    assert drawn == [(7, 11, 'tick', 0.03), (-7, 3, 'tick', 0.03)]
-    names = {e['args']['name'] for e in events if e['ph'] == 'M'}
-    assert {'MainThread', 'default group of arm (exclusive)'} <= names
+    events = drawn(trace(recorded, *TRACE))
+    names = tracks(events)
+    assert [
+        (names[e['pid'], e['tid']], e['name'], e['dur']) for e in events if e['ph'] == 'X'
+    ] == [
+        ('MainThread', 'tick', 0.03),
+        ('default group of arm (exclusive)', 'tick', 0.03),
+    ]
+    processes = [e['args']['name'] for e in events if e['name'] == 'process_name']
+    assert processes == ['threads of process 7', 'callback groups of process 7']
 
 
 PAUSED = (
@@ -107,10 +124,65 @@ PAUSED = (
 
 def test_paused_coroutine_leaves_its_thread_and_stays_in_its_group(tmp_path: Path) -> None:
     recorded = recording(tmp_path, groups=[group(3)], entities=[timer(4, 2, 3, 'arm.Arm.tick')])
-    drawn = [e for e in to_chrome([trace(recorded, *PAUSED)])['traceEvents'] if e['ph'] == 'X']
-    assert [(e['pid'], e['tid'], e['name'], e['ts'], e['dur']) for e in drawn] == [
-        (7, 11, 'tick', 0.1, 0.01),
-        (7, 11, '? waits', 0.12, 0.03),
-        (7, 12, 'tick', 0.16, 0.02),
-        (-7, 3, 'tick', 0.1, 0.08),
+    threads = thread_name(11, 'a'), thread_name(12, 'b')
+    events = drawn(trace(recorded, *threads, *PAUSED))
+    names = tracks(events)
+    shown = [e for e in events if e['ph'] == 'X']
+    assert [(names[e['pid'], e['tid']], e['name'], e['ts'], e['dur']) for e in shown] == [
+        ('a', 'tick', 0.1, 0.01),
+        ('a', '? waits', 0.12, 0.03),
+        ('b', 'tick', 0.16, 0.02),
+        ('group 3 (exclusive)', 'tick', 0.1, 0.08),
     ]
+
+
+BIG, OTHER = 139644125758656, 139644125758657
+OVERLAPPING = (
+    thread_name(BIG, 'a'),
+    thread_name(OTHER, 'b'),
+    event(100, BIG, 'begin', 4),
+    event(110, OTHER, 'begin', 4),
+    event(130, BIG, 'end', 4),
+    event(140, BIG, 'begin', 4),
+    event(150, OTHER, 'end', 4),
+    event(160, BIG, 'collect', 4),
+)
+
+
+def test_slices_of_one_track_never_overlap(tmp_path: Path) -> None:
+    recorded = recording(tmp_path, groups=[group(3)], entities=[timer(4, 2, 3, 'arm.Arm.tick')])
+    events = drawn(trace(recorded, *OVERLAPPING))
+    names = tracks(events)
+    shown = [e for e in events if e['ph'] in 'XB']
+    assert [(names[e['pid'], e['tid']], e['ph'], e['ts']) for e in shown] == [
+        ('a', 'X', 0.1),
+        ('group 3 (exclusive)', 'X', 0.1),
+        ('b', 'X', 0.11),
+        ('group 3 (exclusive), number 2 at a time', 'X', 0.11),
+        ('a', 'B', 0.14),
+        ('group 3 (exclusive)', 'B', 0.14),
+    ]
+
+
+def test_numbers_of_tracks_are_those_that_perfetto_takes(tmp_path: Path) -> None:
+    recorded = recording(tmp_path, groups=[group(3)], entities=[timer(4, 2, 3, 'arm.Arm.tick')])
+    events = drawn(trace(recorded, *OVERLAPPING))
+    assert all(0 < event[key] < 2**32 for event in events for key in ('pid', 'tid'))
+    assert len(tracks(events)) == 4
+    pids = {event['pid'] for event in events}
+    assert len(pids) == 2
+    assert pids.isdisjoint(tid for _, tid in tracks(events))
+
+
+def test_lambda_is_called_by_what_it_serves(tmp_path: Path) -> None:
+    timers = [timer(4, 2, 3, 'arm.Arm.__init__.<locals>.<lambda>')]
+    recorded = recording(tmp_path, groups=[group(3)], entities=timers)
+    (moment,) = [e for e in drawn(trace(recorded, *OVERLAPPING)) if e['ph'] == 'i']
+    assert moment['name'] == 'collect <lambda> 0.5 s'
+
+
+def test_order_is_found_however_far_apart_events_stand(tmp_path: Path) -> None:
+    late = [event(10_000 + number, 11, 'begin', 4) for number in range(3000)]
+    read = trace(recording(tmp_path), *late, event(5, 12, 'end', 4))
+    clocks = [each.clock_ns for each in read.events()]
+    assert (read.count, clocks) == (3001, sorted(clocks))
