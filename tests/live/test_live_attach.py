@@ -84,3 +84,15 @@ def test_action_server_without_a_name_is_unknown_and_has_its_execute_callback(
 def test_process_that_is_not_there_is_told(tmp_path: Path) -> None:
     with pytest.raises(InputError, match='there is no process 4194305'):
         attach_process(4194305, tmp_path / 'attached.yaml', io.StringIO())
+
+
+@needs_a_way_in
+def test_process_that_is_no_python_is_left_alone(tmp_path: Path) -> None:
+    with subprocess.Popen(['sleep', '60']) as other:
+        try:
+            with pytest.raises(ToolNotFoundError, match=f'process {other.pid} cannot be entered'):
+                attach_process(other.pid, tmp_path / 'attached.yaml', io.StringIO())
+            with pytest.raises(subprocess.TimeoutExpired):
+                other.wait(1)
+        finally:
+            other.kill()

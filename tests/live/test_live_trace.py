@@ -131,7 +131,7 @@ def test_waits_of_each_process_are_traced(start: Callable[..., Child], tmp_path:
     child = start(PROGRAMS / 'forking.py', recorded_into=tmp_path, traced=True)
     assert child.end() == 4, child.text
     traces = [read_trace(recording) for recording in recordings_in(tmp_path)]
-    waited = ['wait>' in {event.event for event in trace.events} for trace in traces if trace]
+    waited = ['wait>' in {event.event for event in trace.events()} for trace in traces if trace]
     assert waited == [True] * 3
 
 

@@ -92,6 +92,8 @@ def attach_process(pid: int, output: Path, stderr: TextIO) -> int:
 
 
 def _check_process(pid: int) -> None:
+    if pid <= 0:
+        raise InputError(f'{pid} is no process number')
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
@@ -129,11 +131,25 @@ def _hypno() -> Injector | None:
         refusals = (OSError, importlib.import_module('pyinjector').PyInjectorError)
     except ImportError:
         return None
-    return Injector(
-        'hypno',
-        lambda pid, script: hypno.inject_py(pid, f'exec(open({str(script)!r}).read(), {{}})'),
-        refusals,
-    )
+
+    def inject(pid: int, script: Path) -> None:
+        refuse_what_would_end(pid)
+        hypno.inject_py(pid, f'exec(open({str(script)!r}).read(), {{}})')
+
+    return Injector('hypno', inject, refusals)
+
+
+def refuse_what_would_end(pid: int) -> None:
+    """
+    Look whether a process has what an injected library calls: without it, the linker ends it.
+
+    :raises OSError: when it has not, or cannot be looked at.
+    """
+    program = Path(f'/proc/{pid}/exe')
+    names = program.read_bytes()
+    is_shared = b'libpython' in names and 'libpython' in Path(f'/proc/{pid}/maps').read_text()
+    if not is_shared and b'PyGILState_Ensure' not in names:
+        raise OSError(f'{program.resolve().name} is no Python interpreter that lets others in')
 
 
 def _record(pid: int, directory: Path, ways: Sequence[Injector]) -> Path:
@@ -159,7 +175,8 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
             refused[injector.name] = error
         else:
             return
-    told = '; '.join(f'{name}: {error}' for name, error in refused.items())
+    # Some tell whole pages.
+    told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
     raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
 
 

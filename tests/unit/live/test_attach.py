@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import io
+import os
 import re
 from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.errors import ToolNotFoundError
-from ros2cc_extract.extract.live.attach import Injector, inject
+from ros2cc_extract.errors import InputError, ToolNotFoundError
+from ros2cc_extract.extract.live.attach import (
+    Injector,
+    attach_process,
+    inject,
+    refuse_what_would_end,
+)
 
 SCRIPT = Path('record.py')
 
@@ -60,3 +67,20 @@ def test_other_errors_are_nobodys_refusal() -> None:
 
     with pytest.raises(KeyError):
         inject(7, SCRIPT, [Injector('hypno', break_down, (OSError,)), Door('other').injector])
+
+
+@pytest.mark.parametrize('pid', [0, -1, -os.getpid()])
+def test_groups_of_processes_are_no_process(pid: int, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=f'{pid} is no process number'):
+        attach_process(pid, tmp_path / 'live.yaml', io.StringIO())
+
+
+def test_python_is_let_in() -> None:
+    refuse_what_would_end(os.getpid())
+
+
+def test_whole_pages_of_a_refusal_are_shortened() -> None:
+    with pytest.raises(ToolNotFoundError) as raised:
+        inject(7, SCRIPT, [Door('hypno', 'no way\n' * 200).injector])
+    assert len(str(raised.value).splitlines()) == 1
+    assert len(str(raised.value)) < 400
