@@ -153,5 +153,5 @@ def test_handler_that_another_thread_holds_is_not_paused(
 
 
 def test_trace_into_a_directory_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match='is a directory; name a file for the trace'):
+    with pytest.raises(InputError, match='is a directory; name a file'):
         run_command(['true'], tmp_path / 'live.yaml', io.StringIO(), trace=tmp_path)

@@ -22,7 +22,7 @@ from typing import TextIO
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.recording import read_recording
-from ros2cc_extract.extract.live.run import check_output, report_losses, write_specs_to
+from ros2cc_extract.extract.live.run import check_file, report_losses, write_specs_to
 
 EXIT_CLEAN, EXIT_ERROR = 0, 2
 # The main thread runs our lines as soon as it is back from C; an executor wakes at every event.
@@ -75,7 +75,7 @@ def attach_process(pid: int, output: Path, stderr: TextIO) -> int:
     :raises InputError: when there is no such process, or it does not answer.
     :raises ToolNotFoundError: when nothing here can run code in it.
     """
-    check_output(output)
+    check_file(output)
     _check_process(pid)
     ways = injectors()
     with tempfile.TemporaryDirectory(prefix='ros2cc-attach-') as directory:

@@ -64,7 +64,7 @@ def run_command(
     """
     check_output(output)
     if trace is not None:
-        check_trace(trace)
+        check_file(trace)
     with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as folder:
         recorded = record(command, environment, stderr, Path(folder), traced=trace is not None)
         report_losses(recorded.recordings, stderr)
@@ -95,7 +95,7 @@ def collect_directory(
         raise InputError('is no directory', Place(str(directory)), 'name the one given to env -o')
     check_output(output)
     if trace is not None:
-        check_trace(trace)
+        check_file(trace)
     recordings = tuple(read_directory(directory, stderr))
     report_losses(recordings, stderr)
     recorded = Recorded(0, recordings)
@@ -180,15 +180,15 @@ def write_specs_to(path: Path, specs: Sequence[Spec]) -> None:
     _write_whole(path, lambda stream: stream.write(write_specs(specs)))
 
 
-def check_trace(trace: Path) -> None:
+def check_file(path: Path) -> None:
     """
-    Refuse a trace that can only fail, before anything runs.
+    Refuse what can only fail where no folder will do, before anything runs.
 
     :raises InputError: when it is a directory, or its folder cannot be written to.
     """
-    if trace.is_dir():
-        raise InputError('is a directory', Place(str(trace)), 'name a file for the trace')
-    check_output(trace)
+    if path.is_dir():
+        raise InputError('is a directory', Place(str(path)), 'name a file')
+    check_output(path)
 
 
 def write_traces(traces: Sequence[Trace], path: Path, stderr: TextIO) -> None:

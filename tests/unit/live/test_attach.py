@@ -84,3 +84,8 @@ def test_whole_pages_of_a_refusal_are_shortened() -> None:
         inject(7, SCRIPT, [Door('hypno', 'no way\n' * 200).injector])
     assert len(str(raised.value).splitlines()) == 1
     assert len(str(raised.value)) < 400
+
+
+def test_folder_is_refused_before_a_process_is_entered(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match='is a directory; name a file'):
+        attach_process(os.getpid(), tmp_path, io.StringIO())
