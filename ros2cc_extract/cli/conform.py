@@ -22,6 +22,10 @@ _MEND_AWAIT = 'a live run cannot see it, so give the source, or what merge makes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = (
+        'Exit status: 0 it is a path of the model; 1 it is not; 2 the input cannot be used; '
+        '3 undecided: a\nlimit was hit, or the specification does not tell enough.'
+    )
     parser.add_argument(
         'trace', type=Path, metavar='TRACE', help='what `run --trace` wrote (JSON lines)'
     )

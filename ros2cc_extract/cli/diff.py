@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = (
+        'Exit status: 0 no difference, or only announced ones: what a side says may happen or is '
+        'not\nknown to it; 1 a difference; 2 the input cannot be used.'
+    )
     for name in ('left', 'right'):
         parser.add_argument(
             name,

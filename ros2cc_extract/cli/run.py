@@ -15,7 +15,21 @@ if TYPE_CHECKING:
 DEFAULT_OUTPUT = Path('live.spec.yaml')
 
 
+EPILOG = """\
+examples:
+  ros2cc-extract run -- ros2 launch my_robot bringup.launch.py
+  ros2cc-extract run -o live.yaml --trace run.jsonl -- python node.py
+  ros2cc-extract run --check node.py -- python node.py
+
+End the command as always (Ctrl-C): the files are written then. Exit status: that of the command;
+where it is 0, 1 when --check finds a difference, 2 when the output could not be written or nothing
+of the source ran. Beside the trace lies FILE.perfetto.json, for ui.perfetto.dev.
+"""
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = '%(prog)s [-h] [-o FILE|DIR] [--trace FILE] [--check PATH] -- CMD …'
+    parser.epilog = EPILOG
     parser.add_argument(
         '-o',
         '--output',
@@ -33,7 +47,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='PATH',
         help='scan this source too, and compare it with what the run held',
     )
-    parser.add_argument('command', nargs=argparse.REMAINDER, metavar='-- CMD …')
+    parser.add_argument(
+        'command',
+        nargs=argparse.REMAINDER,
+        metavar='-- CMD …',
+        help='what to run, as you would type it without us; its child processes too',
+    )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -60,7 +79,10 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
         scanned = _distinct([unit for unit in live if _is_of(unit, source, units)], named)
         if not scanned:
             mend = 'see above how the command ended, or name the source of what it runs'
-            print(f'{source}: nothing of it ran, so nothing is compared; {mend}', file=stderr)
+            print(
+                f'ros2cc-extract: {source}: nothing of it ran, so nothing is compared; {mend}',
+                file=stderr,
+            )
             return EXIT_ERROR
         started = _started(_distinct(units, named), scanned)
         status = report(diff(started, scanned), (str(source), 'live'), 'text', stdout)

@@ -16,7 +16,19 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
-FOREIGN_SUFFIXES = ('.c', '.cc', '.cpp', '.h', '.hpp', '.json', '.md', '.txt', '.toml', '.xml')
+FOREIGN_SUFFIXES = (
+    '.c',
+    '.cc',
+    '.cpp',
+    '.h',
+    '.hpp',
+    '.json',
+    '.jsonl',
+    '.md',
+    '.txt',
+    '.toml',
+    '.xml',
+)
 """Of files that nobody means as Python, though one of plain words would parse."""
 STANDARD_INPUT = Path('-')
 RECORDING_SUFFIX = '.json'

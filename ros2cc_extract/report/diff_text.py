@@ -30,7 +30,8 @@ def print_differences(
         )
     console.print(rows)
     faults = sum(not difference.marked for difference in differences)
-    console.print(f'{faults} differences, {len(differences) - faults} announced')
+    noun = 'difference' if faults == 1 else 'differences'
+    console.print(f'{faults} {noun}, {len(differences) - faults} announced')
 
 
 def _side(value: str, place: Place | None) -> str:

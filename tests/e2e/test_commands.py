@@ -275,3 +275,29 @@ def test_a_second_scan_takes_the_first_ones_result(run: Run, tmp_path: Path, cac
     assert run('spec', 'node.py').out == first == run('spec', 'node.py', '--no-cache').out
     node.write_text(CASE_1.read_text().replace("'msg_C'", "'msg_E'"))
     assert 'topic: msg_E' in run('spec', 'node.py').out
+
+
+def test_merge_tells_known_facts_that_differ(run: Run, tmp_path: Path) -> None:
+    scanned = run('spec', EXAMPLES / 'two_groups' / 'node.py').out
+    one, other = tmp_path / 'one.yaml', tmp_path / 'other.yaml'
+    one.write_text(scanned)
+    changed, count = re.subn(r'period_s: [\d.]+', 'period_s: 77.0', scanned, count=1)
+    assert count == 1
+    other.write_text(changed)
+    assert run('merge', one, one).err == ''
+    outcome = run('merge', one, other)
+    (told,) = outcome.err.splitlines()
+    assert outcome.status == 0
+    assert re.match(r'ros2cc-extract: \w+: period_s of \w+: [\d.]+ in ', told)
+    assert told.endswith('; the first is kept')
+    assert f'77.0 in {other}' in told
+
+
+def test_merge_of_two_programs_is_told(run: Run, tmp_path: Path) -> None:
+    one, other = tmp_path / 'one.yaml', tmp_path / 'other.yaml'
+    one.write_text(run('spec', CASE_1).out)
+    other.write_text(run('spec', EXAMPLES / 'two_groups' / 'node.py').out)
+    outcome = run('merge', one, other)
+    what = f'no unit of {one} is one of {other}; all are written as they are'
+    assert (outcome.status, outcome.err) == (0, f'ros2cc-extract: {what}\n')
+    assert len(list(yaml.safe_load_all(outcome.out))) == 2

@@ -57,6 +57,13 @@ def test_end_by_kill_passes_through(start_run: Callable[..., Child]) -> None:
     assert (child.end(), 'Error' in child.text) == (-signal.SIGKILL, False)
 
 
+def test_signals_that_come_while_the_command_ends_do_not_end_us(
+    start_run: Callable[..., Child],
+) -> None:
+    ending = 'kill -STOP $PPID; kill -INT $PPID; kill -TERM $PPID; (sleep 1; kill -CONT $PPID) &'
+    assert start_run('sh', '-c', ending).end() == 0
+
+
 @pytest.mark.parametrize('name', ['INT', 'TERM', 'HUP', 'USR1'])
 def test_signal_sent_to_us_reaches_the_command(name: str, start_run: Callable[..., Child]) -> None:
     waits = f'trap "echo got {name}; exit 5" {name}; echo up; while :; do sleep 0.05; done'
@@ -101,7 +108,10 @@ def test_full_disk_is_told_and_the_old_file_kept(
     node = str(PROGRAMS / 'own_classes.py')
     status, told = run_here([rclpy_python, node], output, ros_env)
     assert status == 2
-    assert told == f'{output}: cannot be written: No space left on device\n'
+    assert told == (
+        f'ros2cc-extract: {output}: cannot be written: No space left on device; '
+        'what was there before is kept\n'
+    )
     assert output.read_text() == 'what was there'
 
 
@@ -190,7 +200,10 @@ def test_class_under_several_names_is_several_units_and_laps_are_one(
 def test_directory_without_recordings_is_told(tmp_path: Path) -> None:
     stderr = io.StringIO()
     assert collect_directory(tmp_path, tmp_path / 'live.yaml', stderr) == 2
-    assert 'no recorded process' in stderr.getvalue()
+    assert stderr.getvalue() == (
+        f'ros2cc-extract: {tmp_path}: holds no recording of a process; start the nodes after: '
+        f'eval "$(ros2cc-extract env -o {tmp_path})"\n'
+    )
 
 
 def test_variables_for_a_shell_are_those_of_a_run(tmp_path: Path) -> None:
@@ -231,7 +244,7 @@ def test_run_of_nothing_is_compared_with_nothing(
     checked = ['run', '-o', str(tmp_path / 'live.yaml'), '--check', str(source), '--', command]
     assert main(checked, said, said) == expected
     assert said.getvalue().splitlines()[-1] == (
-        f'{source}: nothing of it ran, so nothing is compared; see above how the command ended, '
-        'or name the source of what it runs'
+        f'ros2cc-extract: {source}: nothing of it ran, so nothing is compared; see above how the '
+        'command ended, or name the source of what it runs'
     )
     assert 'only left' not in said.getvalue()

@@ -53,6 +53,9 @@ def run_child(command: Sequence[str], environment: Mapping[str, str]) -> int:
     try:
         return _wait(child)
     finally:
+        # A second Ctrl-C may have come while the command was ending: what it held is written.
+        while signal.sigtimedwait(_PASSED_ON, 0) is not None:
+            pass
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 

@@ -73,7 +73,7 @@ def run_command(
             if trace is not None:
                 write_traces(recorded.traces, trace, stderr)
         except Ros2ccError as error:
-            print(error, file=stderr)
+            print(f'ros2cc-extract: {error}', file=stderr)
             finished = EXIT_ERROR
         else:
             finished = finish(recorded.specs) if finish else 0
@@ -97,6 +97,11 @@ def collect_directory(
     if trace is not None:
         check_file(trace)
     recordings = tuple(read_directory(directory, stderr))
+    if not recordings:
+        mend = f'start the nodes after: eval "$(ros2cc-extract env -o {directory})"'
+        what = 'holds no recording of a process'
+        print(f'ros2cc-extract: {directory}: {what}; {mend}', file=stderr)
+        return EXIT_ERROR
     report_losses(recordings, stderr)
     recorded = Recorded(0, recordings)
     write_output(recorded, output, stderr)
@@ -131,7 +136,7 @@ def read_directory(directory: Path, stderr: TextIO) -> list[Recording]:
         try:
             recordings.append(read_recording(path, Path.cwd()))
         except InputError as error:
-            print(error, file=stderr)
+            print(f'ros2cc-extract: {error}', file=stderr)
     return recordings
 
 
@@ -217,7 +222,11 @@ def _write_whole(path: Path, write: Callable[[TextIO], object]) -> None:
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)
-        raise InputError(f'cannot be written: {error.strerror}', Place(str(path))) from error
+        mend = 'what was there before is kept' if path.exists() else ''
+        raise InputError(f'cannot be written: {error.strerror}', Place(str(path)), mend) from error
+    except BaseException:  # Ctrl-C
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def report_losses(recordings: Sequence[Recording], stderr: TextIO) -> None:
