@@ -69,7 +69,9 @@ def run_programs(
     """Run programs in one process and give its trace."""
     out, trace_file = folder / 'ran.jsonl', folder / 'trace.jsonl'
     command = [python, str(DRIVER), str(out), *map(str, seeds)]
-    recorded = record(command, environment, sys.stderr, traced=True)
+    recordings = folder / 'recordings'
+    recordings.mkdir()
+    recorded = record(command, environment, sys.stderr, recordings, traced=True)
     assert recorded.status == 0, f'the driver ended with {recorded.status}'
     write_traces(recorded.traces, trace_file)
     (trace,) = read_traces(trace_file)
