@@ -1,4 +1,5 @@
 """P20: an empty goal handle stands in an attribute until a goal was sent."""
+# live: no, an empty handle cancels nothing
 
 import rclpy
 from rclpy.action import ActionClient
@@ -35,8 +36,8 @@ if __name__ == '__main__':
 #   group cook_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   timer stop in cook_default every 1
-#     blocks get_result on handle @19
-#     changes done_callback @18
+#     blocks get_result on handle @20
+#     changes done_callback @19
 #   action_client dish_action_client in cook_default key=dish
 #   done_callback stopped in no_group conditional when=callback
-#     writes Cook.done @22
+#     writes Cook.done @23

@@ -25,7 +25,7 @@ class A(Node):
             self.create_subscription(String, 'goal', self.on_goal, 10, callback_group=free)
         if self.source is None:
             self.create_timer(1.0, self.guess, free)
-        self.source = self.get_parameter('other').value
+        self.source = self.declare_parameter('other', '').value
         if self.source is not None:
             self.create_timer(2.0, self.ask, free)
 

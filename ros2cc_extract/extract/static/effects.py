@@ -160,10 +160,15 @@ class Effects(Machine):
         self._note_access(f'{module.name}.{name}', kind, place)
 
     def note_loop(self, node: ast.While, frame: Frame) -> None:
-        """A ``while`` loop begins; one that only waits for a future is a busy wait."""
+        """
+        A ``while`` loop begins; one that only waits for a future is a busy wait.
+
+        A coroutine that awaits in each round gives its thread back, as one that awaits the future.
+        """
         deeds = self.world.deeds
         if deeds is None and not outside_waits.is_idle(node):
             return
+        gives_back = deeds is not None and outside_waits.awaits_each_round(node)
         place, is_known = frame.place(node), False
         for part in ast.walk(node.test):
             if (
@@ -174,7 +179,7 @@ class Effects(Machine):
                 owner = self.evaluate(part.func.value, frame)
                 is_known = True
                 if part.func.attr in ('done', 'is_set'):
-                    self.note_blocking('busy wait', owner, None, place)
+                    self.note_blocking('await' if gives_back else 'busy wait', owner, None, place)
         if deeds is not None and not is_known and outside_waits.spins(node):
             # How many callbacks run before it ends is not one.
             reason = f'what ends the loop: {ast.unparse(node.test)}'

@@ -9,7 +9,7 @@ Source: rclpy 7.1.6, ``client.py`` (``call`` waits for an event), ``__init__.py`
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
@@ -28,6 +28,37 @@ _ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
 _RATE = 'Rate.sleep'
 _FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
 _PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+
+
+def awaits_each_round(loop: ast.While) -> bool:
+    """Whether no round of ``loop`` ends without an ``await``, unless it leaves the loop."""
+    return _awaits((loop.test,)) or _always_awaits(loop.body)
+
+
+def _always_awaits(statements: Sequence[ast.stmt]) -> bool:
+    """Whether one of ``statements`` awaits whatever branches are taken inside of it."""
+    return any(_awaits(_heads(each)) or _always_awaits(_bodies(each)) for each in statements)
+
+
+def _bodies(statement: ast.stmt) -> Sequence[ast.stmt]:
+    """What of a compound statement runs in any case."""
+    if isinstance(statement, (ast.With, ast.AsyncWith)):
+        return statement.body
+    return (*statement.body, *statement.finalbody) if isinstance(statement, ast.Try) else ()
+
+
+def _heads(statement: ast.stmt) -> Sequence[ast.AST]:
+    """The parts of a statement that are evaluated in any case."""
+    if isinstance(statement, (ast.If, ast.While)):
+        return (statement.test,)
+    if isinstance(statement, (ast.For, ast.AsyncFor)):
+        return (statement.iter,)
+    is_compound = hasattr(statement, 'body') or isinstance(statement, ast.Match)
+    return () if is_compound else (statement,)
+
+
+def _awaits(parts: Sequence[ast.AST]) -> bool:
+    return any(isinstance(each, ast.Await) for part in parts for each in ast.walk(part))
 
 
 def is_idle(loop: ast.While) -> bool:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import NODE_KEPT, refuting_run
-from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.findings.words import made_at, served_at
+from ros2cc_extract.findings.waits import Wait, WaitKind, callers_of, waits_of, ways_of_others
+from ros2cc_extract.findings.words import made_at, served_at, shown
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
@@ -17,11 +17,14 @@ from ros2cc_extract.spec.releases import NODE_STAYS, has_change
 
 
 def find(context: Context) -> Iterator[Hit]:
+    alike: dict[object, list[Wait]] = {}
     for wait in waits_of(context):
-        if wait.kind is WaitKind.SPIN and not is_executor_call(wait):
-            is_own = wait.block.on in context.unit.nodes
-            if is_own or wait.block.on is None:
-                yield _hit(wait, context, is_own)
+        is_of_node = wait.block.on is None or wait.block.on in context.unit.nodes
+        if wait.kind is WaitKind.SPIN and is_of_node and not is_executor_call(wait):
+            key = (wait.place, wait.block.call, wait.block.on, _consequence(wait, context))
+            alike.setdefault(key, []).append(wait)
+    for waits in alike.values():
+        yield _hit(waits, context)
 
 
 def is_executor_call(wait: Wait) -> bool:
@@ -29,20 +32,27 @@ def is_executor_call(wait: Wait) -> bool:
     return wait.block.call.startswith('executor.')
 
 
-def _hit(wait: Wait, context: Context, is_own: bool) -> Hit:
-    unit = context.unit
-    caller = wait.caller.display_name
+def _hit(waits: Sequence[Wait], context: Context) -> Hit:
+    """One for all callbacks that come to this line: mended there, it is mended for all."""
+    unit, wait = context.unit, waits[0]
+    is_own, callers = wait.block.on in unit.nodes, callers_of(waits)
+    names = shown(each.caller for each in waits)
+    calls, where = ('calls', 'a callback') if len(callers) == 1 else ('call', 'callbacks')
     node = f'node {wait.block.on!r}' if is_own else 'a node that could not be followed'
     return Hit(
         place=wait.place,
-        message=f'{caller} calls {wait.block.call} on {node} inside a callback: '
+        message=f'{names} {calls} {wait.block.call} on {node} inside {where}: '
         f'{_consequence(wait, context)}',
         help='do not spin in a callback: use call_async and continue in a done-callback, or await '
         'in a coroutine callback',
         severity=_severity(wait, unit, is_own),
-        subjects=(wait.caller.name,),
+        subjects=callers,
         chain=wait.chain,
-        related=(*made_at(wait.caller), *served_at(unit.executor, wait.place)),
+        related=(
+            *made_at(wait.caller),
+            *served_at(unit.executor, wait.place),
+            *dict.fromkeys(ways_of_others(waits)),
+        ),
         run=refuting_run(NODE_KEPT, context, wait.caller),
     )
 

@@ -386,6 +386,18 @@ def test_nested_spin_takes_the_node_out_of_its_executor() -> None:
     assert nested(threads(4), 'helper', call) == []
 
 
+def test_callbacks_that_come_to_one_nested_spin_are_one_finding() -> None:
+    spins = calls('arm', call='rclpy.spin_until_future_complete')
+    two = unit(threads(4), timer('tick', blocking=spins * 2), timer('tock', blocking=spins))
+    finding = only(two, 'CC106')
+    assert finding.message.startswith(
+        "tick, tock call rclpy.spin_until_future_complete on node 'arm' inside callbacks: "
+    )
+    assert finding.subjects == ('tick', 'tock')
+    one = unit(threads(4), timer('tick', blocking=spins))
+    assert only(one, 'CC106').message.startswith('tick calls ')
+
+
 def test_nested_spin_on_another_executor_that_is_named_loses_the_node_everywhere() -> None:
     """Also under ``rclpy.spin``, whose executor is then not the one that is spun."""
     spins = calls('arm', call='rclpy.spin_once')
