@@ -202,5 +202,25 @@ def test_namesakes_share_a_finding_that_shows_none_of_their_files(
     assert stream.getvalue().count('1 error\n') == len(many)
 
 
+def test_of_namesakes_in_one_file_the_one_with_an_executor_has_the_finding(
+    checked: tuple[Spec, Verification],
+) -> None:
+    unit, verification = checked
+    spun = replace(unit, name='arm', sources=('arm/test/arm.py',))
+    many = [(spun, verification)]
+    many += [(without_executor(unit, 'arm'), verification) for _ in range(4)]
+    stream = io.StringIO()
+    print_check(
+        many,
+        [replace(CALL, unit='arm', place=at('arm/test/arm.py'))],
+        SUMMARY,
+        console_for(stream),
+    )
+    rows = [line for line in stream.getvalue().splitlines() if line.startswith('arm')]
+    assert [row.endswith('1 error') for row in rows][:1] == [True]
+    assert len([row for row in rows if '1 error' in row]) == 1
+    assert '4 units without an executor in sight' in stream.getvalue()
+
+
 def at(file: str) -> Place:
     return Place(file, 3, 1)
