@@ -11,7 +11,8 @@ import os
 import resource
 import signal
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 from ros2cc_extract.errors import ToolNotFoundError
 
@@ -54,9 +55,24 @@ def run_child(command: Sequence[str], environment: Mapping[str, str]) -> int:
         return _wait(child)
     finally:
         # A second Ctrl-C may have come while the command was ending: what it held is written.
-        while signal.sigtimedwait(_PASSED_ON, 0) is not None:
-            pass
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        _restore(before, _PASSED_ON)
+
+
+@contextmanager
+def deaf_to_ctrl_c() -> Iterator[None]:
+    """Finish something short, whoever presses Ctrl-C once more meanwhile."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        _restore(before, (signal.SIGINT,))
+
+
+def _restore(mask: Collection[int], dropped: Collection[int]) -> None:
+    """Let signals through again, but for those that wait to be."""
+    while signal.sigtimedwait(dropped, 0) is not None:
+        pass
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
 def _wait(child: subprocess.Popen[bytes]) -> int:

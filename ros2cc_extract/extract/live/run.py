@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TextIO
 
 from ros2cc_extract.errors import InputError, Ros2ccError
-from ros2cc_extract.extract.live.child import end_alike, run_child
+from ros2cc_extract.extract.live.child import deaf_to_ctrl_c, end_alike, run_child
 from ros2cc_extract.extract.live.chrome import write_chrome
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
@@ -22,6 +22,7 @@ from ros2cc_extract.spec.yaml_io import write_specs
 
 DEFAULT_OUTPUT = Path('live.spec.yaml')
 EXIT_ERROR = 2
+EXIT_INTERRUPTED = 130
 # Some seconds of writing, which somebody at a terminal is told of.
 MANY_EVENTS = 100_000
 Finish = Callable[[tuple[Spec, ...]], int]
@@ -66,18 +67,24 @@ def run_command(
     if trace is not None:
         check_file(trace)
     with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as folder:
-        recorded = record(command, environment, stderr, Path(folder), traced=trace is not None)
-        report_losses(recorded.recordings, stderr)
+        recordings, is_traced = Path(folder), trace is not None
+        status = run_child(command, hooked_environment(environment, recordings, traced=is_traced))
         try:
-            write_output(recorded, output, stderr)
+            with deaf_to_ctrl_c():
+                recorded = read_recorded(status, recordings, stderr, traced=is_traced)
+                report_losses(recorded.recordings, stderr)
+                write_output(recorded, output, stderr)
             if trace is not None:
                 write_traces(recorded.traces, trace, stderr)
         except Ros2ccError as error:
             print(f'ros2cc-extract: {error}', file=stderr)
             finished = EXIT_ERROR
+        except KeyboardInterrupt:
+            print(f'ros2cc-extract: interrupted; {trace} is not whole', file=stderr)
+            finished = EXIT_INTERRUPTED
         else:
             finished = finish(recorded.specs) if finish else 0
-    return end_alike(recorded.status) or finished
+    return end_alike(status) or finished
 
 
 def collect_directory(
@@ -110,20 +117,12 @@ def collect_directory(
     return 0 if recorded.specs else EXIT_ERROR
 
 
-def record(
-    command: Sequence[str],
-    environment: Mapping[str, str],
-    stderr: TextIO,
-    folder: Path,
-    *,
-    traced: bool = False,
-) -> Recorded:
+def read_recorded(status: int, folder: Path, stderr: TextIO, *, traced: bool) -> Recorded:
     """
-    Run ``command`` with the hook; say what could not be read of its recordings.
+    Read what a command has recorded; say what could not be read.
 
-    :param folder: for the recordings; the traces are read from there whenever they are asked for.
+    :param folder: of the recordings; traces are read from there whenever they are asked for.
     """
-    status = run_child(command, hooked_environment(environment, folder, traced=traced))
     recordings = read_directory(folder, stderr)
     traces = (read_trace(recording) for recording in recordings) if traced else ()
     return Recorded(status, tuple(recordings), tuple(filter(None, traces)))
