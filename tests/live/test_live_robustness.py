@@ -100,7 +100,7 @@ def test_process_that_vanishes_by_os_exit_has_been_recorded(start: Start, tmp_pa
     assert not recording.ended
     trace = read_trace(recording)
     assert trace is not None
-    assert 'begin' in {event.event for event in trace.events}
+    assert 'begin' in {event.event for event in trace.events()}
 
 
 def test_two_processes_write_into_one_directory(start: Start, tmp_path: Path) -> None:
