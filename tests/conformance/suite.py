@@ -21,9 +21,7 @@ from pathlib import Path
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Trace, read_traces
 from ros2cc_extract.conform.unit import Comparison
-from ros2cc_extract.extract.live.child import run_child
-from ros2cc_extract.extract.live.environment import hooked_environment
-from ros2cc_extract.extract.live.run import read_recorded, write_traces
+from ros2cc_extract.extract.live.run import record, write_traces
 from tests.conformance.checking import Ran, compare_in_time, read_ran
 from tests.support.domains import free_domain
 
@@ -73,10 +71,9 @@ def run_programs(
     command = [python, str(DRIVER), str(out), *map(str, seeds)]
     recordings = folder / 'recordings'
     recordings.mkdir()
-    status = run_child(command, hooked_environment(environment, recordings, traced=True))
-    assert status == 0, f'the driver ended with {status}'
-    recorded = read_recorded(status, recordings, sys.stderr, traced=True)
-    write_traces(recorded.traces, trace_file, sys.stderr)
+    recorded = record(command, environment, sys.stderr, recordings, traced=True)
+    assert recorded.status == 0, f'the driver ended with {recorded.status}'
+    write_traces(recorded.traces, trace_file)
     (trace,) = read_traces(trace_file)
     return trace, read_ran(out)
 

@@ -67,11 +67,9 @@ def run_command(
     if trace is not None:
         check_file(trace)
     with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as folder:
-        recordings, is_traced = Path(folder), trace is not None
-        status = run_child(command, hooked_environment(environment, recordings, traced=is_traced))
+        recorded = record(command, environment, stderr, Path(folder), traced=trace is not None)
         try:
             with deaf_to_ctrl_c():
-                recorded = read_recorded(status, recordings, stderr, traced=is_traced)
                 report_losses(recorded.recordings, stderr)
                 write_output(recorded, output, stderr)
             if trace is not None:
@@ -84,7 +82,7 @@ def run_command(
             finished = EXIT_INTERRUPTED
         else:
             finished = finish(recorded.specs) if finish else 0
-    return end_alike(status) or finished
+    return end_alike(recorded.status) or finished
 
 
 def collect_directory(
@@ -115,6 +113,20 @@ def collect_directory(
     if trace is not None:
         write_traces(tuple(filter(None, map(read_trace, recordings))), trace, stderr)
     return 0 if recorded.specs else EXIT_ERROR
+
+
+def record(
+    command: Sequence[str],
+    environment: Mapping[str, str],
+    stderr: TextIO,
+    folder: Path,
+    *,
+    traced: bool = False,
+) -> Recorded:
+    """Run ``command`` with the hook, and read what it has recorded into ``folder``."""
+    status = run_child(command, hooked_environment(environment, folder, traced=traced))
+    with deaf_to_ctrl_c():
+        return read_recorded(status, folder, stderr, traced=traced)
 
 
 def read_recorded(status: int, folder: Path, stderr: TextIO, *, traced: bool) -> Recorded:
