@@ -73,7 +73,7 @@ def run_programs(
     recordings.mkdir()
     recorded = record(command, environment, sys.stderr, recordings, traced=True)
     assert recorded.status == 0, f'the driver ended with {recorded.status}'
-    write_traces(recorded.traces, trace_file)
+    write_traces(recorded.traces, trace_file, sys.stderr)
     (trace,) = read_traces(trace_file)
     return trace, read_ran(out)
 
