@@ -45,6 +45,18 @@ class A(Node):
     def ask(self):
         pass
 
+    def nobody_in_sight_calls(self, by_tf):
+        if by_tf:
+            self.create_timer(3.0, self.ask_again)
+        if not by_tf:
+            self.create_timer(3.0, self.guess_again)
+
+    def ask_again(self):
+        pass
+
+    def guess_again(self):
+        pass
+
 
 def main():
     rclpy.init()
@@ -59,12 +71,15 @@ if __name__ == '__main__':
 # expect:
 # unit a: MultiThreadedExecutor x2 spin, main
 #   group free REENTRANT
+#   group a_default EXCLUSIVE default
 #   timer look_up in free every 0.1 conditional alternative@20.1
 #     reads A.pose @36
 #     reads A.goal @37
 #     writes A.pose @37
 #   timer guess in free every 1 conditional
 #   timer ask in free every 2 conditional
+#   timer ask_again in a_default every 3 conditional when=later
+#   timer guess_again in a_default every 3 conditional when=later
 #   subscription on_pose in free key=pose conditional alternative@20.0
 #     writes A.pose @33
 #   subscription on_goal in free key=goal conditional alternative@20.0

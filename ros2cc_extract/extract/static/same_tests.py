@@ -20,11 +20,11 @@ def first_place(machine: Machine, node: ast.If, frame: Frame) -> tuple[Place, bo
     """
     Where this run has asked the same for the first time, and whether it asked the opposite.
 
-    In a callback it does not matter: which arm it takes may be another one each time.
+    Only of the set-up: code that runs again, as a callback does, may take another arm each time.
     """
     place = frame.place(node)
     test, is_negated = _without_not(node.test)
-    if machine.world.when is When.CALLBACK or not _is_plain(test):
+    if machine.world.when is not When.START or not _is_plain(test):
         return place, False
     key = ast.dump(test)
     asked = tuple(tuple(options_of(machine.evaluate(part, frame))) for part in _parts(test))
