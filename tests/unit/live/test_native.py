@@ -37,6 +37,8 @@ from tests.unit.live.stand_ins import (
 
 CALLS = 5_000
 PAGE_KB = resource.getpagesize() // 1024
+# Of what only the system's allocator knows; the interpreter's own comes and goes.
+LARGEST_GROWTH_KB = 1000
 
 
 class Failing:
@@ -162,20 +164,20 @@ def test_calls_keep_nothing(replaced: Any) -> None:
         lent += [None, True]
         before = _held(call, 500, lent)
         after = _held(call, CALLS, lent)
-        assert [now - then for now, then in zip(after, before, strict=True)] == [
-            pytest.approx(0, abs=CALLS // 100)
-        ] * len(after), name
+        kilobytes, *counts = (now - then for now, then in zip(after, before, strict=True))
+        assert kilobytes < LARGEST_GROWTH_KB, name
+        assert counts == [pytest.approx(0, abs=CALLS // 100)] * len(counts), name
 
 
 def _held(call: Callable[[], Any], times: int, lent: list[Any]) -> list[int]:
-    """Count what is held after so many calls: memory in blocks and KB, and references."""
+    """Count what is held after so many calls: memory in KB and in blocks, and references."""
     for _ in range(times):
         call()
     gc.collect()
     blocks = sys.getallocatedblocks()
     kilobytes = int(Path('/proc/self/statm').read_text().split()[1]) * PAGE_KB
     references = getattr(sys, 'gettotalrefcount', int)()
-    return [blocks, kilobytes, references, *map(sys.getrefcount, lent)]
+    return [kilobytes, blocks, references, *map(sys.getrefcount, lent)]
 
 
 def test_wrapper_can_be_called_while_it_is_taken_apart() -> None:

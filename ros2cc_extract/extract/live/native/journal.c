@@ -26,6 +26,8 @@ typedef struct {
     uint32_t number;
 } Event;
 
+_Static_assert(sizeof(Event) == 24, "events.py unpacks it so");
+
 /* REVISION: counted up, also in journal.py, when what Python calls here changes. */
 enum { REVISION = 2, MOST_ARGUMENTS = 16 };
 
