@@ -13,7 +13,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts conformance lint schema paper screenshot clean
+.PHONY: demo test test-long texts conformance rclpy-tests lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -48,6 +48,12 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
 	$(BIN)/python -m tests.conformance.suite --python $(JAZZY)/bin/python $(ON_EVENTS)
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python $(ON_EVENTS)
+
+# rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
+ROS ?= $(JAZZY)
+rclpy-tests: $(VENV)/developed $(ROS)/installed
+	$(ROS)/bin/python -m pip install $(PIP_FLAGS) pytest typing_extensions
+	$(BIN)/python scripts/rclpy-tests --python $(ROS)/bin/python $(RCLPY)
 
 # Mutated scanner cases: 2,000 in continuous integration, 100,000 before a release.
 FUZZ_RUNS ?= 2000
