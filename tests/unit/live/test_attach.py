@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -69,8 +70,11 @@ def test_other_errors_are_nobodys_refusal() -> None:
         inject(7, SCRIPT, [Injector('hypno', break_down, (OSError,)), Door('other').injector])
 
 
-@pytest.mark.parametrize('pid', [0, -1, -os.getpid()])
-def test_groups_of_processes_are_no_process(pid: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize('number', [0, -1, os.getpid])
+def test_groups_of_processes_are_no_process(
+    number: int | Callable[[], int], tmp_path: Path
+) -> None:
+    pid = -number() if callable(number) else number
     with pytest.raises(InputError, match=f'{pid} is no process number'):
         attach_process(pid, tmp_path / 'live.yaml', io.StringIO())
 
