@@ -61,7 +61,14 @@ class Crew(Generic[Request, Answer]):
         return self
 
     def __exit__(self, *_: object) -> None:
-        with _no_interrupts():  # a second Ctrl-C must not leave a child behind
+        try:
+            self._end()
+        except KeyboardInterrupt:  # a second Ctrl-C, before any more are kept out
+            self._end()
+            raise
+
+    def _end(self) -> None:
+        with _no_interrupts():
             for line in self._lines:
                 if line is not None:
                     line.close()
