@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from ros2cc_extract.generator.spins import nested_spins
 from ros2cc_extract.generator.waits import unknown_ends
-from ros2cc_extract.spec.model import Blocking, Callback, Spec
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import Callback, Spec
 
 
 def left_out_of_models(callback: Callback, spec: Spec) -> tuple[str, ...]:

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.spec.model import Blocking, Callback, Spec
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.spec.moves import named_executor
 from ros2cc_extract.spec.partners import client_before
 from ros2cc_extract.spec.releases import NODE_STAYS, SPIN_REFUSED_TWICE, has_change

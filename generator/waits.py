@@ -20,7 +20,8 @@ from ros2cc_extract.generator.spins import (
     is_part_of_spin,
     nested_spins,
 )
-from ros2cc_extract.spec.model import RE_ENTRANT, Blocking, Callback, GroupType, Spec
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Blocking
+from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
 

@@ -14,15 +14,8 @@ from enum import Enum
 from typing import TypeVar
 
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import (
-    Access,
-    Act,
-    Blocking,
-    Callback,
-    CallbackGroup,
-    Executor,
-    Spec,
-)
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec
 
 PLACES = frozenset({'source', 'defined', 'chain', 'threads_source'})
 OF_A_RUN = frozenset({'measured', 'duration_s'})

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.findings.order import steps
-from ros2cc_extract.spec.model import Access, Callback
+from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.model import Callback
 
 
 def lets_one_wait(callback: Callback) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Access, Blocking
+from ros2cc_extract.spec.deeds import Access, Blocking
 
 
 def steps(deed: Access | Blocking) -> tuple[Place, ...]:

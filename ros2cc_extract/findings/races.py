@@ -20,7 +20,8 @@ from ros2cc_extract.findings.overlap import overlap
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import SHARED, Access, Callback
+from ros2cc_extract.spec.deeds import SHARED, Access
+from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.evidence import Evidence
 
 

@@ -17,7 +17,8 @@ from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.words import shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Blocking, Callback, EntityKind, exclude_each_other
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.spec.partners import client_before, is_client, is_done_callback, server_of
 
 

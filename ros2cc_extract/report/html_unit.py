@@ -16,15 +16,8 @@ from ros2cc_extract.report.html_parts import (
     tag,
 )
 from ros2cc_extract.report.spec_text import describe_executor
-from ros2cc_extract.spec.model import (
-    Blocking,
-    Callback,
-    CallbackGroup,
-    EntityKind,
-    GroupType,
-    Spec,
-    When,
-)
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind, GroupType, Spec, When
 
 Numbered = Sequence[tuple[int, Finding]]
 """The findings of the page with their numbers, which are their anchors."""

@@ -149,6 +149,31 @@ class Resolution:
         return ABSENT
 
 
+@dataclass(frozen=True)
+class Escape:
+    """``<attribute>: reason`` with ``<attribute>_at``, for an ``Unknown | None`` attribute."""
+
+    attribute: str
+
+    @property
+    def schemas(self) -> Mapping[str, JsonSchema]:
+        return {self.attribute: TEXT.schema, f'{self.attribute}_at': optional(PLACE).schema}
+
+    def encode(self, owner: Any) -> dict[str, Any]:
+        value = getattr(owner, self.attribute)
+        if value is None:
+            return {}
+        place = {f'{self.attribute}_at': PLACE.encode(value.at)} if value.at else {}
+        return {self.attribute: value.reason, **place}
+
+    def decode(self, found: Mapping[str, Cursor]) -> Any:
+        if self.attribute not in found:
+            return ABSENT
+        at = found.get(f'{self.attribute}_at')
+        place = optional(PLACE).decode(at) if at is not None else None
+        return Unknown(found[self.attribute].text(), place)
+
+
 def record(
     kind: Callable[..., Any],
     rows: Sequence[Row],

@@ -15,6 +15,7 @@ from enum import Enum
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Access, Act, Blocking, Waker
 
 
 class CallbackType(Enum):
@@ -109,78 +110,6 @@ class When(Enum):
     LATER = 'later'
     CALLBACK = 'callback'
     CONFIGURE = 'configure'
-
-
-@dataclass(frozen=True, kw_only=True)
-class Blocking:
-    """
-    A call inside a callback that can hold its thread, or an ``await`` that holds its group.
-
-    :param call: what blocks, in the field's words: ``client.call``, ``Event.wait``,
-        ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
-    :param on: name of the callback, entity or object waited for, where known.
-    :param seconds: how long it sleeps; for calls with a time-out, the time-out.
-    :param foreign: true for an event or future that a thread of the user's own sets, and no
-        callback: that wakes no executor.
-    :param chain: places of the calls that lead from the callback to ``source``, outermost first.
-    :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
-        an ``RLock``, ends in ``RE_ENTRANT``.
-    """
-
-    call: str
-    source: Place | None = None
-    on: str | Unknown | None = None
-    seconds: float | Unknown | None = None
-    foreign: bool = False
-    chain: tuple[Place, ...] = ()
-    held: tuple[str, ...] = ()
-
-
-RE_ENTRANT = ' (re-entrant)'
-SHARED = ' (shared)'
-
-
-@dataclass(frozen=True, kw_only=True)
-class Access:
-    """
-    A read or write of shared state by a callback.
-
-    :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
-    :param locks: locks held at that place, outermost first; one that others may hold too, as
-        readers do, ends in ``SHARED``.
-    :param update: true when the old value is read for the new one (``+=``, ``append`` …).
-    :param in_place: true for an update by one operation on the object itself (``append``,
-        ``d[k] = v``), which CPython does in one piece.
-    :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
-    :param iterates: class of the collection, where a loop goes over it.
-    """
-
-    name: str
-    source: Place | None = None
-    locks: tuple[str, ...] = ()
-    update: bool = False
-    in_place: bool = False
-    keeps_size: bool = False
-    iterates: str | None = None
-    chain: tuple[Place, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Act:
-    """
-    Something else a callback does: takes a lock, publishes, creates an entity, moves a node.
-
-    :param name: the lock, the topic, the entity or executor concerned.
-    :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
-        name is among them where it cannot be taken twice.
-    :param tries: of a lock that is taken only if it is free at once, or in some time.
-    """
-
-    name: str | Unknown
-    source: Place | None = None
-    chain: tuple[Place, ...] = ()
-    held: tuple[str, ...] = ()
-    tries: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -296,6 +225,57 @@ def exclude_each_other(one: Callback, other: Callback) -> bool:
     return one.branch is None or one.branch != other.branch
 
 
+class ActivityKind(Enum):
+    """What runs an activity."""
+
+    MAIN = 'main'
+    THREAD = 'thread'
+    TIMER = 'timer'
+    POOL = 'pool'
+    PROCESS = 'process'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Activity:
+    """
+    Code that runs beside the callbacks, on a thread that no executor has.
+
+    It is in no group and needs no worker; it waits, holds, reads and writes as callbacks do.
+
+    :param kind: ``MAIN`` is the code of the program after it has started a thread that spins.
+    :param starts: who starts it and where, as wakers; empty for what runs from the beginning.
+    :param count: how many of them may run at a time.
+    :param daemon: the program ends without waiting for it.
+    :param loops: it never ends by itself.
+    :param source: where it is started; ``defined`` is its function.
+    """
+
+    name: str
+    kind: ActivityKind
+    function: str | None = None
+    node: str | Unknown | None = None
+    cls: str | None = None
+    starts: tuple[Waker, ...] = ()
+    count: int | Unknown = 1
+    daemon: bool = False
+    loops: bool = False
+    unresolved: Unknown | None = None
+    source: Place | None = None
+    defined: Place | None = None
+    blocking: tuple[Blocking, ...] = ()
+    reads: tuple[Access, ...] = ()
+    writes: tuple[Access, ...] = ()
+    locks: tuple[Act, ...] = ()
+    publishes: tuple[Act, ...] = ()
+    changes: tuple[Act, ...] = ()
+
+    @property
+    def display_name(self) -> str:
+        """How it is called in text for people: its function, else its name."""
+        function = self.function.rpartition('.')[2] if self.function else None
+        return self.name if function is None or function == '<lambda>' else function
+
+
 @dataclass(frozen=True, kw_only=True)
 class CallbackGroup:
     """
@@ -370,6 +350,7 @@ class Spec:
     One verification unit.
 
     :param name: UPPAAL identifier; with several nodes the name of the unit.
+    :param activities: threads of the program's own, and ``main``, that run beside the executor.
     :param nodes: the ROS nodes served, in the order of ``add_node``.
     :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
         file are alternatives of each other.
@@ -381,6 +362,7 @@ class Spec:
     callbacks: tuple[Callback, ...]
     groups: tuple[CallbackGroup, ...]
     executor: Executor
+    activities: tuple[Activity, ...] = ()
     origin: Origin = Origin.MANUAL
     nodes: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
@@ -411,6 +393,7 @@ class Spec:
         yield from (group.name for group in self.groups)
         yield self.executor.name
         yield from self.executor.threads
+        yield from (activity.name for activity in self.activities)
 
     def group_of(self, callback: Callback) -> CallbackGroup:
         """The group a callback of this unit is in."""

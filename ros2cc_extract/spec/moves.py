@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.spec.model import Blocking, Callback
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import Callback
 
 ADDED = '.add_node'
 """How the name of such a change ends, after the kind of an executor that only has this node."""

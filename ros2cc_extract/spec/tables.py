@@ -21,12 +21,21 @@ from ros2cc_extract.spec.codecs import (
     optional,
 )
 from ros2cc_extract.spec.cursor import Cursor
-from ros2cc_extract.spec.fields import ABSENT, Open, Plain, Resolution, Row, plain_rows, record
+from ros2cc_extract.spec.deeds import Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.spec.fields import (
+    ABSENT,
+    Escape,
+    Open,
+    Plain,
+    Resolution,
+    Row,
+    plain_rows,
+    record,
+)
 from ros2cc_extract.spec.identifiers import complaint, complaint_of_executor
 from ros2cc_extract.spec.model import (
-    Access,
-    Act,
-    Blocking,
+    Activity,
+    ActivityKind,
     Callback,
     CallbackGroup,
     CallbackType,
@@ -58,6 +67,18 @@ _OPTIONAL_PLACE = optional(PLACE)
 _CHAIN = ('chain', 'chain', _PLACES)
 _SOURCE = ('source', 'source', _OPTIONAL_PLACE)
 
+WAKER = record(
+    Waker,
+    (
+        Plain('by', 'by', TEXT),
+        *plain_rows(
+            Waker,
+            (('after', 'after', optional(COUNT)), ('conditional', 'conditional', FLAG), _SOURCE),
+        ),
+    ),
+    required=('by',),
+    flow=True,
+)
 BLOCKING = record(
     Blocking,
     (
@@ -66,8 +87,18 @@ BLOCKING = record(
         Open(('seconds',), 'seconds', SECONDS, ('seconds_resolved', False), 'seconds_', None),
         *plain_rows(
             Blocking,
-            (('foreign', 'foreign', FLAG), ('held', 'held', listing(TEXT)), _SOURCE, _CHAIN),
+            (
+                ('foreign', 'foreign', FLAG),
+                ('resource', 'resource', optional(TEXT)),
+                ('needs', 'needs', member(Needs)),
+                ('wakers', 'wakers', listing(WAKER)),
+                ('conditional', 'conditional', FLAG),
+                ('held', 'held', listing(TEXT)),
+                _SOURCE,
+                _CHAIN,
+            ),
         ),
+        Escape('escapes'),
     ),
     required=('call',),
     flow=True,
@@ -210,6 +241,38 @@ CALLBACK = record(
         ),
     ),
     required=('name', 'type', 'callback_group'),
+)
+
+
+ACTIVITY = record(
+    Activity,
+    (
+        Plain('name', 'name', PROCESS_NAME),
+        Plain('kind', 'kind', member(ActivityKind)),
+        *plain_rows(Activity, (('function', 'function', optional(TEXT)),)),
+        Open(('node',), 'node', TEXT, ('node_resolved', False), 'node_', None),
+        *plain_rows(
+            Activity,
+            (('class', 'cls', optional(TEXT)), ('starts', 'starts', listing(WAKER))),
+        ),
+        Open(('count',), 'count', COUNT, ('count', 'unknown'), 'count_', 1),
+        *plain_rows(Activity, (('daemon', 'daemon', FLAG), ('loops', 'loops', FLAG))),
+        Resolution(),
+        *plain_rows(
+            Activity,
+            (
+                ('blocking', 'blocking', listing(BLOCKING)),
+                ('reads', 'reads', listing(ACCESS)),
+                ('writes', 'writes', listing(ACCESS)),
+                ('locks', 'locks', listing(ACT)),
+                ('publishes', 'publishes', listing(ACT)),
+                ('changes', 'changes', listing(ACT)),
+                _SOURCE,
+                ('defined', 'defined', _OPTIONAL_PLACE),
+            ),
+        ),
+    ),
+    required=('name', 'kind'),
 )
 
 

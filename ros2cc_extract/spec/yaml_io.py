@@ -19,10 +19,27 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.codecs import COUNT, TEXT, Codec, JsonSchema, listing, member, optional
 from ros2cc_extract.spec.cursor import Cursor, compose
 from ros2cc_extract.spec.fields import Flow, Plain, record
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Origin, Spec, Unresolved
-from ros2cc_extract.spec.tables import CALLBACK, EXECUTOR, GROUP, PROCESS_NAME, UNRESOLVED
+from ros2cc_extract.spec.model import (
+    Activity,
+    Callback,
+    CallbackGroup,
+    Executor,
+    Origin,
+    Spec,
+    Unresolved,
+)
+from ros2cc_extract.spec.tables import (
+    ACTIVITY,
+    CALLBACK,
+    EXECUTOR,
+    GROUP,
+    PROCESS_NAME,
+    UNRESOLVED,
+)
 
-SPEC_VERSION = 1
+SPEC_VERSION = 2
+READ_VERSIONS = (1, 2)
+"""Version 1 knows no wakers and no activities: who ends its waits is then open."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +59,7 @@ class _Node:
     callbacks: tuple[Callback, ...]
     groups: tuple[CallbackGroup, ...]
     executor: Executor
+    activities: tuple[Activity, ...] = ()
 
 
 def _always(_owner: Any) -> bool:
@@ -68,6 +86,7 @@ _NODE = record(
         Plain('callbacks', 'callbacks', listing(CALLBACK, at_least=1)),
         Plain('callback_groups', 'groups', listing(GROUP, at_least=1)),
         Plain('executor', 'executor', EXECUTOR),
+        Plain('activities', 'activities', listing(ACTIVITY), ()),
     ),
     required=('name', 'callbacks', 'callback_groups', 'executor'),
 )
@@ -76,9 +95,10 @@ _NODE = record(
 def _decode(cursor: Cursor) -> Spec:
     found = cursor.mapping(('ros2cc', 'node'), ('node',))
     header = _HEADER.decode(found['ros2cc']) if 'ros2cc' in found else _Header()
-    if header.spec_version != SPEC_VERSION:
+    if header.spec_version not in READ_VERSIONS:
         raise found['ros2cc'].error(
-            f'spec_version {header.spec_version} is not known', f'this tool reads {SPEC_VERSION}'
+            f'spec_version {header.spec_version} is not known',
+            f'this tool reads {" and ".join(map(str, READ_VERSIONS))}',
         )
     node = _NODE.decode(found['node'])
     _check_names(found['node'])
@@ -87,6 +107,7 @@ def _decode(cursor: Cursor) -> Spec:
         callbacks=node.callbacks,
         groups=node.groups,
         executor=node.executor,
+        activities=node.activities,
         origin=header.origin,
         nodes=header.nodes,
         sources=header.sources,
@@ -106,7 +127,11 @@ def _encode(spec: Spec) -> dict[str, Any]:
         unresolved=spec.unresolved,
     )
     node = _Node(
-        name=spec.name, callbacks=spec.callbacks, groups=spec.groups, executor=spec.executor
+        name=spec.name,
+        callbacks=spec.callbacks,
+        groups=spec.groups,
+        executor=spec.executor,
+        activities=spec.activities,
     )
     written: dict[str, Any] = {} if header == _Header() else {'ros2cc': _HEADER.encode(header)}
     return {**written, 'node': _NODE.encode(node)}
@@ -114,7 +139,7 @@ def _encode(spec: Spec) -> dict[str, Any]:
 
 _DOCUMENT_SCHEMA: JsonSchema = {
     '$schema': 'https://json-schema.org/draft/2020-12/schema',
-    '$id': 'urn:ros2cc-extract:spec:1',
+    '$id': 'urn:ros2cc-extract:spec:2',
     'title': 'ros2cc-extract specification',
     'description': 'One verification unit: an executor with all nodes it serves.',
     'type': 'object',
@@ -153,6 +178,8 @@ def _name_cursors(node: Cursor) -> Iterator[Cursor]:
         yield from (_child(item, 'name') for item in parent.items())
     yield _child(executor, 'name')
     yield from (_child(thread, 'name') for thread in _child(executor, 'threads').items())
+    if any(name.value == 'activities' for name, _ in node.node.value):
+        yield from (_child(each, 'name') for each in _child(node, 'activities').items())
 
 
 def _child(cursor: Cursor, key: str) -> Cursor:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,

@@ -9,10 +9,8 @@ from hypothesis import strategies
 
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking
 from ros2cc_extract.spec.model import (
-    RE_ENTRANT,
-    Act,
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

@@ -8,10 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import (
-    Access,
-    Act,
-    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,

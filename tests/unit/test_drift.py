@@ -6,9 +6,8 @@ from dataclasses import replace
 
 from ros2cc_extract.drift import Drift, drift
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Access, Blocking
 from ros2cc_extract.spec.model import (
-    Access,
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

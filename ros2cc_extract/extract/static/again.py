@@ -8,7 +8,7 @@ from typing import TypeVar
 from ros2cc_extract.extract.static.values import Class, Instance, Library
 from ros2cc_extract.extract.static.world import Deeds, World
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Access, Act, Blocking
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
 
 Deed = TypeVar('Deed', Access, Act, Blocking)
 

@@ -40,7 +40,7 @@ from ros2cc_extract.extract.static.world import (
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import SHARED, Access, Act, Blocking
+from ros2cc_extract.spec.deeds import SHARED, Access, Act, Blocking
 
 _CODE = (Module, Library, Class, Function)
 _SETTABLE = frozenset({'event', 'future'})

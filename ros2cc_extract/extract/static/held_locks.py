@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.values import Instance, Value, options_of
 from ros2cc_extract.extract.static.world import PlainState, World
-from ros2cc_extract.spec.model import RE_ENTRANT
+from ros2cc_extract.spec.deeds import RE_ENTRANT
 
 #: Source: ``threading.py``; a ``Condition`` holds an ``RLock`` where it is given none.
 _RE_ENTRANT = {'lock': False, 'rlock': True, 'condition': True}

@@ -37,7 +37,8 @@ from ros2cc_extract.extract.static.world import (
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Act, EntityKind, GroupType, When
+from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'

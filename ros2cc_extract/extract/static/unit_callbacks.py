@@ -30,9 +30,9 @@ from ros2cc_extract.extract.static.world import (
     World,
 )
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,

@@ -24,7 +24,8 @@ from ros2cc_extract.extract.static.values import (
     Value,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Access, Act, Blocking, EntityKind, GroupType, When
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 
 @dataclass(eq=False)

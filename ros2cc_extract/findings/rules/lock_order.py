@@ -12,7 +12,8 @@ from ros2cc_extract.findings.overlap import overlap, overlaps_itself
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Act, Callback
+from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.evidence import Evidence
 
 

@@ -17,7 +17,8 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import made_at, shown
 from ros2cc_extract.findings.workers import workers_of
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import RE_ENTRANT, Act, Callback
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Act
+from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.evidence import Evidence
 
 _SPINS = (WaitKind.SPIN, WaitKind.SPUN_FUTURE)

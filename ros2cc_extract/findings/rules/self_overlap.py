@@ -11,7 +11,8 @@ from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Access, Callback, EntityKind
+from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.model import Callback, EntityKind
 
 _TWICE = {
     EntityKind.TIMER: 'when a run lasts longer than the period',

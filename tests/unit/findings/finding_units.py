@@ -8,9 +8,8 @@ from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.workers import DEFAULT_COUNT, EVENTS, MULTI, SINGLE
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Access, Blocking
 from ros2cc_extract.spec.model import (
-    Access,
-    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,

@@ -33,7 +33,8 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Access, Act, EntityKind, Executor, Spec, When
+from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
 
 
 def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:

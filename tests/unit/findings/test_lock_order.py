@@ -8,7 +8,8 @@ import pytest
 from finding_units import ONE_THREAD, at, found, only, threads, timer, unit
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Act, Callback, Executor
+from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.model import Callback, Executor
 
 
 def takes(name: str, group: str, *orders: tuple[str, ...]) -> Callback:

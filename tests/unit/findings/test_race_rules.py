@@ -27,7 +27,8 @@ from finding_units import (
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Access, Callback, EntityKind, Executor, Spec
+from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 

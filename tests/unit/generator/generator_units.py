@@ -5,8 +5,8 @@ from __future__ import annotations
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.serving import ExecutorKind
 from ros2cc_extract.spec.close import ClosedSpec, close
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

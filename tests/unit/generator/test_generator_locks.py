@@ -16,7 +16,8 @@ from ros2cc_extract.generator.build import Profile, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import RE_ENTRANT, Act, Blocking, Callback
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking
+from ros2cc_extract.spec.model import Callback
 
 CALLBACKS = 'ask:TMR:g reply:CLT:h take:TMR:'
 GROUPS = 'g:EXCLUSIVE h:EXCLUSIVE i:EXCLUSIVE r:REENTRANT'

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.unit_mermaid import sides_diagram, units_diagram
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

@@ -11,10 +11,8 @@ import yaml
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import OUTSIDE, Access, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
-    Access,
-    Act,
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,
@@ -196,5 +194,61 @@ def test_what_is_no_specification_is_refused(text: str, message: str) -> None:
 
 
 def test_unknown_version_is_refused() -> None:
-    with pytest.raises(SpecFormatError, match='spec_version 2 is not known'):
-        read_specs('ros2cc: {spec_version: 2}\n' + PUBLISHED, 'arm.yaml')
+    with pytest.raises(SpecFormatError, match='spec_version 3 is not known'):
+        read_specs('ros2cc: {spec_version: 3}\n' + PUBLISHED, 'arm.yaml')
+
+
+WITH_WAKERS = """\
+ros2cc: {spec_version: 2}
+node:
+  name: arm
+  callbacks:
+    - name: scan
+      type: TMR
+      callback_group: group
+      entity: timer
+      callback: Arm.scan
+      period_s: 0.5
+      blocking:
+        - call: Queue.get
+          resource: jobs
+          needs: each
+          wakers: [{by: feed, after: 0, conditional: true, source: 'arm.py:9'}, {by: outside}]
+          source: arm.py:4
+        - {call: Event.wait, escapes: stored in a list, escapes_at: arm.py:7}
+  callback_groups:
+    - {name: group, type: EXCLUSIVE}
+  executor:
+    name: executor
+    threads:
+      - {name: thread_0}
+  activities:
+    - name: feed
+      kind: thread
+      function: Arm.feed
+      node: arm
+      starts: [{by: scan, after: 0, source: arm.py:3}]
+      loops: true
+      blocking:
+        - {call: time.sleep, seconds: 1.0, source: arm.py:8}
+      source: arm.py:3
+"""
+
+
+def test_wakers_and_activities_are_read_and_written() -> None:
+    (spec,) = read_specs(WITH_WAKERS, 'arm.yaml')
+    get, wait = spec.callbacks[0].blocking
+    assert get.needs is Needs.EACH
+    assert get.wakers == (
+        Waker(by='feed', source=Place('arm.py', 9), after=0, conditional=True),
+        Waker(by=OUTSIDE),
+    )
+    assert wait.escapes == Unknown('stored in a list', Place('arm.py', 7))
+    assert [activity.display_name for activity in spec.activities] == ['feed']
+    assert read_specs(write_specs([spec]), 'arm.yaml') == (spec,)
+
+
+def test_an_activity_shares_the_name_space() -> None:
+    text = WITH_WAKERS.replace('- name: feed', '- name: scan')
+    with pytest.raises(SpecFormatError, match="duplicate name 'scan'"):
+        read_specs(text, 'arm.yaml')

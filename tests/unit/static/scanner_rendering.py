@@ -11,16 +11,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import (
-    Access,
-    Act,
-    Blocking,
-    Callback,
-    CallbackGroup,
-    Executor,
-    Spec,
-    When,
-)
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec, When
 
 
 def rendered(extraction: Extraction) -> str:

@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import Act, Blocking
 from ros2cc_extract.spec.model import (
-    Act,
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

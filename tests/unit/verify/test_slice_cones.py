@@ -9,8 +9,8 @@ import pytest
 
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec, close
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     EntityKind,

@@ -7,8 +7,8 @@ import pytest
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import close
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import (
-    Blocking,
     Callback,
     CallbackGroup,
     CallbackType,

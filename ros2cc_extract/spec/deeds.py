@@ -1,0 +1,126 @@
+"""
+What code does while it runs: it waits, wakes others, takes locks, reads and writes.
+
+The same values describe callbacks and activities; ``model.py`` says whose they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.places import Place, Unknown
+
+
+class Needs(Enum):
+    """How many of its wakers end a wait."""
+
+    ONCE = 'once'
+    EACH = 'each'
+    ALL = 'all'
+
+
+OUTSIDE = 'outside'
+TIME = 'time'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waker:
+    """
+    Who can end a wait, and where.
+
+    :param by: name of a callback or an activity of the unit, ``OUTSIDE`` (another process, the
+        operating system) or ``TIME``.
+    :param source: the operation that ends it: ``set``, ``notify``, ``put``, a write, an end.
+    :param after: how many of its own waits (entries of ``blocking``) the waker has behind it
+        then; ``None`` where its end, or what happens at its end, ends the wait.
+    :param conditional: true where a branch may skip the operation.
+    """
+
+    by: str
+    source: Place | None = None
+    after: int | None = None
+    conditional: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blocking:
+    """
+    A call inside a callback that can hold its thread, or an ``await`` that holds its group.
+
+    :param call: what blocks, in the field's words: ``client.call``, ``Event.wait``,
+        ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
+    :param on: name of the callback, entity or object waited for, where known.
+    :param seconds: how long it sleeps; for calls with a time-out, the time-out.
+    :param foreign: true for an event or future that a thread of the user's own sets, and no
+        callback: that wakes no executor.
+    :param chain: places of the calls that lead from the callback to ``source``, outermost first.
+    :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
+        an ``RLock``, ends in ``RE_ENTRANT``.
+    :param resource: name of the object waited on, equal for all waits on one object.
+    :param wakers: who can end it, as far as is known.
+    :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
+        waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
+    :param escapes: why somebody else might end it too, or who ends it is not known.
+    :param conditional: true where a branch may skip the wait.
+    """
+
+    call: str
+    source: Place | None = None
+    on: str | Unknown | None = None
+    seconds: float | Unknown | None = None
+    foreign: bool = False
+    chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
+    resource: str | None = None
+    wakers: tuple[Waker, ...] = ()
+    needs: Needs = Needs.ONCE
+    escapes: Unknown | None = None
+    conditional: bool = False
+
+
+RE_ENTRANT = ' (re-entrant)'
+SHARED = ' (shared)'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Access:
+    """
+    A read or write of shared state by a callback.
+
+    :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
+    :param locks: locks held at that place, outermost first; one that others may hold too, as
+        readers do, ends in ``SHARED``.
+    :param update: true when the old value is read for the new one (``+=``, ``append`` …).
+    :param in_place: true for an update by one operation on the object itself (``append``,
+        ``d[k] = v``), which CPython does in one piece.
+    :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
+    :param iterates: class of the collection, where a loop goes over it.
+    """
+
+    name: str
+    source: Place | None = None
+    locks: tuple[str, ...] = ()
+    update: bool = False
+    in_place: bool = False
+    keeps_size: bool = False
+    iterates: str | None = None
+    chain: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Act:
+    """
+    Something else a callback does: takes a lock, publishes, creates an entity, moves a node.
+
+    :param name: the lock, the topic, the entity or executor concerned.
+    :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
+        name is among them where it cannot be taken twice.
+    :param tries: of a lock that is taken only if it is free at once, or in some time.
+    """
+
+    name: str | Unknown
+    source: Place | None = None
+    chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
+    tries: bool = False
