@@ -22,7 +22,13 @@ from ros2cc_extract.generator.queries import (
     rclpy_queries,
     write_query_file,
 )
-from ros2cc_extract.generator.serving import GUARD_RANK, TASK_RANK, ExecutorKind, task_order
+from ros2cc_extract.generator.serving import (
+    GUARD_RANK,
+    QUEUED_TWICE,
+    TASK_RANK,
+    ExecutorKind,
+    task_order,
+)
 from ros2cc_extract.generator.sources import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
@@ -32,9 +38,6 @@ __all__ = ['Family', 'Freedom', 'Profile', 'Query', 'RenderedModel', 'Text', 're
 #: What compact texts let move; docs/model.md shows that more would change no verdict.
 CALLBACKS_IN_PLAY = 2
 THREADS_IN_PLAY = 2
-#: A guard condition that is queued, and triggered, is queued once more, and so is what two
-#: threads find at a time that spin one pool (rclpy 7.1.6, 9.1.2).
-QUEUED_TWICE = 2
 #: Unlimited arrivals: the member of a group served first starves by two others, not by one.
 CALLBACKS_IN_PLAY_FOR_EVER = 3
 

@@ -48,6 +48,10 @@ def task_order(rclpy: str | None) -> TaskOrder | None:
 # nodes, then node by node timers, subscriptions, guard conditions, clients, services.
 TASK_RANK, _WAITABLE, _TIMER, _SUBSCRIPTION, GUARD_RANK, _CLIENT, _SERVICE = range(7)
 
+#: A guard condition that is queued, and triggered, is queued once more, and so is what two
+#: threads find at a time that spin one pool (rclpy 7.1.6, 9.1.2).
+QUEUED_TWICE = 2
+
 _RANK = {
     EntityKind.ACTION_EXECUTE: TASK_RANK,
     EntityKind.DONE_CALLBACK: TASK_RANK,
@@ -78,3 +82,8 @@ def rank_of(callback: Callback) -> int:
     if callback.entity is None:
         return _RANK_OF_TYPE[callback.type]
     return _RANK[callback.entity]
+
+
+def runs_of_an_arrival(callback: Callback) -> int:
+    """Tell how many runs, at one time, what has arrived once can give where nobody spins."""
+    return QUEUED_TWICE if rank_of(callback) == GUARD_RANK else 1

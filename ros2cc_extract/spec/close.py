@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.errors import IncompleteSpecError
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.identifiers import mend
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec
+from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, GroupType, Spec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,17 +54,57 @@ def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
         raise IncompleteSpecError(
             f'unit {spec.name!r} has no callback', spec.executor.source, 'nothing to verify'
         )
-    used = {callback.group for callback in callbacks}
-    groups = tuple(group for group in spec.groups if group.name in used)
-    executor = _with_threads(spec, policy.threads)
     reduced = replace(
         spec,
         callbacks=callbacks,
-        groups=groups,
-        executor=executor,
+        executor=_with_threads(spec, policy.threads),
         rclpy=policy.rclpy or spec.rclpy,
     )
-    return ClosedSpec(spec=reduced, assumptions=tuple(_assumptions(reduced, policy)))
+    reduced = _with_tasks_in_no_group(reduced)
+    used = {callback.group for callback in reduced.callbacks}
+    reduced = replace(reduced, groups=tuple(g for g in reduced.groups if g.name in used))
+    moved = _moved_tasks(reduced, spec)
+    return ClosedSpec(spec=reduced, assumptions=(*_assumptions(reduced, policy), *moved))
+
+
+def _with_tasks_in_no_group(spec: Spec) -> Spec:
+    """
+    Take tasks out of exclusive groups, in which hand-written files may have put them.
+
+    No executor asks a group for a task (rclpy 7.1.6 and 9.1.2, ``executors.py``, ``create_task``
+    makes a ``Task`` without an entity), and an action server gives its execute callback and a
+    future its done-callbacks to ``create_task``.
+    """
+    exclusive = {group.name for group in spec.groups if group.type is GroupType.EXCLUSIVE}
+    misplaced = {c.name for c in spec.callbacks if _is_task(c) and c.group in exclusive}
+    if not misplaced:
+        return spec
+    outside = next((group for group in spec.groups if group.groupless), None)
+    groups = spec.groups
+    if outside is None:
+        name = mend('no_group', tuple(spec.names()))
+        outside = CallbackGroup(name=name, type=GroupType.REENTRANT, groupless=True)
+        groups = (*groups, outside)
+    callbacks = tuple(
+        replace(c, group=outside.name, groupless=True) if c.name in misplaced else c
+        for c in spec.callbacks
+    )
+    return replace(spec, callbacks=callbacks, groups=groups)
+
+
+def _is_task(callback: Callback) -> bool:
+    return callback.entity is not None and callback.entity.is_task
+
+
+def _moved_tasks(closed: Spec, spec: Spec) -> list[str]:
+    """Say which tasks the unit as written has in a group."""
+    written = {callback.name: callback.group for callback in spec.callbacks}
+    return [
+        f'{callback.name} is a task, which is in no group; not modelled in '
+        f'{written[callback.name]}, where it was written'
+        for callback in closed.callbacks
+        if callback.group != written[callback.name]
+    ]
 
 
 def thread_names(spec: Spec, number: int) -> tuple[str, ...]:

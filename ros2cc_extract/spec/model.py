@@ -62,6 +62,11 @@ class EntityKind(Enum):
         """How the name of its topic, service or action is called; ``None`` if it has none."""
         return _KEY_NAME.get(self)
 
+    @property
+    def is_task(self) -> bool:
+        """True for work that executors run without asking a group (rclpy, ``create_task``)."""
+        return self in (EntityKind.ACTION_EXECUTE, EntityKind.DONE_CALLBACK, EntityKind.TASK)
+
 
 _PUBLISHED_TYPE = {
     EntityKind.TIMER: CallbackType.TMR,

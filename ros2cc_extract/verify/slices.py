@@ -21,6 +21,7 @@ from ros2cc_extract.generator.serving import (
     ExecutorKind,
     executor_kind,
     rank_of,
+    runs_of_an_arrival,
 )
 from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
 from ros2cc_extract.generator.waits import (
@@ -159,8 +160,8 @@ class Slicer:
         True when callbacks that wait can never hold every thread.
 
         Not known where one spins an executor, or waits for what no callback gives. A member of
-        a reentrant group holds one for each of its arrivals, and a service that others of the
-        unit call is asked by them too: then nothing is certain.
+        a reentrant group holds one for each run that its arrivals can give, and a service that
+        others of the unit call is asked by them too: then nothing is certain.
         """
         kinds = {wait.kind for waits in self._waits.values() for wait in waits}
         if not kinds <= {WaitKind.HELD, WaitKind.AWAITED, WaitKind.LOCKED}:
@@ -174,7 +175,7 @@ class Slicer:
             elif self._callers[callback.name]:
                 return False
             else:
-                holders[callback.name, callback.group] = self.max_cycle
+                holders[callback.name, callback.group] = self._runs_by_arrivals(callback)
         return self._threads > sum(holders.values())
 
     def cut(self, names: Names) -> ClosedSpec:
@@ -217,8 +218,12 @@ class Slicer:
                 most[callback.group] = 1
             else:
                 asked = len(self._callers[callback.name]) * len(callbacks)
-                most[callback.name, callback.group] = self.max_cycle + asked
+                most[callback.name, callback.group] = self._runs_by_arrivals(callback) + asked
         return sum(most.values())
+
+    def _runs_by_arrivals(self, callback: Callback) -> int:
+        """How often it may run at one time because of what arrives by itself."""
+        return self.max_cycle * runs_of_an_arrival(callback)
 
     @property
     def _spec(self) -> Spec:

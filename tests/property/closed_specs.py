@@ -146,3 +146,28 @@ def _with_locks(callback: Callback, random: Random) -> Callback:
         blocking=tuple(replace(block, held=held) for block in callback.blocking),
         locks=() if name is None else (Act(name=name, tries=random.random() < 0.1),),
     )
+
+
+def random_entity_unit(random: Random, *, callbacks: int, groups: int, threads: int) -> ClosedSpec:
+    """Draw a unit as any of the others, with every kind of entity, of any release."""
+    draw = random.choice((random_rclpy_unit, random_spinning_unit, random_locking_unit))
+    spec = draw(random, callbacks=callbacks, groups=groups, threads=threads).spec
+    served = tuple(_as_some_entity(callback, random) for callback in spec.callbacks)
+    rclpy = random.choice((None, '7.1.6', '7.1.9', '9.1.2'))
+    return close(replace(spec, callbacks=served, rclpy=rclpy))
+
+
+#: What runs otherwise than a timer, a message, a request or an answer, more often than these.
+_RARE = (EntityKind.GUARD_CONDITION, EntityKind.TASK, EntityKind.DONE_CALLBACK)
+
+
+def _as_some_entity(callback: Callback, random: Random) -> Callback:
+    entity = random.choice((None, *EntityKind, *_RARE))
+    if entity is None:
+        return callback
+    return replace(
+        callback,
+        entity=entity,
+        type=entity.published_type,
+        key=random.choice(('plan', 'home')) if entity.key_name else None,
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import close
@@ -12,6 +13,7 @@ from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,
     CallbackType,
+    EntityKind,
     Executor,
     GroupType,
     Spec,
@@ -34,3 +36,25 @@ def test_a_wait_that_no_model_has_tells_slices_apart(monkeypatch: pytest.MonkeyP
     unit = Spec(name='arm', callbacks=callbacks, groups=tuple(groups), executor=executor)
     results = verify_unit(close(unit), Options(profile=Profile.RCLPY, structural=False)).results
     assert [r.callbacks for r in results if r.family == 'progress'] == [('stop',)]
+
+
+@pytest.mark.parametrize('others', [0, 1, 2, 8])
+def test_a_guard_condition_overlaps_itself_in_a_unit_of_any_size(others: int) -> None:
+    """Triggered once it runs twice: a slice needs a thread for each of these runs."""
+    woken = Callback(
+        name='woken', type=CallbackType.SUB, entity=EntityKind.GUARD_CONDITION, group='free'
+    )
+    served = tuple(
+        Callback(name=f's{number}', type=CallbackType.SUB, group='g') for number in range(others)
+    )
+    groups = (
+        CallbackGroup(name='free', type=GroupType.REENTRANT),
+        CallbackGroup(name='g', type=GroupType.EXCLUSIVE),
+    )
+    executor = Executor(name='executor', kind='MultiThreadedExecutor', threads=('one', 'two'))
+    unit = Spec(name='arm', callbacks=(woken, *served), groups=groups, executor=executor)
+    results = verify_unit(close(unit), Options(profile=Profile.RCLPY, structural=False)).results
+    told = {r.callbacks: r.verdict for r in results if r.family == 'self_overlap'}
+    assert told == {('woken',): Verdict.NOT_SATISFIED} | {
+        (callback.name,): Verdict.SATISFIED for callback in served
+    }
