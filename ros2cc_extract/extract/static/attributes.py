@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static import builtin_methods, changing, subclasses
+from ros2cc_extract.extract.static.class_attributes import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.relevance import MAKING, reassigned_attributes
@@ -35,6 +36,10 @@ from ros2cc_extract.spec.model import When
 def _owner_text(text: str | ast.expr) -> str | ast.expr:
     """What stands before the dot."""
     return text.value if isinstance(text, ast.Attribute) else text
+
+
+def _defines(cls: Value, name: str) -> bool:
+    return isinstance(cls, Class) and name in cls.slots
 
 
 class Attributes(Machine):
@@ -78,6 +83,8 @@ class Attributes(Machine):
         if isinstance(value, Module):
             return self._of_module(value, name, place)
         if isinstance(value, Library):
+            if name == '__new__':
+                return NEW
             member = self.library_member(value, None, name, place)
             return member or self.library(f'{value.name}.{name}')
         if isinstance(value, Super):
@@ -180,7 +187,7 @@ class Attributes(Machine):
                 found = self.library_member(cls, None, name, place)
                 if found is not None:
                     return found
-        return None
+        return NEW if name == '__new__' else of_metaclass(value, name)
 
     def _of_module(self, value: Module, name: str, place: Place) -> Value | None:
         if name in value.slots:
@@ -196,7 +203,12 @@ class Attributes(Machine):
     def _of_super(self, value: Super, name: str, place: Place) -> Value | None:
         receiver = value.receiver
         order = receiver.mro if isinstance(receiver, (Instance, Class)) else value.owner.mro
+        if isinstance(receiver, Class) and value.owner not in order:
+            found = of_metaclass(receiver, name, behind=value.owner)
+            return found or (type_call(receiver) if name == '__call__' else None)
         behind = order[order.index(value.owner) + 1 :] if value.owner in order else ()
+        if name == '__new__' and not any(_defines(cls, name) for cls in behind):
+            return NEW
         return self._in_order(behind, receiver, name, place)
 
     def _of_callable(self, value: Value, name: str) -> Value | None:
@@ -212,6 +224,8 @@ class Attributes(Machine):
         if isinstance(value, Function) and name in value.slots:
             found: Value = value.slots[name]
             return found
+        if isinstance(value, Native) and value.name == 'builtins.type' and name == '__call__':
+            return type_call(NONE)
         if isinstance(value, Native) and name == '__name__':
             return Const(value.name)
         return None

@@ -6,11 +6,11 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static import again, subclasses
+from ros2cc_extract.extract.static import memo, subclasses
+from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import mangled
-from ros2cc_extract.extract.static.same_node import made_before, remember
 from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -37,7 +37,6 @@ from ros2cc_extract.places import Place, Unknown
 
 _CALL_DEPTH = 40
 _SAME_FUNCTION = 2
-_MADE = '__made__'
 
 
 class Calls(Machine):
@@ -69,7 +68,10 @@ class Calls(Machine):
         """Run a scanned function; a coroutine function only makes its coroutine."""
         if function.is_coroutine:
             return Coroutine(function, call)
-        return self.run_function(function, call)
+        run = partial(self.run_function, function)
+        if memo.is_kept(function):
+            return memo.recall(self, function, call, run)
+        return memo.doubted(self, function, call, run)
 
     def run_function(self, function: Function, call: Call) -> Value:
         """Run the body of a scanned function with the arguments of ``call``."""
@@ -151,58 +153,6 @@ class Calls(Machine):
                 at = (call.more.at if call.more else None) or call.place
                 bound[name] = Mystery(Unknown(reason, at), name, default)
 
-    def instantiate(self, cls: Class, call: Call) -> Value:
-        """Make an instance of a scanned class and run its ``__init__``."""
-        known = again.made_then(self.world, cls, call.place)
-        known = known or self._made_by_looking(cls, call.place) or made_before(self, cls, call)
-        instance = known or Instance(cls, call.place)
-        again.remember(self.world, cls, call.place, instance)
-        if known is not None:
-            return known
-        if self.world.looking:
-            self.world.made_by_looking[(self.world.looking[-1:], cls, call.place)] = instance
-            self.store.write(instance, _MADE, NONE)
-        instance.path = self.world.path
-        instance.born = self.world.deeds
-        instance.number += self.world.made_of[cls]
-        self.world.made_of[cls] += 1
-        self.prepare(instance)
-        remember(self, instance, call)
-        self.world.instances.append(instance)
-        init = self.attribute(instance, '__init__', call.place)
-        if isinstance(init, (Bound, Native)):
-            self.call(init, call)
-        elif self._is_dataclass(cls):
-            self._fill_fields(cls, instance, call)
-        return instance
-
-    def _made_by_looking(self, cls: Class, place: Place) -> Instance | None:
-        """What a property made when it was asked before, as far as this branch knows of it."""
-        if not self.world.looking:
-            return None
-        known = self.world.made_by_looking.get((self.world.looking[-1:], cls, place))
-        return known if known is not None and _MADE in known.slots else None
-
-    def _is_dataclass(self, cls: Class) -> bool:
-        return any(
-            'dataclass' in ast.dump(decorator) or 'attr' in ast.dump(decorator)
-            for decorator in cls.node.decorator_list
-        )
-
-    def _fill_fields(self, cls: Class, instance: Instance, call: Call) -> None:
-        names = [
-            item.target.id
-            for item in cls.node.body
-            if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name)
-        ]
-        for index, name in enumerate(names):
-            value = call.argument(index, name)
-            if value is not None:
-                self.store.write(instance, name, value)
-        post = self.attribute(instance, '__post_init__', call.place)
-        if isinstance(post, Bound):
-            self.call(post, Call(call.place))
-
     def zero_argument_super(self, frame: Frame) -> Value:
         """``super()`` in the method that is running."""
         scope: Scope | None = frame.scope
@@ -273,6 +223,8 @@ class Calls(Machine):
             if isinstance(wrapper, (Function, Bound, Partial, Class, Native)):
                 result = self.call(wrapper, Call(frame.place(decorator), [value]))
                 value = result if not isinstance(result, Mystery) else value
+            else:
+                memo.doubt(self.world, function, 'is decorated by', decorator)
         return value
 
     def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
@@ -284,6 +236,7 @@ class Calls(Machine):
             choice(list(options_of(base))) if isinstance(base, Choice) else base for base in bases
         )
         cls.mro = resolution_order(cls)
+        self._give_metaclass(cls, node, frame)
         subclasses.register(self.world, cls)
         scope = Scope(frame.module, frame.scope if frame.qualname else None)
         scope.slots['__class_body__'] = cls
@@ -292,7 +245,18 @@ class Calls(Machine):
         for name, value in scope.slots.items():
             if name != '__class_body__':
                 self.store.write(cls, mangled(name, cls.name), value)
+                bind_by_name(name, value)
         return cls
+
+    def _give_metaclass(self, cls: Class, node: ast.ClassDef, frame: Frame) -> None:
+        """The metaclass of the class statement, or that of a base."""
+        given = next((k.value for k in node.keywords if k.arg == 'metaclass'), None)
+        value = self.evaluate(given, frame) if given is not None else None
+        inherited = (base.metaclass for base in cls.bases if isinstance(base, Class))
+        found = value if isinstance(value, Class) else next(filter(None, inherited), None)
+        cls.metaclass = found
+        if given is not None and isinstance(value, (Mystery, Library)):
+            memo.doubt(self.world, cls, 'has the metaclass', given)
 
     def await_value(self, value: Value, place: Place) -> Value:
         """``await value``: coroutines run, everything else gives a mystery."""
@@ -377,7 +341,8 @@ def _call_instance(machine: Calls, function: Instance, call: Call) -> Value:
 
 
 def _call_class(machine: Calls, function: Class, call: Call) -> Value:
-    return machine.instantiate(function, call)
+    maker = of_metaclass(function, '__call__')
+    return machine.call(maker, call) if maker is not None else machine.instantiate(function, call)
 
 
 def _call_function(machine: Calls, function: Function, call: Call) -> Value:

@@ -185,14 +185,14 @@ def _contains(owner: Value, item: Value) -> bool | None:
         if isinstance(owner.value, str) and isinstance(item.value, str):
             return item.value in owner.value
         return None
-    if isinstance(owner, Mapping) and isinstance(item, (Const, Instance)):
+    if isinstance(owner, Mapping) and _is_sure(item):
         entry = owner.entries.get(item)
         if entry is not None and not (isinstance(entry, Choice) and ABSENT in entry.options):
             return True
         return None if owner.rest or entry is not None else False
-    if isinstance(owner, Sequence) and isinstance(item, (Const, Instance)):
+    if isinstance(owner, Sequence) and _is_sure(item):
         if item in owner.items:
             return True
-        certain = all(isinstance(known, (Const, Instance)) for known in owner.items)
+        certain = all(_is_sure(known) for known in owner.items)
         return False if certain and owner.rest is None else None
     return None

@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static.comprehensions import Comprehensions
 from ros2cc_extract.extract.static.effects import Effects
 from ros2cc_extract.extract.static.expressions import Expressions
 from ros2cc_extract.extract.static.imports import Imports
+from ros2cc_extract.extract.static.instances import Instances
 from ros2cc_extract.extract.static.libraries import Libraries
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.statements import Statements
@@ -25,6 +26,7 @@ class Interpreter(
     Expressions,
     Attributes,
     Calls,
+    Instances,
     Comprehensions,
     Libraries,
     Imports,
@@ -38,6 +40,7 @@ class Interpreter(
         self.steps = self.step_limit = 0
         self.steps_left = RUN_LIMIT
         self.stack = []
+        self.creating = []
         self.project = project
         self.modules = {}
         self._changed = {}

@@ -125,7 +125,9 @@ def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]
         for option in options_of(value)
         if isinstance(option, (Class, Function))
     ]
-    hidden = [f for f in machine.world.decorated if f.owner is None and f.module is module]
+    classes = [cls for cls in machine.world.decorated_classes if cls.module is module]
+    hidden: list[Class | Function] = [*dict.fromkeys(classes)]
+    hidden += (f for f in machine.world.decorated if f.owner is None and f.module is module)
     hidden += (value for value, _ in machine.world.escaped if _is_of(value, module))
     return [*found, *(f for f in hidden if '<locals>' not in f.qualname and f not in found)]
 

@@ -263,6 +263,10 @@ class Machine(ABC):
         """Make an instance of a scanned class and run its ``__init__``."""
 
     @abstractmethod
+    def allocate(self, cls: Class, call: Call) -> Instance:
+        """A new object of ``cls``, as ``object.__new__`` makes it."""
+
+    @abstractmethod
     def name_value(self, value: Value, name: str) -> None:
         """Remember the first name under which a group, an executor … is stored."""
 

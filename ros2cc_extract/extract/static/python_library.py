@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.memo import keep_results
 from ros2cc_extract.extract.static.threads_library import run_in_executor
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -245,6 +246,8 @@ def _isinstance(machine: Machine, receiver: Value, call: Call) -> Value:
             return Const(True)
         if all(isinstance(cls, Class) for cls in (*value.mro, *classes)):
             return Const(False)
+    if isinstance(value, Const) and classes and all(isinstance(cls, Class) for cls in classes):
+        return Const(False)
     return machine.mystery('isinstance', call.place, 'isinstance(…)')
 
 
@@ -307,7 +310,7 @@ def _wraps(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _same(machine: Machine, receiver: Value, call: Call) -> Value:
-    """Decorators such as ``lru_cache`` that leave the function what it is."""
+    """Decorators such as ``contextmanager`` that leave the function what it is."""
     if call.args and isinstance(call.args[0], (Function, Class)):
         return call.args[0]
     return Native('decorator', _same)
@@ -387,8 +390,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'os._exit': _exit,
     'functools.partial': _partial,
     'functools.wraps': _wraps,
-    'functools.lru_cache': _same,
-    'functools.cache': _same,
+    'functools.lru_cache': keep_results,
+    'functools.cache': keep_results,
     'contextlib.contextmanager': _same,
     'dataclasses.dataclass': _same,
     'asyncio.run': _run_coroutine,

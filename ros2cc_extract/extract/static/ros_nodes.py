@@ -41,6 +41,7 @@ from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
+_BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
 
 
@@ -128,10 +129,25 @@ def add_entity(
 def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if isinstance(receiver.state, NodeState):
+        _note_begun_again(machine, receiver, call)
         receiver.state.name = call.argument(0, 'node_name') or NONE
         machine.store.remove(receiver, DEFAULT_GROUP)
         add_builtins_of_node(machine, receiver, call)
     return NONE
+
+
+def _note_begun_again(machine: Machine, node: Instance, call: Call) -> None:
+    """
+    A singleton whose ``__init__`` runs each time its class is called begins its node anew.
+
+    The executor no longer serves what was made before (rclpy 7.1.6, ``node.py``: the lists of
+    entities and the default group are made anew).
+    """
+    state = node.state
+    if _BEGUN in node.slots and state.begun == call.place:
+        state.more.append(('its constructor runs again on the same object', call.place))
+    state.begun = call.place
+    machine.store.write(node, _BEGUN, NONE)
 
 
 def _creator(row: CreateCall) -> Handler:

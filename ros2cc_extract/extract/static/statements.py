@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, loops, same_tests
+from ros2cc_extract.extract.static import changing, loops, memo, same_tests
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.lock_paths import locks_given_back
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
@@ -24,7 +24,9 @@ from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
     Call,
+    Class,
     Function,
+    Instance,
     Module,
     Mystery,
     Native,
@@ -363,9 +365,13 @@ def _class(machine: Statements, node: ast.ClassDef, frame: Frame) -> int:
     value: Value = machine.make_class(node, frame)
     for decorator in reversed(node.decorator_list):
         wrapper = machine.evaluate(decorator, frame)
-        if isinstance(wrapper, (Function, Bound, Partial, Native)):
+        if isinstance(value, Class):
+            machine.world.decorated_classes.append(value)
+        if isinstance(wrapper, (Function, Bound, Partial, Class, Instance, Native)):
             result = machine.call(wrapper, Call(frame.place(decorator), [value]))
             value = value if isinstance(result, Mystery) else result
+        elif isinstance(value, Class):
+            memo.doubt(machine.world, value, 'is decorated by', decorator)
     machine.assign(ast.Name(node.name, ast.Store()), value, frame)
     return NEXT
 

@@ -251,9 +251,10 @@ class Class(Heaped):
     A class of the scanned program; slots are its class attributes.
 
     :param mro: this class first; classes, libraries and mysteries.
+    :ivar metaclass: the one that is scanned, of its own or of a base.
     """
 
-    __slots__ = ('bases', 'module', 'mro', 'name', 'node', 'qualname')
+    __slots__ = ('bases', 'metaclass', 'module', 'mro', 'name', 'node', 'qualname')
 
     def __init__(self, name: str, qualname: str, module: Module, node: ast.ClassDef) -> None:
         super().__init__()
@@ -262,6 +263,7 @@ class Class(Heaped):
         self.module = module
         self.node = node
         self.bases: tuple[Value, ...] = ()
+        self.metaclass: Class | None = None
         self.mro: tuple[Value, ...] = (self,)
 
     @property

@@ -55,6 +55,7 @@ class NodeState:
     :param name: value of the name argument; ``None`` when none was seen.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
     :param more: why it may have entities that we do not see.
+    :param begun: the call of ``Node.__init__``.
     :param nested: a spin inside a callback that serves it, and where.
     """
 
@@ -65,6 +66,7 @@ class NodeState:
     rate_group: Instance | None = None
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False
+    begun: Place | None = None
     nested: tuple[str, Place] | None = None
     count: int | Unknown = 1
 
@@ -284,6 +286,8 @@ class World:
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
+    :param doubted: classes and functions behind code that is not scanned, and what that is.
+    :param doubted_calls: how often these were called.
     """
 
     path: Path = ()
@@ -310,6 +314,7 @@ class World:
     called: dict[int, Function] = field(default_factory=dict)
     without_caller: dict[int, set[int]] = field(default_factory=dict)
     decorated: list[Function] = field(default_factory=list)
+    decorated_classes: list[Class] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
     subclasses: dict[Class, list[Class]] = field(default_factory=dict)
@@ -342,3 +347,5 @@ class World:
     again: bool = False
     made_then: dict[object, Instance] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
+    doubted: dict[Value, str] = field(default_factory=dict)
+    doubted_calls: Counter[Value] = field(default_factory=Counter)
