@@ -157,6 +157,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
     has_guards = GUARD_RANK in ranks
     pool_spins = has_pool and unit.has_own_spins
     signals = freedom.observed and unit.has_awaits
+    needs_laps = unit.has_foreign and not unit.foreign_wakes
     has_servers = any(callback.server is not None for callback in unit.callbacks)
     return {
         'has_tasks': unit.has_awaits or tasks > 0,
@@ -181,7 +182,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         'pool_spins': pool_spins,
         'gathers': freedom.observed and has_pool,
         # A worker may go on with a coroutine unasked; what is asked would only make more states.
-        'polls': unit.has_awaits and has_pool and (unit.has_foreign or not freedom.observed),
+        'polls': unit.has_awaits and has_pool and (needs_laps or not freedom.observed),
         'foreign_answers': freedom.observed and bool(unit.called),
         'signals': signals,
         'queued_again': len(ranks) if pool_spins else ranks.count(GUARD_RANK) + tasks,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ros2cc_extract.spec.model import Callback, CallbackType, EntityKind, Spec
+from ros2cc_extract.spec.releases import TASKS_OLDEST_FIRST, has_change
 
 
 class ExecutorKind(Enum):
@@ -32,16 +33,11 @@ class TaskOrder(Enum):
 
 
 def task_order(rclpy: str | None) -> TaskOrder | None:
-    """
-    Tell in which order a version of rclpy serves tasks; ``None`` where the version is not known.
-
-    Source: ``executors.py``, ``_wait_for_ready_callbacks``: reversed up to 7 (Humble, Iron,
-    Jazzy), in order from 8 (Rolling of December 2024, Kilted).
-    """
-    major = (rclpy or '').partition('.')[0]
-    if not major.isdecimal():
+    """Tell in which order a version of rclpy serves tasks; ``None`` where that is not known."""
+    is_oldest_first = has_change(rclpy, TASKS_OLDEST_FIRST)
+    if is_oldest_first is None:
         return None
-    return TaskOrder.NEWEST_FIRST if int(major) < 8 else TaskOrder.OLDEST_FIRST
+    return TaskOrder.OLDEST_FIRST if is_oldest_first else TaskOrder.NEWEST_FIRST
 
 
 # Source: rclpy 7.1.6, executors.py, _wait_for_ready_callbacks: tasks, then the waitables of all

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ros2cc_extract.generator.left_out import is_entered_unseen, left_out_of_models
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
-from ros2cc_extract.generator.waits import Lock, NamedWait, WaitKind, waits_of
+from ros2cc_extract.generator.waits import Lock, NamedWait, WaitKind, foreign_wakes, waits_of
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
@@ -130,6 +130,7 @@ class Unit:
 
     :param max_cycle: how often each callback may become ready; ``None`` for no bound.
     :param locks: names of those that are held over a wait, and that others take.
+    :param foreign_wakes: a thread of the user's own that makes a future done wakes the executor.
     """
 
     name: str
@@ -141,6 +142,7 @@ class Unit:
     executor: str
     max_cycle: int | None
     locks: tuple[str, ...] = ()
+    foreign_wakes: bool = False
 
     @property
     def num_waits(self) -> int:
@@ -295,6 +297,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         executor=spec.executor.name,
         max_cycle=max_cycle,
         locks=tuple(lock.name for lock in locks),
+        foreign_wakes=foreign_wakes(spec),
     )
 
 

@@ -35,7 +35,7 @@ class WaitKind(Enum):
 
     HELD = 'the thread is held until another callback has run'
     AWAITED = 'the thread is freed, the group is held'
-    FOREIGN = 'as awaited, for what a thread of the user makes done, which wakes no executor'
+    FOREIGN = 'as awaited, for what a thread of the user makes done'
     ABSENT = 'the thread is held until somebody outside offers a service'
     SPUN = 'the thread spins an executor'
     LOCKED = 'the thread is held until another callback gives back a lock'
@@ -213,13 +213,21 @@ def is_foreign(block: Blocking, spec: Spec) -> bool:
     """
     Tell whether only a thread of the user's own makes done what is awaited.
 
-    Up to 7.1.8 and in 9.1.2 that wakes no executor: a lap asks every coroutine whether it can go
-    on, and nothing but a lap (``task.py``, ``Future.__await__``).
+    How the events executor goes on then was not read.
     """
     is_ours = executor_kind(spec) is not ExecutorKind.EVENTS
-    wakes = has_change(spec.rclpy, FUTURE_YIELDS_ITSELF) is True
     is_await = block.call == 'await' and block.seconds is None
-    return is_await and block.foreign and is_ours and not wakes
+    return is_await and block.foreign and is_ours
+
+
+def foreign_wakes(spec: Spec) -> bool:
+    """
+    Tell whether a thread of the user's own that makes a future done wakes the executor.
+
+    Before, a lap asks every coroutine whether it can go on, and nothing but a lap (``task.py``,
+    ``Future.__await__``, of 7.1.6 and 9.1.2; then of 3.3.21, 7.1.9 and 9.1.5).
+    """
+    return has_change(spec.rclpy, FUTURE_YIELDS_ITSELF) is True
 
 
 def is_absent(block: Blocking, spec: Spec) -> bool:

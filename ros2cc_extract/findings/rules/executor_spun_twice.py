@@ -56,9 +56,9 @@ RULE = Rule(
     'executor, which under `rclpy.spin` runs the callback that calls them.',
     why='The executor walks through what is ready by one generator. From two threads that ends '
     'in `ValueError: generator already executing`; nested, other callbacks run inside the one '
-    'that waits, and members of its group do not. From rclpy 7.1.9 on both raise `RuntimeError: '
-    'Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` '
-    '(`wait_for_ready_callbacks`); ros2/rclpy pull request 1510.',
+    'that waits, and members of its group do not. From rclpy 7.1.9 (Jazzy) and 9.1.5 (Kilted) on '
+    'both raise `RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, '
+    '`executors.py` (`wait_for_ready_callbacks`); ros2/rclpy pull request 1510.',
     bad="""\
 class Arm(Node):
     def on_timer(self):

@@ -217,7 +217,8 @@ def test_the_words_are_those_of_the_templates() -> None:
         '… waits on … for the lock of …',
         '… waits on … for the service of …, which nobody here offers',
         '… awaits what a thread outside … makes done, and leaves …',
-        'a thread outside … makes done what … awaits, which wakes nobody',
+        "a thread outside … makes done what … awaits{{ ', which wakes nobody' "
+        'if not unit.foreign_wakes }}',
         '… awaits … and leaves …',
         '… ends on …',
         '… goes on',

@@ -254,10 +254,22 @@ def test_a_future_done_by_another_thread_is_seen_when_something_else_wakes_the_e
     assert can_be(unit, f'executor.serving and cb_foreign_done[0][0] and cb_ended[{TICK}]')
 
 
-def test_from_7_1_9_on_it_may_wake_the_executor_and_nothing_is_claimed():
-    model = model_of(spinning(FOREIGN, rclpy='7.1.9'))
-    assert 'cb_foreign_done' not in model.xml
-    assert any(query.left_out for query in model.queries)
+@pytest.mark.parametrize(
+    ('rclpy', 'wakes'),
+    [
+        *((release, False) for release in ('3.3.20', '4.1.7', '7.1.8', '9.1.3', '10.0.2')),
+        *((release, True) for release in ('3.3.21', '7.1.9', '9.1.4', '10.0.3', '11.0.0')),
+    ],
+)
+@pytest.mark.parametrize(('executor', 'threads'), [(SINGLE, 1), (MULTI, 2)])
+def test_a_release_may_wake_the_executor_for_it(
+    rclpy: str, wakes: bool, executor: str, threads: int
+):
+    """Seen on 3.3.21, 7.1.9 and 9.1.5: the coroutine goes on when the thread has set it."""
+    unit = spinning(FOREIGN, executor=executor, threads=threads, rclpy=rclpy)
+    alone = replace(unit, spec=replace(unit.spec, callbacks=unit.spec.callbacks[:1]))
+    assert can_be(alone, 'deadlock and cb_unfinished(0)') is not wakes
+    assert not any(query.left_out for query in model_of(alone).queries)
 
 
 def test_a_wait_for_an_absent_service_holds_the_thread():
