@@ -7,11 +7,12 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static import memo, subclasses
+from ros2cc_extract.extract.static.arguments import fits
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
-from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.flow import DEAD, NEXT, RETURN
+from ros2cc_extract.extract.static.machine import CannotCallError, Frame, Machine
 from ros2cc_extract.extract.static.relevance import mangled
-from ros2cc_extract.extract.static.statements import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -41,8 +42,6 @@ _SAME_FUNCTION = 2
 
 class Calls(Machine):
     """How values are called."""
-
-    stack: list[Function]
 
     def call(self, function: Value, call: Call) -> Value:
         """The result of a call, after its effects."""
@@ -78,6 +77,9 @@ class Calls(Machine):
         self.world.called[id(function.node)] = function
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
             return self.mystery(f'recursion in {function.name}', call.place)
+        trying = self.world.trying
+        if trying == (len(self.stack), self.store.depth) and self._surely_fails(function, call):
+            raise CannotCallError
         scope = Scope(function.module, function.scope)
         qualname = f'{function.qualname}.<locals>'
         frame = Frame(scope, function, qualname=qualname, path=self.world.path)
@@ -92,6 +94,9 @@ class Calls(Machine):
         finally:
             self.stack.pop()
             self.world.chain, self.world.count, self.world.path = chain, count, path
+
+    def _surely_fails(self, function: Function, call: Call) -> bool:
+        return function not in self.world.doubted and not fits(function, call)
 
     def running_classes(self) -> frozenset[Class]:
         """The classes whose methods are running."""

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.relevance import creates_entities, walk
 from ros2cc_extract.extract.static.runs import (
     UNCALLED,
     guarded,
+    is_test,
     run_callbacks,
     run_rest_of_instances,
     unknown_arguments,
@@ -164,9 +165,13 @@ def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
         guarded(machine, lambda: machine.instantiate(value, call), value.place)
     else:
         call = unknown_arguments(value, value.place, skip=0)
+        if is_test(value.name):
+            machine.world.global_executor = None
         nodes, entities = len(machine.world.nodes), len(machine.world.entities)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
         _mark_later(machine.world, nodes, entities, value.place)
+        if is_test(value.name):
+            machine.world.global_executor = None
 
 
 def _mark_later(world: World, nodes: int, entities: int, place: Place) -> None:

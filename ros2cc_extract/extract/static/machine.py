@@ -35,6 +35,10 @@ from ros2cc_extract.extract.static.world import AccessKind, World
 from ros2cc_extract.places import Place, Unknown
 
 
+class CannotCallError(Exception):
+    """A call directly in the text of a ``try`` surely raises ``TypeError``."""
+
+
 class BudgetError(Exception):
     """The program is too large to be followed to its end."""
 
@@ -103,6 +107,7 @@ class Machine(ABC):
     world: World
     steps: int
     step_limit: int
+    stack: list[Function]
 
     @abstractmethod
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
@@ -110,7 +115,11 @@ class Machine(ABC):
 
     @abstractmethod
     def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Run statements; returns how the block may end, see ``statements.py``."""
+        """Run statements; returns how the block may end, see ``flow.py``."""
+
+    @abstractmethod
+    def branches(self, bodies: Sequence[Callable[[], int]], place: Place, frame: Frame) -> int:
+        """Run alternatives from one state; joins what may hold after them."""
 
     @abstractmethod
     def operate(

@@ -84,16 +84,26 @@ def _describe_unknown(value: Value | None, place: Place) -> FunctionFacts:
     if value is None or value == NONE:
         return FunctionFacts('callback', None, None, False, Unknown('no callback is given', place))
     if isinstance(value, Choice):
-        options = [describe(option, place) for option in options_of(value)]
-        names = [facts.label for facts in options]
-        reason = Unknown(f'one of {", ".join(names)}, depending on a branch', place)
-        return FunctionFacts('_or_'.join(names[:3]), None, None, False, reason)
+        return _describe_choice(value, place)
     if isinstance(value, Mystery):
         text = value.text or 'callback'
         label = re.split(r'[(\[]', text)[0].rpartition('.')[2]
         reason = Unknown(f'{text}: {value.unknown.reason}', value.unknown.at or place)
         return FunctionFacts(label or 'callback', None, None, False, reason)
     return FunctionFacts('callback', None, None, False, Unknown('not a function', place))
+
+
+def _describe_choice(value: Choice, place: Place) -> FunctionFacts:
+    """Objects of one class that several branches make have one function for each method."""
+    options = list(dict.fromkeys(describe(option, place) for option in options_of(value)))
+    if len(options) == 1 and options[0].defined is not None:
+        return options[0]
+    labels = list(dict.fromkeys(facts.label for facts in options))
+    names = labels
+    if len(labels) < len(options):
+        names = [facts.function or facts.label for facts in options]
+    reason = Unknown(f'one of {", ".join(names)}, depending on a branch', place)
+    return FunctionFacts('_or_'.join(labels[:3]), None, None, False, reason)
 
 
 def snake_case(name: str) -> str:

@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
 from ros2cc_extract.extract.static.memo import keep_results
 from ros2cc_extract.extract.static.threads_library import run_in_executor
 from ros2cc_extract.extract.static.values import (
@@ -65,39 +66,6 @@ def _enumerate(machine: Machine, receiver: Value, call: Call) -> Value:
         if why is not None:
             many[pairs[-1]] = Mystery(why)
     return Sequence(tuple(pairs), 'list', items.others, many)
-
-
-def _zip(machine: Machine, receiver: Value, call: Call) -> Value:
-    columns = [loops.items_in(machine, arg, call.place) for arg in call.args]
-    rows: list[Value] = []
-    for parts in zip(*(column.known for column in columns), strict=False):
-        if any(c.why_many(part) is not None for c, part in zip(columns, parts, strict=True)):
-            break
-        rows.append(Sequence(parts, 'tuple'))
-    why = call.more or _why_more(columns, len(rows))
-    if why is None:
-        return Sequence(tuple(rows), 'list')
-    parts = tuple(_from_there_on(column, len(rows), why) for column in columns)
-    if all(isinstance(part, Mystery) for part in parts):
-        return Sequence(tuple(rows), 'list', why)
-    rows.append(Sequence(parts, 'tuple'))
-    return Sequence(tuple(rows), 'list', None, {rows[-1]: Mystery(why)})
-
-
-def _why_more(columns: list[loops.Items], length: int) -> Unknown | None:
-    """Why there may be more rows than ``length``; a column that surely ends there ends all."""
-    if any(len(column.known) == length and column.others is None for column in columns):
-        return None
-    whys = [why for c in columns for why in (c.others, *map(c.why_many, c.known)) if why]
-    return whys[0] if whys else None
-
-
-def _from_there_on(column: loops.Items, index: int, why: Unknown) -> Value:
-    """What stands for every item of a column from ``index`` on."""
-    left = column.known[index:]
-    if len(left) == 1 and column.others is None and column.why_many(left[0]) is not None:
-        return left[0]
-    return Mystery(column.others or why, 'item')
 
 
 def _converted(kind: str) -> Handler:
@@ -266,14 +234,6 @@ def _super(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('super()', call.place)
 
 
-def _map(machine: Machine, receiver: Value, call: Call) -> Value:
-    if len(call.args) != 2:
-        return machine.mystery('map', call.place, 'map(…)')
-    items, rest = machine.items_of(call.args[1], call.place)
-    results = tuple(machine.call(call.args[0], Call(call.place, [item])) for item in items)
-    return Sequence(results, 'list', rest)
-
-
 def _type(machine: Machine, receiver: Value, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
     if len(call.args) == 1 and isinstance(value, Instance):
@@ -358,7 +318,7 @@ def _sum(machine: Machine, receiver: Value, call: Call) -> Value:
 _FUNCTIONS: dict[str, Handler] = {
     'builtins.range': _range,
     'builtins.enumerate': _enumerate,
-    'builtins.zip': _zip,
+    'builtins.zip': zipped,
     'builtins.list': _converted('list'),
     'builtins.tuple': _converted('tuple'),
     'builtins.set': _set,
@@ -381,7 +341,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.isinstance': _isinstance,
     'builtins.callable': _callable,
     'builtins.super': _super,
-    'builtins.map': _map,
+    'builtins.map': mapped,
+    'builtins.filter': filtered,
     'builtins.type': _type,
     'builtins.print': _print,
     'builtins.exit': _exit,

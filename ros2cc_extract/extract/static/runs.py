@@ -357,6 +357,22 @@ def _turn(name: str, lifecycle: bool) -> int:
     return 0 if is_first else 2 if name in _PREPARING else 1
 
 
+def is_test(name: str) -> bool:
+    """Whether test runners take a function of this name for a test."""
+    return name.startswith('test')
+
+
+def _begin_test(machine: Interpreter, instance: Instance) -> Instance:
+    """
+    Start a program of its own, on an object of its own.
+
+    Each test begins with ``rclpy.init`` and ends with ``rclpy.shutdown``, which leaves no global
+    executor behind (rclpy 7.1.6, ``__init__.py``).
+    """
+    machine.world.global_executor = None
+    return _set_up_for_test(machine, instance)
+
+
 def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:
     """The object of its own that each test has, prepared (``unittest/case.py``)."""
     found = (
@@ -388,7 +404,7 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
             world.path = (*instance.path, (place, UNCALLED))
         static = method.binding == 'static'
         call = unknown_arguments(method, place, skip=0 if static else 1)
-        owner = _set_up_for_test(machine, instance) if name.startswith('test') else instance
+        owner = _begin_test(machine, instance) if is_test(name) else instance
         receiver = owner.cls if method.binding == 'class' else owner
         target: Value = method if static else Bound(receiver, method)
         result = machine.call(target, call)
@@ -396,4 +412,6 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
         world.shutting_down = False
 
     guarded(machine, follow, place)
+    if is_test(name):
+        machine.world.global_executor = None
     machine.world.called[id(method.node)] = method

@@ -1,8 +1,8 @@
 """
 Running statements.
 
-``execute_block`` returns how the block may end, as a sum of the constants below; more than
-one bit is set where that depends on a branch nobody can decide.
+``execute_block`` returns how the block may end, as a sum of the constants of ``flow.py``; more
+than one bit is set where that depends on a branch nobody can decide.
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from typing import Any
 
 from ros2cc_extract.extract.static import changing, loops, memo, same_tests
 from ros2cc_extract.extract.static.containers import Sequence as Items
-from ros2cc_extract.extract.static.lock_paths import locks_given_back
+from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
 from ros2cc_extract.extract.static.same_node import note_open_test
 from ros2cc_extract.extract.static.store import Writes
+from ros2cc_extract.extract.static.tries import run_try
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -39,9 +40,6 @@ from ros2cc_extract.extract.static.world import (
 )
 from ros2cc_extract.places import Place, Unknown
 
-NEXT, RETURN, BREAK, CONTINUE, DEAD = 1, 2, 4, 8, 16
-_LEAVING = RETURN | BREAK | CONTINUE
-
 
 class Statements(Machine):
     """The statements of the language."""
@@ -55,7 +53,7 @@ class Statements(Machine):
                 exits |= flow & ~NEXT
                 if not flow & NEXT:
                     return exits
-                if flow & _LEAVING and frame.function is not None:
+                if flow & LEAVING and frame.function is not None:
                     self.world.path = (*self.world.path, (frame.place(statement), -1))
             return exits | NEXT
         finally:
@@ -229,52 +227,6 @@ def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], 
         rest = inner.orelse
     arms.append(lambda: machine.execute_block(rest, frame))
     return arms
-
-
-def _try(machine: Statements, node: ast.Try, frame: Frame) -> int:
-    """Body, ``else`` and ``finally`` run as if nothing went wrong; handlers are branches."""
-    place = frame.place(node)
-
-    def regular() -> int:
-        flow = machine.execute_block(node.body, frame)
-        if flow & NEXT and node.orelse:
-            flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
-        return flow
-
-    path = machine.world.path
-    flow = regular()
-    stopped, machine.world.stopped = machine.world.stopped, False
-    machine.world.path = path
-    if node.handlers:
-        flow = _handle(machine, node, frame, place, DEAD if stopped else flow)
-        stopped = False
-    if node.finalbody:
-        final = machine.execute_block(node.finalbody, frame)
-        flow = flow if final & NEXT else final
-    machine.world.stopped = machine.world.stopped or stopped
-    return flow
-
-
-def _handle(machine: Statements, node: ast.Try, frame: Frame, place: Place, flow: int) -> int:
-    """Run the handlers after the body; each is a branch of its own."""
-    bodies: list[Callable[[], int]] = [lambda: flow]
-
-    def run(handler: ast.ExceptHandler) -> int:
-        if handler.name:
-            text = handler.name
-            machine.assign(
-                ast.Name(text, ast.Store()),
-                machine.mystery('a caught exception', frame.place(handler), text),
-                frame,
-            )
-        held = locks_given_back(handler.body, machine.world)
-        machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
-        return machine.execute_block(handler.body, frame)
-
-    for handler in node.handlers:
-        bodies.append(lambda handler=handler: run(handler))  # type: ignore[misc]
-    ends = machine.branches(bodies, place, frame)
-    return ends & ~_LEAVING if flow & NEXT else ends
 
 
 def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
@@ -456,7 +408,7 @@ _STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
     ast.Return: _return,
     ast.Raise: _raise,
     ast.If: _if,
-    ast.Try: _try,
+    ast.Try: run_try,
     ast.With: _with,
     ast.AsyncWith: _with,
     ast.Match: _match,
@@ -477,4 +429,4 @@ _STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
 }
 
 if hasattr(ast, 'TryStar'):
-    _STATEMENTS[ast.TryStar] = _try
+    _STATEMENTS[ast.TryStar] = run_try

@@ -36,6 +36,11 @@ class Store:
         self._depth = 0
         self._opened: list[int] = []
 
+    @property
+    def depth(self) -> int:
+        """How many branches are open."""
+        return self._depth
+
     def reset(self) -> None:
         """Forget every open branch after a run that was cut off; writes stay as they are."""
         self._trail.clear()

@@ -286,6 +286,7 @@ class World:
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
+    :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.
     """
@@ -347,5 +348,6 @@ class World:
     again: bool = False
     made_then: dict[object, Instance] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
+    trying: tuple[int, int] | None = None
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
