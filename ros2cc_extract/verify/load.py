@@ -10,8 +10,9 @@ end, so a member gets what those served before it leave; one thread serves all i
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
+from math import ceil
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
@@ -31,6 +32,7 @@ class LoadKind(Enum):
     STARVED = 'starved'
     DEGRADED = 'degraded'
     FINE = 'fine at these rates'
+    UNDECIDED = 'not decided without times'
     UNKNOWN = 'possible under overload; rates unknown'
 
 
@@ -54,6 +56,7 @@ class Load:
     :param busy: names of the callbacks counted in ``before``, in serving order.
     :param unknown: names of those whose period or duration is not known.
     :param refused: how a run has seen it starve, in words.
+    :param contenders: how many may want a thread at a time, where that leaves it undecided.
     :param slow: ``before`` while all runs are slow ones; ``None`` where none was measured. Else
         ``before`` is of medians.
     """
@@ -68,6 +71,7 @@ class Load:
     unknown: tuple[str, ...] = ()
     refused: str | None = None
     slow: float | None = None
+    contenders: int = 0
 
     @property
     def words(self) -> str:
@@ -78,6 +82,8 @@ class Load:
         told = f'{self.kind.value} (load {self.before:.2f}{self._measured}'
         if self.refused is not None:
             return f'{told}; {self.refused})'
+        if self.kind is LoadKind.UNDECIDED:
+            return f'{told}; {self.contenders} may want a thread at a time, and there are fewer)'
         if self.kind is LoadKind.STARVED or self.runs is None or self.runs >= 1:
             return f'{told})'
         return f'{told}; about {self.runs:.0%} of its arrivals are served)'
@@ -105,8 +111,27 @@ def load_of(spec: Spec, callback: Callback, others: Sequence[Spec] = ()) -> Load
     if group.type is not GroupType.EXCLUSIVE or group.groupless or callback.groupless:
         return in_pool
     in_group = _of_leftover(spec, callback, demands)
+    contenders = _contenders(spec, demands)
+    waits_in_queue = contenders > len(spec.executor.threads) and served_before(callback, spec)
+    if waits_in_queue and in_group.kind in (LoadKind.FINE, LoadKind.DEGRADED):
+        return replace(in_group, kind=LoadKind.UNDECIDED, runs=None, contenders=contenders)
     crowded = in_pool.kind is LoadKind.DEGRADED and in_group.kind is LoadKind.FINE
     return in_pool if crowded else in_group
+
+
+def _contenders(spec: Spec, demands: Mapping[str, Demand]) -> int:
+    """
+    Count who may want a thread at the same time.
+
+    With more of them than threads, members of one group wait in the queue together, and who is
+    served later may be refused each time, below full load too (H. Teper et al., EMSOFT 2024; seen
+    on rclpy 7.1.6: two threads, three groups, a member with 1 % of the work of the others never
+    ran). Which it is, only the times of all of them tell.
+    """
+    exclusive = {g.name for g in spec.groups if g.type is GroupType.EXCLUSIVE}
+    counted = _counted(spec)
+    others = [demands[c.name].load for c in counted if c.group not in exclusive]
+    return len({c.group for c in counted} & exclusive) + sum(max(1, ceil(x)) for x in others)
 
 
 def served_before(callback: Callback, spec: Spec) -> tuple[Callback, ...]:

@@ -298,3 +298,32 @@ def test_what_rclpy_adds_to_every_node_takes_no_time() -> None:
     )
     spec = unit(subscription('SUB1', 1.0, 0.3), subscription('SUB2', 1.0, 0.3), event)
     assert load(spec, 'SUB2').words == 'fine at these rates (load 0.30)'
+
+
+def test_below_full_load_a_member_may_starve_where_groups_share_threads() -> None:
+    """On two threads the fourth timer never ran on rclpy 7.1.6: 30, 29, 29 and 0 runs."""
+    timers = [timer(f't{n}', 0.4, 0.2, group) for n, group in enumerate(('a', 'b', 'shared'))]
+    last = timer('last', 0.4, 0.004, 'shared')
+    told = load_of(unit(*timers, last, threads=2), last)
+    assert (told.kind, told.runs) == (LoadKind.UNDECIDED, None)
+    assert told.words == (
+        'not decided without times (load 0.50; 3 may want a thread at a time, and there are fewer)'
+    )
+    assert load_of(unit(*timers, last, threads=3), last).kind is LoadKind.FINE
+
+
+def test_whoever_is_served_first_in_its_group_is_refused_now_and_then_only() -> None:
+    timers = [timer(f't{n}', 0.4, 0.1, f'g{n}') for n in range(3)]
+    assert {load_of(unit(*timers, threads=2), each).kind for each in timers} == {LoadKind.FINE}
+
+
+def test_a_reentrant_callback_that_overlaps_itself_wants_several_threads() -> None:
+    members = timer('first', 1, 0.1, 'pair'), timer('second', 1, 0.1, 'pair')
+    free = timer('alone', 0.5, 0.8, 'free')
+    kinds = {'pair': GroupType.EXCLUSIVE, 'free': GroupType.REENTRANT}
+    spec = unit(*members, free, threads=3)
+    groups = tuple(replace(group, type=kinds[group.name]) for group in spec.groups)
+    spec = replace(spec, groups=groups)
+    assert load_of(spec, members[1]).kind is LoadKind.FINE
+    two = replace(spec, executor=replace(spec.executor, threads=spec.executor.threads[:2]))
+    assert load_of(two, members[1]).kind is LoadKind.UNDECIDED
