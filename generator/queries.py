@@ -57,8 +57,13 @@ class Query:
 
 
 def paper_queries(unit: Unit) -> tuple[Query, ...]:
-    """List the queries of profile paper in the order of the published generator."""
-    return (
+    """
+    List the queries of profile paper in the order of the published generator.
+
+    Its callbacks always end; a recorded run that did not says otherwise.
+    """
+    stuck = tuple(words for callback in unit.callbacks for words in callback.unexplained)
+    asked = (
         Query(
             family=Family.DEADLOCK,
             formula='A[] not deadlock',
@@ -67,6 +72,7 @@ def paper_queries(unit: Unit) -> tuple[Query, ...]:
         *_occupation_queries(unit),
         *(_starvation_in_rounds(callback, unit.executor) for callback in unit.callbacks),
     )
+    return tuple(replace(q, left_out=stuck) if q.family in _OF_ENDS else q for q in asked)
 
 
 def rclpy_queries(unit: Unit) -> tuple[Query, ...]:

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.generator.left_out import is_entered_unseen, left_out_of_models
+from ros2cc_extract.generator.left_out import (
+    is_entered_unseen,
+    left_out_of_models,
+    unexplained_runs,
+)
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
 from ros2cc_extract.generator.waits import Lock, NamedWait, WaitKind, foreign_wakes, waits_of
@@ -93,6 +97,7 @@ class UnitCallback:
     :param server: place of the service that answers a client of the unit.
     :param is_groupless: it is in no group; the model has a reentrant one for it.
     :param left_out: what may hold it for ever and is not in the model, in words.
+    :param unexplained: that of ``left_out`` which a run has shown, and no published model has.
     :param is_entered: others may run inside it where the model does not show it.
     """
 
@@ -106,6 +111,7 @@ class UnitCallback:
     server: int | None
     is_groupless: bool = False
     left_out: tuple[str, ...] = ()
+    unexplained: tuple[str, ...] = ()
     is_entered: bool = False
 
     @property
@@ -285,6 +291,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 server=_place_of(server_of(callback, spec.callbacks), places),
                 is_groupless=callback.groupless,
                 left_out=left_out_of_models(callback, spec),
+                unexplained=unexplained_runs(callback),
                 is_entered=is_entered_unseen(callback, spec),
             )
             for index, callback in enumerate(spec.callbacks)
