@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
+from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import overlap
@@ -151,7 +152,10 @@ def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Co
             (Use(one, a), Use(other, b))
             for a in one.writes
             for b in other.writes
-            if a.name == b.name == name and not keep_apart(a.locks, b.locks)
+            if a.name == b.name == name
+            and not keep_apart(a.locks, b.locks)
+            and not comes_before(a, one, other)
+            and not comes_before(b, other, one)
         ]
         classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
         loops = (pair for pair in _loops(one, other) if pair[0].access.name == name)
@@ -177,6 +181,8 @@ def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
                     and write.in_place
                     and not write.keeps_size
                     and not keep_apart(read.locks, write.locks)
+                    and not comes_before(write, changer, looper)
+                    and not comes_before(read, looper, changer)
                 )
 
 

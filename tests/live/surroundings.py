@@ -12,15 +12,19 @@ from __future__ import annotations
 import builtins
 import functools
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import rclpy
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from rcl_interfaces.srv import SetParameters
 from rclpy.action import ActionClient
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from test_msgs.action import Fibonacci
@@ -32,6 +36,8 @@ def surround(
     publish: tuple[str, str, float] | None = None,
     call: str = '',
     cancel: str = '',
+    set_level: str = '',
+    configure: str = '',
     holds_s: float = 0.0,
 ) -> None:
     """
@@ -42,13 +48,16 @@ def surround(
     :param publish: a topic, what to say on it, and how often, in seconds.
     :param call: a service of the program to call.
     :param cancel: an action of the program: a goal is sent, and cancelled once accepted.
+    :param set_level: a node of the program whose parameter ``level`` is set.
+    :param configure: a life-cycle node of the program to configure.
     :param holds_s: how long ``hold`` waits for the end of a callback that it does not exclude.
     """
     ended = threading.Event()
     builtins.hold = functools.partial(_hold, ended, holds_s)
     for group in (MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup):
         _witness(group, watch, ended)
-    threading.Thread(target=_act, args=(serve, publish, call, cancel), daemon=True).start()
+    asked = ((call, _call), (cancel, _cancel), (set_level, _set_level), (configure, _configure))
+    threading.Thread(target=_act, args=(serve, publish, asked), daemon=True).start()
 
 
 def _hold(ended: threading.Event, holds_s: float, value: Any) -> Any:
@@ -91,7 +100,11 @@ def _name_of(entity: Any) -> str:
     return getattr(function, '__name__', type(entity).__name__)
 
 
-def _act(serve: str, publish: tuple[str, str, float] | None, call: str, cancel: str) -> None:
+def _act(
+    serve: str,
+    publish: tuple[str, str, float] | None,
+    asked: Sequence[tuple[str, Callable[[Node, str], None]]],
+) -> None:
     context = Context()
     rclpy.init(context=context)
     node = rclpy.create_node('surroundings', context=context)
@@ -102,7 +115,7 @@ def _act(serve: str, publish: tuple[str, str, float] | None, call: str, cancel: 
         topic, text, period_s = publish
         publisher = node.create_publisher(String, topic, 10)
         node.create_timer(period_s, lambda: publisher.publish(String(data=text)))
-    for name, action in ((call, _call), (cancel, _cancel)):
+    for name, action in asked:
         if name:
             threading.Thread(target=action, args=(node, name), daemon=True).start()
     executor.add_node(node)
@@ -113,6 +126,21 @@ def _call(node: Node, service: str) -> None:
     client = node.create_client(Trigger, service)
     client.wait_for_service()
     client.call_async(Trigger.Request())
+
+
+def _set_level(node: Node, other: str) -> None:
+    client = node.create_client(SetParameters, f'{other}/set_parameters')
+    client.wait_for_service()
+    level = Parameter('level', value=2).to_parameter_msg()
+    client.call_async(SetParameters.Request(parameters=[level]))
+
+
+def _configure(node: Node, other: str) -> None:
+    client = node.create_client(ChangeState, f'{other}/change_state')
+    client.wait_for_service()
+    request = ChangeState.Request()
+    request.transition.id = Transition.TRANSITION_CONFIGURE
+    client.call_async(request)
 
 
 def _cancel(node: Node, action: str) -> None:

@@ -116,6 +116,16 @@ REPRODUCED = [
         {'watch': 'on_upload', 'call': 'upload'},
         ('ends on_upload',),
     ),
+    Bug(
+        'b16_call_in_parameter_callback',
+        {'watch': '_set_parameters_callback', 'serve': 'supply', 'set_level': 'lamp'},
+        ('ends _set_parameters_callback',),
+    ),
+    Bug(
+        'b17_call_in_transition',
+        {'watch': '__on_change_state', 'serve': 'supply', 'configure': 'lamp'},
+        ('ends __on_change_state', 'begins report'),
+    ),
     Bug('c1_timer_starves_timer', {'watch': 'read_camera'}, ('begins report',) * 3),
     Bug(
         'd1_await_in_own_group',

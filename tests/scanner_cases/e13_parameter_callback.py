@@ -31,5 +31,5 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
 #     reads A.gain @18
-#   parameter_service on_set in a_default builtin
+#   parameter_service on_set in a_default
 #     writes A.gain @15

@@ -39,3 +39,6 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
 #   subscription on_in in a_default key=in when=configure
+#   lifecycle_service on_configure in a_default
+#     changes subscription @15
+#   lifecycle_service on_cleanup in a_default

@@ -39,3 +39,7 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   subscription l_two in a_default (A.two) key=l destroyed when=configure library=message_filters
 #   subscription r_two in a_default (A.two) key=r when=configure library=message_filters
+#   lifecycle_service on_activate in a_default
+#     changes subscription @15
+#     changes subscription @16
+#   lifecycle_service on_deactivate in a_default

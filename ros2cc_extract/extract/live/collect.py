@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.live.recording import (
     Function,
+    RecordedCalled,
     RecordedEntity,
     RecordedExecutor,
     RecordedGroup,
@@ -134,6 +135,9 @@ class _Unit:
 
     def _drafts(self) -> Iterable[tuple[Callback, int]]:
         """Give callbacks without their final names, with the number of their group."""
+        for node in self._nodes:
+            for called in node.called:
+                yield self._called_callback(called, node), called.group
         for entity in self._recording.entities:
             if entity.node in self._node_names:
                 yield self._callback(entity), entity.group
@@ -178,6 +182,19 @@ class _Unit:
             measured=entity.measured if entity.measured.count or entity.measured.refused else None,
             source=entity.created,
             defined=function.defined if function else None,
+        )
+
+    def _called_callback(self, called: RecordedCalled, node: RecordedNode) -> Callback:
+        kind = EntityKind(called.kind)
+        return Callback(
+            name=_last_part(called.function),
+            type=kind.published_type,
+            group='',
+            entity=kind,
+            node=self._node_names[node.number],
+            function=called.function.name,
+            coroutine=called.function.coroutine,
+            defined=called.function.defined,
         )
 
     def _execute_callback(self, entity: RecordedEntity, function: Function) -> Callback:

@@ -84,6 +84,8 @@ class NodeRecord:
         self.namespace: str | None = None
         self.default_group: int | None = None
         self.stays: list[Stay] = []
+        # Functions that services of rclpy call: kind, function, number of the group.
+        self.called: list[tuple[str, FunctionName, int]] = []
 
     def enter(self, executor: int) -> bool:
         """Note that the node is in an executor now; whether it has never been there before."""
@@ -127,6 +129,7 @@ class NodeRecord:
                 if more.executor == stay.executor:
                     stay.until = stay.span(self.died)[1]
                     stay.extend(more, other.died)
+        self.called = self.called or other.called
         self.died = other.died
 
 

@@ -16,6 +16,7 @@ from collections import deque
 from collections.abc import Iterator
 from typing import Any
 
+from .called import called_functions
 from .entries import (
     WAITABLE_KINDS,
     EntityRecord,
@@ -290,7 +291,16 @@ class Recorder:
                 if not known.complete:
                     fill_entity(known, entity)
                 present.add(known.number)
+        self._note_called(owner, node)
         self._note_destroyed(owner, present)
+
+    def _note_called(self, owner: NodeRecord, node: Any) -> None:
+        """What a node has let go of was called all the same."""
+        for each in called_functions(node):
+            row = each.kind, each.function, self.note_group(each.group).number
+            if row not in owner.called:
+                owner.called.append(row)
+                self.changes += 1
 
     def _note_destroyed(self, owner: NodeRecord, present: set[int]) -> None:
         """Mark what a node that lives on has lost; a destroyed node has lost everything."""

@@ -55,11 +55,21 @@ class RecordedExecutor:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RecordedCalled:
+    """A function of the program that a service of rclpy calls."""
+
+    kind: str
+    function: Function
+    group: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class RecordedNode:
     number: int
     name: str | None
     namespace: str | None
     stays: tuple[Stay, ...]
+    called: tuple[RecordedCalled, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -203,8 +213,17 @@ class _Reader:
             for stay in row['stays']
         )
         return RecordedNode(
-            number=row['number'], name=row['name'], namespace=row['namespace'], stays=stays
+            number=row['number'],
+            name=row['name'],
+            namespace=row['namespace'],
+            stays=stays,
+            called=tuple(map(self._called, row.get('called', ()))),
         )
+
+    def _called(self, row: Mapping[str, Any]) -> RecordedCalled:
+        function = self._function(row['function'])
+        assert function is not None, 'what has no name is not recorded'
+        return RecordedCalled(kind=row['kind'], function=function, group=row['group'])
 
     def _group(self, row: Mapping[str, Any]) -> RecordedGroup:
         return RecordedGroup(

@@ -111,6 +111,10 @@ def _node(record: NodeRecord) -> dict[str, Any]:
         'name': record.name,
         'namespace': record.namespace,
         'class': record.cls,
+        'called': [
+            {'kind': kind, 'function': _function(function), 'group': group}
+            for kind, function, group in record.called
+        ],
         'stays': [
             {
                 'executor': stay.executor,

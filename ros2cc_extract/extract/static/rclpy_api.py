@@ -11,6 +11,7 @@ from functools import lru_cache
 from ros2cc_extract.extract.static import (
     python_library,
     ros_actions,
+    ros_called,
     ros_clients,
     ros_events,
     ros_executors,
@@ -56,6 +57,7 @@ def table() -> Library:
             ros_libraries.TABLE,
             ros_helpers.TABLE,
             ros_events.TABLE,
+            ros_called.TABLE,
         ]
     )
 

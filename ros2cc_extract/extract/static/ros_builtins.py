@@ -62,9 +62,9 @@ def add_builtins_of_node(machine: Machine, node: Instance, call: Call) -> None:
 
 
 def _services(machine: Machine, call: Call) -> Iterator[tuple[str, str]]:
-    if _is_true(machine, 'start_parameter_services', call, default=True):
+    if option_of_node(machine, 'start_parameter_services', call, default=True):
         yield from ((name, f'{_PARAMETER}._{name}_callback') for name in _PARAMETER_SERVICES)
-    if _is_true(machine, 'enable_logger_service', call, default=False):
+    if option_of_node(machine, 'enable_logger_service', call, default=False):
         yield from ((name, f'{_LOGGING}._{name}') for name in _LOGGER_SERVICES)
     yield 'get_type_description', _TYPE_DESCRIPTION
 
@@ -72,7 +72,7 @@ def _services(machine: Machine, call: Call) -> Iterator[tuple[str, str]]:
 def _add_lifecycle_services(machine: Machine, node: Instance, call: Call) -> None:
     if not node.state.lifecycle:
         return
-    if not _is_true(machine, 'enable_communication_interface', call, default=True):
+    if not option_of_node(machine, 'enable_communication_interface', call, default=True):
         return
     group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
     for service in _LIFECYCLE_SERVICES:
@@ -88,7 +88,7 @@ def _own_name(node: Instance, service: str, before: str) -> Value:
     return Mystery(Unknown('name of the node', node.place), f'~/{service}')
 
 
-def _is_true(machine: Machine, name: str, call: Call, *, default: bool) -> bool:
+def option_of_node(machine: Machine, name: str, call: Call, *, default: bool) -> bool:
     """An option of the node; one that could not be followed is taken to be the default."""
     given = call.argument(None, name)
     truth = machine.truth(given) if given is not None else None

@@ -2,9 +2,7 @@
 Callbacks that hang on something else: QoS events, parameter changes.
 
 Sources (rclpy 7.1.6): ``event_handler.py`` (each callback that is given makes one waitable in
-the group of its publisher or subscription), ``node.py`` (the functions of
-``add_on_set_parameters_callback`` run inside the ``set_parameters`` services, which are in the
-default group), ``parameter_event_handler.py`` (one subscription).
+the group of its publisher or subscription), ``parameter_event_handler.py`` (one subscription).
 """
 
 from __future__ import annotations
@@ -63,15 +61,6 @@ def _add_events(
             entity.callback, entity.key = callback, key
 
 
-def _add_parameter_callback(machine: Machine, receiver: Value, call: Call) -> Value:
-    """A function that rclpy's own services call; nobody wrote the service."""
-    assert isinstance(receiver, Instance)
-    group = group_of(machine, receiver, None, call.place)
-    entity = add_entity(machine, receiver, EntityKind.PARAMETER_SERVICE, group, call.place)
-    entity.callback, entity.builtin = call.argument(0, 'callback'), True
-    return NONE
-
-
 def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
@@ -95,12 +84,6 @@ def _handle(index: int) -> Handler:
     return handler
 
 
-PARAMETER_METHODS: dict[str, Handler] = {
-    'add_on_set_parameters_callback': _add_parameter_callback,
-    'add_pre_set_parameters_callback': _add_parameter_callback,
-    'add_post_set_parameters_callback': _add_parameter_callback,
-}
-
 _WITH_EVENTS = ('create_subscription', 'create_publisher')
 
 _CALLBACKS = LibraryClass(init=_keep_callbacks)
@@ -119,7 +102,6 @@ TABLE = Library(
     },
     added_methods={
         NODE: {
-            **PARAMETER_METHODS,
             **{name: with_events(NODE_METHODS[name], 1) for name in _WITH_EVENTS},
         }
     },

@@ -11,7 +11,11 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_builtins import add_builtins_of_node, add_events_of
+from ros2cc_extract.extract.static.ros_builtins import (
+    add_builtins_of_node,
+    add_events_of,
+    option_of_node,
+)
 from ros2cc_extract.extract.static.ros_groups import (
     DEFAULT_GROUP,
     default_group_of,
@@ -130,7 +134,11 @@ def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if isinstance(receiver.state, NodeState):
         _note_begun_again(machine, receiver, call)
-        receiver.state.name = call.argument(0, 'node_name') or NONE
+        state = receiver.state
+        state.name = call.argument(0, 'node_name') or NONE
+        state.has_parameter_services = option_of_node(
+            machine, 'start_parameter_services', call, default=True
+        )
         machine.store.remove(receiver, DEFAULT_GROUP)
         add_builtins_of_node(machine, receiver, call)
     return NONE
@@ -369,7 +377,6 @@ TABLE = Library(
             methods=NODE_METHODS,
             properties={'default_callback_group': _default_group, DEFAULT_GROUP: _default_group},
         ),
-        LIFECYCLE_NODE: LibraryClass(init=init_node, bases=(NODE,)),
         'rclpy.parameter.Parameter': LibraryClass(
             init=_keep_parameter,
             properties={'value': _parameter_value},

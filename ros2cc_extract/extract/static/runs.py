@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.machine import BudgetError
 from ros2cc_extract.extract.static.outside_waits import note_unanswered
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import creates_entities
+from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.values import (
     NO_CALLER,
     Bound,
@@ -41,9 +42,10 @@ _PARAMETERS = {
     EntityKind.ACTION_SERVER: 1,
     EntityKind.ACTION_CLIENT: 1,
     EntityKind.DONE_CALLBACK: 1,
+    EntityKind.PARAMETER_SERVICE: 1,
+    EntityKind.LIFECYCLE_SERVICE: 1,
 }
 
-_CONFIGURING = ('on_configure', 'on_activate', 'on_deactivate', 'on_cleanup', 'on_shutdown')
 _DESTROYING = 'on_deactivate'
 UNCALLED = -3
 """Step of a path that somebody who is not in sight takes."""
@@ -152,6 +154,7 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
         machine.depth = 0
         world.path, world.count, world.chain, world.held = (), 1, (), ()
         world.stopped, world.deeds, world.current, world.looking = False, None, None, ()
+        world.shutting_down = False
         world.in_thread, world.when = False, When.START
         machine.store.reset()
 
@@ -223,19 +226,33 @@ def _run_callback(
 ) -> None:
     def follow() -> None:
         world = machine.world
-        world.deeds, world.current, world.when = deeds, entity, When.CALLBACK
-        world.count = Unknown('made each time the callback runs', entity.place)
-        world.path = world.callback_path = ((entity.place, IN_A_CALLBACK),)
-        world.after_spin = False
-        mark = machine.store.open_branch()
+        world.deeds, world.current, world.after_spin = deeds, entity, False
+        transition = _transition_of(entity, callback)
+        if transition:
+            world.when, world.shutting_down = When.CONFIGURE, _is_closing(transition)
+        else:
+            world.when = When.CALLBACK
+            world.count = Unknown('made each time the callback runs', entity.place)
+            world.path = world.callback_path = ((entity.place, IN_A_CALLBACK),)
+        mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
             result = machine.call(option, call)
             machine.run_if_coroutine(result, entity.place)
-        writes = machine.store.close_branch(mark)
-        machine.store.join([writes, {}])
+        if mark is not None:
+            machine.store.join([machine.store.close_branch(mark), {}])
 
     guarded(machine, follow, entity.place)
+
+
+def _transition_of(entity: EntityState, callback: Value) -> str:
+    """The transition that a callback is; it is made once for each node, as set-up is."""
+    is_one = entity.kind is EntityKind.LIFECYCLE_SERVICE and isinstance(callback, Bound)
+    return callback.function.name if is_one and isinstance(callback, Bound) else ''
+
+
+def _is_closing(name: str) -> bool:
+    return any(word in name for word in _CLOSING)
 
 
 def _callback_arguments(entity: EntityState) -> list[Value]:
@@ -353,7 +370,7 @@ def _methods_of(machine: Interpreter, instance: Instance) -> list[_Method]:
 
 def _turn(name: str, lifecycle: bool) -> int:
     """What others build on comes first, what each test calls for itself last."""
-    is_first = name in (_CONFIGURING if lifecycle else ('setUpClass', 'setup_class'))
+    is_first = name in (TRANSITIONS if lifecycle else ('setUpClass', 'setup_class'))
     return 0 if is_first else 2 if name in _PREPARING else 1
 
 
@@ -397,8 +414,8 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
 
     def follow() -> None:
         world = machine.world
-        world.when = When.CONFIGURE if lifecycle and name in _CONFIGURING else When.LATER
-        world.shutting_down = any(word in name for word in _CLOSING)
+        world.when = When.CONFIGURE if lifecycle and name in TRANSITIONS else When.LATER
+        world.shutting_down = _is_closing(name)
         world.after_spin = False
         if world.when is When.LATER:
             world.path = (*instance.path, (place, UNCALLED))
@@ -409,7 +426,6 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
         target: Value = method if static else Bound(receiver, method)
         result = machine.call(target, call)
         machine.run_if_coroutine(result, place)
-        world.shutting_down = False
 
     guarded(machine, follow, place)
     if is_test(name):

@@ -54,6 +54,7 @@ class NodeState:
 
     :param name: value of the name argument; ``None`` when none was seen.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
+    :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
     :param more: why it may have entities that we do not see.
     :param begun: the call of ``Node.__init__``.
     :param nested: a spin inside a callback that serves it, and where.
@@ -64,6 +65,8 @@ class NodeState:
     ghost: Unknown | None = None
     lifecycle: bool = False
     rate_group: Instance | None = None
+    has_parameter_services: bool = True
+    parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False
     begun: Place | None = None

@@ -11,6 +11,7 @@ from finding_units import (
     ONE_THREAD,
     appends,
     at,
+    callback,
     calls,
     default_threads,
     exclusive,
@@ -27,8 +28,8 @@ from finding_units import (
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access
-from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec
+from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
@@ -395,3 +396,29 @@ def test_a_collection_that_changes_while_another_callback_goes_over_it(
     same = replace(appends('Arm.table', 35)[0], keeps_size=True)
     other = subscription('on_set', 'other', writes=(same,))
     assert races(unit(threads(2), loop(), other)) == []
+
+
+@pytest.mark.parametrize(
+    ('transition', 'written', 'expected'),
+    [
+        ('on_configure', 8, []),
+        ('on_configure', 10, ['CC301:30 warning']),
+        ('on_activate', 8, ['CC301:30 warning']),
+    ],
+)
+def test_what_a_transition_does_before_it_makes_a_callback_comes_first(
+    transition: str, written: int, expected: list[str]
+) -> None:
+    made = (Act(name='timer', source=at(9)),) if transition == 'on_configure' else ()
+    spec = unit(
+        threads(2),
+        timer('tick', writes=updates('Arm.count', 30), source=at(9), when=When.CONFIGURE),
+        callback(
+            transition,
+            EntityKind.LIFECYCLE_SERVICE,
+            'other',
+            writes=writes('Arm.count', written),
+            changes=made,
+        ),
+    )
+    assert races(spec) == expected

@@ -1,0 +1,22 @@
+"""
+What a transition of a life-cycle node does before it makes an entity comes before its callback.
+
+A node that is configured once more has destroyed what it made the first time. Source: rclpy 7.1.6,
+``lifecycle/node.py`` (the state machine lets nothing go before ``on_configure`` has ended).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.findings.order import steps
+from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.model import Callback, EntityKind, When
+
+_FIRST = 'on_configure'
+
+
+def comes_before(access: Access, doer: Callback, other: Callback) -> bool:
+    """Whether ``doer`` is a transition that does this before ``other`` is made."""
+    if doer.entity is not EntityKind.LIFECYCLE_SERVICE or other.when is not When.CONFIGURE:
+        return False
+    made = [steps(act) for act in doer.changes if act.source == other.source]
+    return steps(access) < min(made) if made else doer.function_name == _FIRST
