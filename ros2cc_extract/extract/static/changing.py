@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import (
     assignments_of_attributes,
@@ -24,6 +25,7 @@ from ros2cc_extract.extract.static.values import (
     Class,
     Instance,
     Module,
+    Scope,
     Value,
     options_of,
 )
@@ -55,8 +57,11 @@ def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | N
     """``owner.name`` is read and gives ``held``."""
     if machine.world.when is not When.CALLBACK:
         return
-    if _may_be_filled(machine, held) or is_assigned_later(machine, owner, name):
+    if _may_be_filled(machine, held):
         machine.world.changing += 1
+    elif is_assigned_later(machine, owner, name):
+        machine.world.changing += 1
+        note_met(machine.world, owner, name, held)
 
 
 def is_assigned_later(machine: Machine, owner: Instance, name: str) -> bool:
@@ -89,8 +94,11 @@ def note_global(machine: Machine, module: Module, name: str, held: Value) -> Non
     """``module.name`` is read and gives ``held``."""
     if machine.world.when is not When.CALLBACK:
         return
-    if _may_be_filled(machine, held) or name in machine.changed_globals(module):
+    if _may_be_filled(machine, held):
         machine.world.changing += 1
+    elif name in machine.changed_globals(module):
+        machine.world.changing += 1
+        note_met(machine.world, module, name, held)
 
 
 def note_name(machine: Machine, name: str, held: Value, frame: Frame) -> None:
@@ -100,8 +108,18 @@ def note_name(machine: Machine, name: str, held: Value, frame: Frame) -> None:
     if name in frame.scope.slots:
         machine.world.changing += name in frame.copies
         return
-    if _may_be_filled(machine, held) or _is_rebound(machine, name, frame):
+    if _may_be_filled(machine, held):
         machine.world.changing += 1
+    elif _is_rebound(machine, name, frame):
+        machine.world.changing += 1
+        note_met(machine.world, _owner_of(name, frame), name, held)
+
+
+def _owner_of(name: str, frame: Frame) -> Scope | Module:
+    scope = frame.scope.parent
+    while scope is not None and name not in scope.slots:
+        scope = scope.parent
+    return scope or frame.module
 
 
 def _is_rebound(machine: Machine, name: str, frame: Frame) -> bool:

@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.call_order import (
     leading_to_entities,
 )
 from ros2cc_extract.extract.static.entries import Entry
+from ros2cc_extract.extract.static.handed_on import next_round
 from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
 from ros2cc_extract.extract.static.machine import BudgetError
@@ -190,8 +191,17 @@ def run_callbacks(machine: Interpreter) -> None:
     Follow every callback, also of entities that callbacks make.
 
     Those that met ``None``, or nothing, where others put something are followed again after
-    them, and once more for what they hand on to each other.
+    them, and once more for what they hand on to each other; and those that met an object where
+    others put another one, as long as there are such.
     """
+    _run_new_callbacks(machine)
+    while again := next_round(machine.world):
+        for entity in again:
+            _run_again(machine, entity)
+        _run_new_callbacks(machine)
+
+
+def _run_new_callbacks(machine: Interpreter) -> None:
     world, too_early = machine.world, list[_TooEarly]()
     while world.followed < min(len(world.entities), _CALLBACK_LIMIT):
         entity = world.entities[world.followed]
@@ -215,6 +225,7 @@ def _run_again(machine: Interpreter, entity: EntityState) -> None:
 
 def _run_callbacks_of(machine: Interpreter, entity: EntityState) -> Deeds:
     entity.deeds = Deeds()
+    machine.world.met = machine.world.met_by[id(entity)] = {}
     for callback in (entity.callback, *entity.extra_callbacks):
         if callback is not None:
             _run_callback(machine, entity, callback, entity.deeds)

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.values import (
     Call,
     Class,
     Function,
+    Heaped,
     Instance,
     Mystery,
     Path,
@@ -290,6 +291,9 @@ class World:
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
+    :param met: the objects that the running callback found in what others assign.
+    :param met_by: the same of each callback that was followed, by the identity of its entity.
+    :param rounds: how often it was followed again for others.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.
     """
@@ -352,5 +356,8 @@ class World:
     made_then: dict[object, Instance] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
     trying: tuple[int, int] | None = None
+    met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
+    met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
+    rounds: Counter[int] = field(default_factory=Counter)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
