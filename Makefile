@@ -13,7 +13,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts conformance rclpy-tests lint schema paper screenshot clean
+.PHONY: demo test test-long texts shapes waits conformance rclpy-tests lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -48,6 +48,17 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
 	$(BIN)/python -m tests.conformance.suite --python $(JAZZY)/bin/python $(ON_EVENTS)
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python $(ON_EVENTS)
+
+# Every shape of waiting and ending of docs/waits.md, on both distributions.
+observe_on = $(BIN)/python -m tests.shapes.observe --python .venv-$(1)/bin/python --as $(1)
+shapes: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(call observe_on,jazzy) $(SHAPES)
+	$(call observe_on,kilted) $(SHAPES)
+	$(BIN)/python -m pytest -q -m 'slow or not slow' tests/shapes
+
+# docs/waits.md from the table of shapes.
+waits: $(VENV)/developed
+	$(BIN)/python -m tests.shapes.page
 
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)
