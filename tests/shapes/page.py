@@ -11,8 +11,8 @@ HEAD = """# Shapes of waiting and ending
 
 Drawn up from the standard library, rclpy and public issues, before the rules were looked at. Each
 shape has a bad and a good node in `tests/shapes/`: small programs that ran on real rclpy of both
-distributions (Jazzy 7.1.6, Kilted 9.1.2), watched for where their threads and coroutines stand when
-the time is up. `make shapes` runs them again.
+distributions (Jazzy 7.1.6, Kilted 9.1.2), watched for where their threads and coroutines stand
+when the time is up. `make shapes` runs them again.
 
 *Must say*: the rule whose finding has to stand at the marked line of the bad node, or *finding*
 where any will do. *Undecided*, with the reason, is right in every row; where it alone stands here,

@@ -1,0 +1,45 @@
+"""A done-callback on one thread waits for an event that a subscription sets."""
+
+import threading
+
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+class Reporter(Node):
+    def __init__(self):
+        super().__init__('reporter')
+        self.received = threading.Event()
+        group = ReentrantCallbackGroup()
+        self.client = self.create_client(Trigger, 'report', callback_group=group)
+        self.create_service(Trigger, 'report', self.on_report, callback_group=group)
+        self.create_subscription(String, 'ack', self.on_ack, 10, callback_group=group)
+        self.acks = self.create_publisher(String, 'ack', 10)
+        self.create_timer(0.5, self.report)
+
+    def report(self):
+        self.received.clear()
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_reported)
+
+    def on_report(self, request, response):
+        return response
+
+    def on_reported(self, future):
+        self.acks.publish(String())
+        self.received.wait()  # waits here
+        print('goes on')
+
+    def on_ack(self, msg):
+        self.received.set()
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Reporter())
+
+
+if __name__ == '__main__':
+    main()
