@@ -185,11 +185,13 @@ class Moving:
             edge, shift = self._edge(reference), self._layout.locations[reference[0]].shift
             flips ^= (edge.source ^ edge.target) << shift
             lines += self._writer.updates(edge.updates, INDENT)
-        return [*lines, f'{INDENT}return s ^ {flips}']
+        return [*lines, f'{INDENT}return s ^ {flips:#x}']
 
     def predicate(self, exprs: Sequence[Expr]) -> Callable[[int, bool], int]:
         """Return a function from state and deadlock to a bit for each expression."""
-        bits = [f'({1 << i} if {self._writer.value(expr)} else 0)' for i, expr in enumerate(exprs)]
+        bits = [
+            f'({1 << i:#x} if {self._writer.value(expr)} else 0)' for i, expr in enumerate(exprs)
+        ]
         lines = ['def predicate(s, dead):', f'{INDENT}return {" | ".join(bits) or 0}']
         return self._define('predicate', lines)  # type: ignore[no-any-return]
 

@@ -2,7 +2,8 @@
 Python source for the expressions, functions and updates of a network.
 
 The code works on packed states (``layout.py``): the state is the integer ``s``, which updates
-bind anew. Evaluation order is that of ``interpret.py``.
+bind anew. Evaluation order is that of ``interpret.py``. Masks are as long as a state, and written
+in hexadecimal digits: of decimal ones Python reads and writes no more than 4300.
 """
 
 from __future__ import annotations
@@ -118,7 +119,7 @@ class SourceWriter:
         if node.op is Op.EQ and isinstance(node.left, Var) and isinstance(node.right, Const):
             field = self._layout.variables[node.left.slot]
             if 0 <= node.right.low - field.low <= field.ones:
-                return f'(s & {field.mask} == {node.right.low - field.low << field.shift})'
+                return f'(s & {field.mask:#x} == {node.right.low - field.low << field.shift:#x})'
         left, right = self.value(node.left), self.value(node.right)
         if node.op in _CALLS:
             return f'{_CALLS[node.op]}({left}, {right})'
@@ -145,7 +146,7 @@ class SourceWriter:
 
     def _at_location(self, node: AtLocation) -> str:
         field = self._layout.locations[node.process]
-        return f'(s & {field.mask} == {node.location << field.shift})'
+        return f'(s & {field.mask:#x} == {node.location << field.shift:#x})'
 
     # -- assignments ---------------------------------------------------------------------
     def _stored(self, field: Field, value: str) -> str:
@@ -155,7 +156,7 @@ class SourceWriter:
         """Return the state after writing ``value``, which must not change ``s``."""
         if isinstance(target, Var):
             field = self._layout.variables[target.slot]
-            return f's & {~field.mask} | {self._stored(field, value)} << {field.shift}'
+            return f's & {~field.mask:#x} | {self._stored(field, value)} << {field.shift}'
         field = self._layout.variables[target.base]
         shift = self._element_shift(target)
         stored = self._stored(field, value)

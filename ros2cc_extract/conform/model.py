@@ -105,6 +105,17 @@ class ObservedModel:
         names = [location.name for location in self.network.processes[first].locations]
         self._idle = names.index('idle')
         self._threads = [self._thread_fields(process) for process in self._assigned]
+        self._thread_bits = sum(
+            field.mask
+            for at, own in self._threads
+            for field in (at, *own)
+            if len(self._threads) > 1
+        )
+        self._tasks = [
+            (self._waiting[task], self._fields[f'cb_queued[{task}]'])
+            for task in sorted(unseen_collects)
+            if f'cb_queued[{task}]' in self._fields
+        ]
 
     def initial(self) -> int:
         """The packed initial state."""
@@ -145,6 +156,15 @@ class ObservedModel:
         at = _read(packed, self.layout.locations[process])
         return self.network.processes[process].locations[at].name
 
+    @property
+    def has_tasks(self) -> bool:
+        """Whether tasks are handed over to a pool."""
+        return bool(self._tasks)
+
+    def unserved_tasks(self, packed: int) -> int:
+        """How many tasks of a pool are made, and not handed over to it."""
+        return sum(_read(packed, made) - _read(packed, queued) for made, queued in self._tasks)
+
     def _thread_fields(self, process: int) -> tuple[Field, list[Field]]:
         """Where a thread is, and all else that is its own."""
         own = self.network.processes[process].name
@@ -157,9 +177,9 @@ class ObservedModel:
         ]
         return self.layout.locations[process], [self._fields[name] for name in names]
 
-    def _sorted_threads(self, packed: int) -> int:
+    def _sorted_threads(self, before: int, packed: int) -> int:
         """Name threads anew: which of them does something makes no difference."""
-        if len(self._threads) == 1:
+        if not (before ^ packed) & self._thread_bits:
             return packed
         states = []
         for at, fields in self._threads:
@@ -169,7 +189,7 @@ class ObservedModel:
         states.sort(key=lambda state: (state[0] == self._idle, state))
         for (at, fields), values in zip(self._threads, states, strict=True):
             for each, value in zip((at, *fields), values, strict=True):
-                packed = packed & ~each.mask | value << each.shift
+                packed ^= (_raw(packed, each) ^ value) << each.shift
         return packed
 
     def moves(self, packed: int) -> list[Move]:
@@ -188,7 +208,7 @@ class ObservedModel:
             if callback is None and seen.act in _ON_A_THREAD:
                 callback = _read(packed, self._assigned[seen.process])
             taken = self._taken(packed, target) if seen.act is not Act.ARRIVE else frozenset()
-            yield Move(seen.act, callback, taken, self._sorted_threads(target))
+            yield Move(seen.act, callback, taken, self._sorted_threads(packed, target))
 
     def _targets(self, packed: int) -> Iterator[tuple[int, int]]:
         at = packed & self.layout.location_mask

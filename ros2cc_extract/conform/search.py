@@ -10,7 +10,7 @@ more of it would allow nothing more.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import inf
@@ -21,6 +21,7 @@ from ros2cc_extract.conform.observations import Act, Observation
 #: How far observations of different threads may be out of order, in time and past how many others:
 #: tried one after the other.
 SLACKS = ((0, 0), (1_000_000, 3), (20_000_000, 6))
+PASSED = max(passed for _, passed in SLACKS)
 #: States looked at before the question stays open.
 STATES = 100_000
 
@@ -191,7 +192,11 @@ def follow(model: ObservedModel, packed: int, observation: Observation) -> Itera
     begins = observation.act is Act.BEGIN and not observation.has_arrived
     if not model.has_waits and begins and observation.callback is not None:
         wanted = frozenset({observation.callback})
-    for state in unseen(model, packed, wanted):
+    states: Iterable[int] = unseen(model, packed, wanted)
+    if observation.act is Act.WAKE and model.has_tasks:
+        # Who spins hands over all tasks before it waits; the model would do with one of a kind.
+        states = sorted(states, key=model.unserved_tasks)
+    for state in states:
         if observation.act is Act.WAKE and not _are_waiting(model, state, observation.found):
             continue
         for move in model.moves(state):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import attrgetter
 
 from ros2cc_extract.checker.api import read_model
 from ros2cc_extract.conform.arrivals import Arrival, with_arrivals
@@ -16,7 +17,7 @@ from ros2cc_extract.conform.observations import (
     match,
     observe,
 )
-from ros2cc_extract.conform.search import STATES, Answer, conform
+from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
 from ros2cc_extract.generator.build import Freedom, Profile, render
 from ros2cc_extract.generator.waits import waits_of
@@ -28,7 +29,8 @@ SPARE = 2
 _RUNS = ('collect', 'begin', 'run')
 _QUEUES = {Act.COLLECT: 1, Act.ARRIVE: 1, Act.BEGIN: -1, Act.REFUSED: -1}
 _RUNS_OPEN = {Act.BEGIN: 1, Act.RESUME: 1, Act.END: -1, Act.SUSPEND: -1, Act.PAUSE: -1}
-_SUSPENDS = {Act.SUSPEND: 1, Act.PAUSE: 1, Act.RESUME: -1}
+_SUSPENDS = {Act.SUSPEND: 1, Act.RESUME: -1}
+_WAITS = {Act.ARRIVE: 1, Act.BEGIN: -1}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,7 +128,8 @@ def text_of(unit: ClosedSpec, seen: Sequence[Observation]) -> str:
         max_cycle=max(begins.values(), default=0) + SPARE,
         freedom=Freedom(
             queued=_most_at_a_time(seen, _QUEUES) + SPARE,
-            suspended=_most_at_a_time(seen, _SUSPENDS) + SPARE,
+            suspended=_most_suspended(unit.spec, seen) + SPARE,
+            waiting=_most_waiting(seen) + SPARE,
             nested=_most_on_a_thread(seen),
             observed=True,
         ),
@@ -146,6 +149,25 @@ def _most_at_a_time(seen: Sequence[Observation], steps: Mapping[Act, int]) -> in
         now[each.callback] += steps.get(each.act, 0)
         most = max(most, now[each.callback])
     return most
+
+
+def _most_suspended(spec: Spec, seen: Sequence[Observation]) -> int:
+    """How many runs of one callback can have been suspended; of a task no trace says when it is."""
+    awaiting = {
+        place
+        for place, callback in enumerate(spec.callbacks)
+        if any(wait.frees_thread for wait in waits_of(callback, spec))
+    }
+    made = Counter(each.callback for each in seen if each.is_task and each.act is Act.ARRIVE)
+    tasks = (number for place, number in made.items() if place in awaiting)
+    return max((_most_at_a_time(seen, _SUSPENDS), *tasks))
+
+
+def _most_waiting(seen: Sequence[Observation]) -> int:
+    """How much waited for one callback: what arrived as soon as it can have, less what began."""
+    if any(each.has_arrived for each in seen):
+        return sum(each.act is Act.ARRIVE for each in seen)
+    return PASSED + _most_at_a_time(sorted(seen, key=attrgetter('earliest_ns')), _WAITS)
 
 
 def _most_on_a_thread(seen: Sequence[Observation]) -> int:

@@ -24,6 +24,16 @@ def test_long_flat_conditions_are_not_deep(engine: EngineKind) -> None:
     assert holds(model, 'E<> P.b', engine=engine) == [True]
 
 
+@pytest.mark.parametrize('engine', ENGINES)
+def test_states_may_be_longer_than_the_numbers_that_python_writes(engine: EngineKind) -> None:
+    """14,400 bits are some 4,335 decimal digits, of which Python 3.11 writes 4,300."""
+    declarations = f'int a[{14_400 // 16}]; int[-32768, 32767] last;'
+    model = single(
+        'a b\na -> b; guard: last == 0; do: last = -2\nb -> a; guard: last == -2', declarations
+    )
+    assert holds(model, 'E<> last == -2 && P.a', 'A[] a[7] == 0', engine=engine) == [True, True]
+
+
 def test_brackets_do_not_count() -> None:
     model = single(f'a b\na -> b; guard: {"(" * 5000}x == 1{")" * 5000}', 'int x = 1;')
     assert holds(model, 'E<> P.b') == [True]

@@ -1,6 +1,8 @@
-"""Tasks that wait are served in the order of the version that made the trace."""
+"""Tasks are served in the order of the version that made the trace, however many there are."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import pytest
 
@@ -17,6 +19,9 @@ from ros2cc_extract.spec.model import (
 )
 
 EXECUTOR, TICK, FIRST, SECOND = range(1, 5)
+WAKE = [('wait>', EXECUTOR), ('wait<', EXECUTOR)]
+SPINNING, WORKER, ANOTHER = range(100, 103)
+TASKS = 12
 
 
 def task(name: str) -> Callback:
@@ -24,8 +29,8 @@ def task(name: str) -> Callback:
     return Callback(name=name, type=kind.published_type, group='free', entity=kind, function=name)
 
 
-def unit() -> Spec:
-    """A timer that makes two tasks."""
+def unit(kind: str = 'SingleThreadedExecutor', threads: tuple[str, ...] = ('t0',)) -> Spec:
+    """A timer that makes two tasks, or more."""
     timer = EntityKind.TIMER
     tick = Callback(
         name='tick', type=timer.published_type, group='g', entity=timer, function='tick'
@@ -34,24 +39,32 @@ def unit() -> Spec:
         CallbackGroup(name='g', type=GroupType.EXCLUSIVE),
         CallbackGroup(name='free', type=GroupType.REENTRANT, groupless=True),
     )
-    executor = Executor(name='executor', kind='SingleThreadedExecutor', threads=('t0',))
+    executor = Executor(name='executor', kind=kind, threads=threads)
     callbacks = (tick, task('first'), task('second'))
     return Spec(name='unit', callbacks=callbacks, groups=groups, executor=executor)
 
 
 def trace(rclpy: str | None, *runs: int) -> Trace:
     """Two tasks are made in their order, and run in that of ``runs``."""
-    steps = [('wait>', EXECUTOR), ('wait<', EXECUTOR), ('collect', TICK), ('begin', TICK)]
+    steps = [*WAKE, ('collect', TICK), ('begin', TICK)]
     steps += [('task', FIRST), ('task', SECOND), ('end', TICK)]
     steps += [(name, task) for task in runs for name in ('run', 'pause')]
+    return recorded(rclpy, [(100, name, subject) for name, subject in steps])
+
+
+def recorded(rclpy: str | None, steps: list[tuple[int, str, int]]) -> Trace:
+    """Steps, one each 30 ms: thread, event and subject."""
     subjects = (
-        Subject(EXECUTOR, 'executor', None, None, None, 'SingleThreadedExecutor', None),
+        Subject(EXECUTOR, 'executor', None, None, None, 'Executor', None),
         Subject(TICK, 'timer', 'node', 9, EXECUTOR, 'tick', None),
         Subject(FIRST, 'task', None, None, EXECUTOR, 'first', None),
         Subject(SECOND, 'task', None, None, EXECUTOR, 'second', None),
     )
-    events = (Event(clock, 100, name, subject) for clock, (name, subject) in enumerate(steps))
-    return Trace(1, rclpy, 0, {}, {each.number: each for each in subjects}, tuple(events))
+    events = tuple(
+        Event(number * 30_000_000, thread, name, subject)
+        for number, (thread, name, subject) in enumerate(steps)
+    )
+    return Trace(1, rclpy, 0, {}, {each.number: each for each in subjects}, events)
 
 
 @pytest.mark.parametrize(
@@ -69,3 +82,22 @@ def test_waiting_tasks_are_served_in_the_order_of_the_version(
     rclpy: str | None, runs: tuple[int, int], outcome: Outcome
 ) -> None:
     assert compare(trace(rclpy, *runs), EXECUTOR, unit()).answer.outcome is outcome
+
+
+def backlog(ticks: int) -> Iterator[tuple[int, str, int]]:
+    """Each run of a timer makes a dozen tasks, which stand in the pool's queue before the next."""
+    for tick in range(ticks):
+        for name, subject in (*WAKE, ('collect', TICK)):
+            yield SPINNING, name, subject
+        for _ in range(TASKS if tick else 0):
+            yield from ((ANOTHER, name, FIRST) for name in ('run', 'pause'))
+        yield from ((WORKER, name, TICK) for name in ('begin', 'take'))
+        yield from ((WORKER, 'task', FIRST) for _ in range(TASKS))
+        yield WORKER, 'end', TICK
+
+
+def test_a_backlog_of_tasks_needs_few_states() -> None:
+    spec = unit('MultiThreadedExecutor', ('t0', 't1'))
+    compared = compare(recorded('7.1.6', list(backlog(6))), EXECUTOR, spec)
+    assert compared.answer.outcome is Outcome.CONFORMS
+    assert compared.answer.seen == len(compared.observations) + 1
