@@ -49,8 +49,8 @@ class Freedom:
 
     :param queued: how many runs of one guard condition or task may be queued at a time.
     :param suspended: how many runs of one callback may be suspended at a time.
-    :param waiting: how much of what arrives by itself may wait for one callback at a time; ``None``
-        for all that arrives.
+    :param waiting: how much of what arrives by itself may wait for one callback at a time;
+        ``None`` for all that arrives.
     :param nested: how many callbacks may spin on one thread at a time, one inside the other;
         ``None`` for all that there can be.
     :param observed: for comparison with executions. Answers of a service to somebody else wake

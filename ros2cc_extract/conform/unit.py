@@ -152,7 +152,7 @@ def _most_at_a_time(seen: Sequence[Observation], steps: Mapping[Act, int]) -> in
 
 
 def _most_suspended(spec: Spec, seen: Sequence[Observation]) -> int:
-    """How many runs of one callback can have been suspended; of a task no trace says when it is."""
+    """How many runs of one callback may be suspended; of tasks no trace says when they are."""
     awaiting = {
         place
         for place, callback in enumerate(spec.callbacks)

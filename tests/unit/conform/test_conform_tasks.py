@@ -89,8 +89,9 @@ def backlog(ticks: int) -> Iterator[tuple[int, str, int]]:
     for tick in range(ticks):
         for name, subject in (*WAKE, ('collect', TICK)):
             yield SPINNING, name, subject
-        for _ in range(TASKS if tick else 0):
-            yield from ((ANOTHER, name, FIRST) for name in ('run', 'pause'))
+        for _ in range(TASKS // 2 if tick else 0):
+            for name in ('run', 'pause'):
+                yield from ((thread, name, FIRST) for thread in (WORKER, ANOTHER))
         yield from ((WORKER, name, TICK) for name in ('begin', 'take'))
         yield from ((WORKER, 'task', FIRST) for _ in range(TASKS))
         yield WORKER, 'end', TICK
