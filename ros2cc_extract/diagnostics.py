@@ -16,6 +16,20 @@ class Severity(Enum):
     NOTE = 'note'
 
 
+UNREAD = frozenset(
+    {
+        'unreadable-file',
+        'file-too-large',
+        'binary-file',
+        'undecodable-file',
+        'syntax-error',
+        'python-2',
+        'nested-too-deeply',
+    }
+)
+"""Slugs of files that could not be read: nothing in them was looked at."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Diagnostic:
     """

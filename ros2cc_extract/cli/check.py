@@ -175,9 +175,9 @@ def _append_step_summary(checked: Checked) -> None:
 
 
 def _status(args: argparse.Namespace, outcome: Outcome) -> int:
-    from ros2cc_extract.cli.sources import has_errors
+    from ros2cc_extract.cli.sources import nothing_read
 
-    if has_errors(outcome.extraction.diagnostics):
+    if nothing_read(args.paths, outcome.extraction):
         return EXIT_ERROR
     if outcome.has_findings:
         return EXIT_FINDINGS
@@ -186,8 +186,9 @@ def _status(args: argparse.Namespace, outcome: Outcome) -> int:
 
 
 def _is_unresolved(outcome: Outcome) -> bool:
-    """Whether a unit has an open fact, or was left out for one."""
-    from ros2cc_extract.cli.sources import NOT_FOLLOWED
+    """Whether a unit has an open fact, or was left out for one, or a file was not read."""
+    from ros2cc_extract.cli.sources import NOT_FOLLOWED, has_unread
 
     of_units = any(unit.unresolved for unit in outcome.units)
-    return of_units or any(d.slug == NOT_FOLLOWED for d in outcome.extraction.diagnostics)
+    noticed = outcome.extraction.diagnostics
+    return of_units or has_unread(noticed) or any(d.slug == NOT_FOLLOWED for d in noticed)

@@ -16,7 +16,7 @@ from ros2cc_extract.cli.verifying import Task, examine_all
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.findings.baseline import compare
-from ros2cc_extract.findings.collect import all_findings
+from ros2cc_extract.findings.collect import all_findings, is_unread
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.selection import select
@@ -90,8 +90,11 @@ class Outcome:
 
     @property
     def has_findings(self) -> bool:
-        """True when something weighs more than a note."""
-        return any(finding.severity is not Severity.NOTE for finding in self.findings)
+        """True when something weighs more than a note, and is not that a file was not read."""
+        return any(
+            finding.severity is not Severity.NOTE and not is_unread(finding)
+            for finding in self.findings
+        )
 
 
 def check_paths(job: Job, stderr: TextIO) -> Outcome:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from ros2cc_extract.cli.progress import bar
-from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.diagnostics import UNREAD, Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.places import Place
@@ -160,6 +160,20 @@ def print_diagnostics(diagnostics: Sequence[Diagnostic], stderr: TextIO) -> None
         print(line, file=stderr)
 
 
-def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
+def has_unread(diagnostics: Sequence[Diagnostic]) -> bool:
     """True when a file could not be read or parsed."""
-    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
+    return any(diagnostic.slug in UNREAD for diagnostic in diagnostics)
+
+
+def nothing_read(paths: Sequence[Path], extraction: Extraction) -> bool:
+    """True when nothing of what one of ``paths`` names could be read: no file, or none at all."""
+    unread = {d.place.file for d in extraction.diagnostics if d.slug in UNREAD}
+    if not unread:
+        return False
+    seen = {file: Path(file).resolve() for file in extraction.files_seen}
+    for path in paths:
+        whole = path.resolve()
+        mine = {file for file, at in seen.items() if whole in (at, *at.parents)}
+        if mine and mine <= unread:
+            return True
+    return False

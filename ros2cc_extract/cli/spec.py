@@ -40,7 +40,12 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.schema:
         stdout.write(_schema())
         return EXIT_CLEAN
-    from ros2cc_extract.cli.sources import has_errors, print_diagnostics, scan_sources
+    from ros2cc_extract.cli.sources import (
+        has_unread,
+        nothing_read,
+        print_diagnostics,
+        scan_sources,
+    )
     from ros2cc_extract.errors import InputError
 
     if not args.paths:
@@ -54,11 +59,12 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         has_drift = _has_drift(args, extraction, stdout, stderr)
     else:
         _write(args, extraction, stdout, stderr)
-    if has_errors(extraction.diagnostics):
+    if nothing_read(args.paths, extraction):
         return EXIT_ERROR
     if has_drift:
         return EXIT_FINDINGS
     unresolved = any(unit.unresolved for unit in extraction.units)
+    unresolved = unresolved or has_unread(extraction.diagnostics)
     return EXIT_UNDECIDED if args.strict and unresolved else EXIT_CLEAN
 
 

@@ -103,6 +103,11 @@ def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool |
     return known.pop() if len(known) == 1 else None
 
 
+def is_unread(finding: Finding) -> bool:
+    """Whether it tells of a file of which nothing could be read; that decides no exit status."""
+    return finding.code == UNREADABLE.code and finding.severity is Severity.ERROR
+
+
 def _of_diagnostic(diagnostic: Diagnostic, matters: bool | None) -> Finding:
     fallback = UNRESOLVED if diagnostic.severity is Severity.NOTE else UNREADABLE
     rule = BY_SLUG.get(diagnostic.slug, fallback)
