@@ -2,7 +2,7 @@
 The model of a unit as something whose steps can be observed.
 
 The network that the generator's text describes is the only semantics here. This module names
-its edges: by template, locations and the words of their comments, it tells which of them an
+its edges: by template, locations and the event that they are, it tells which of them an
 observer of the executor sees, and for which callback.
 """
 
@@ -17,29 +17,32 @@ from ros2cc_extract.checker.moves import Moving, Plan
 from ros2cc_extract.checker.network import Edge, Network, Process
 from ros2cc_extract.checker.semantics import Edges, Semantics
 from ros2cc_extract.conform.observations import Act
+from ros2cc_extract.generator.events import read_annotation
 
-#: Template, location before and after, words of the comment: what is seen.
+#: Template, location before and after, event: what is seen.
 _SEEN = (
-    ('Executor', 'wait', 'serving', 'something is ready', Act.WAKE),
-    ('Executor', 'serving', 'serving', 'queues', Act.COLLECT),
-    ('Executor', 'serving', 'executing', '', Act.COLLECT),
-    ('Thread', 'popped', 'running', 'starts', Act.BEGIN),
-    ('Thread', 'assigned', 'running', 'starts', Act.BEGIN),
-    ('Thread', 'idle', 'running', 'starts', Act.BEGIN),
-    ('Thread', 'spinning', 'spinning', 'something is ready', Act.WAKE),
-    ('Thread', 'spinning', 'spinning', 'queues', Act.COLLECT),
-    ('Thread', 'spinning', 'entering', '', Act.COLLECT),
-    ('Thread', 'entering', 'running', 'starts', Act.BEGIN),
-    ('Thread', 'spinning', 'running', 'goes on, on', Act.RESUME),
-    ('Thread', 'running', 'leaving', 'ends', Act.END),
-    ('Thread', 'running', 'leaving', 'awaits', Act.SUSPEND),
-    ('Thread', 'popped', 'idle', 'is refused', Act.REFUSED),
-    ('Thread', 'running', 'idle', 'ends', Act.END),
-    ('Thread', 'running', 'idle', 'awaits', Act.SUSPEND),
-    ('Thread', 'popped', 'running', 'goes on', Act.RESUME),
-    ('Thread', 'assigned', 'running', 'goes on', Act.RESUME),
-    ('Thread', 'idle', 'running', 'goes on', Act.RESUME),
-    ('Callback', 'source', 'source', '', Act.ARRIVE),
+    ('Executor', 'wait', 'serving', 'wake', Act.WAKE),
+    ('Executor', 'serving', 'serving', 'queue', Act.COLLECT),
+    ('Executor', 'serving', 'executing', None, Act.COLLECT),
+    ('Thread', 'popped', 'running', 'start', Act.BEGIN),
+    ('Thread', 'assigned', 'running', 'start', Act.BEGIN),
+    ('Thread', 'idle', 'running', 'start', Act.BEGIN),
+    ('Thread', 'spinning', 'spinning', 'wake', Act.WAKE),
+    ('Thread', 'spinning', 'spinning', 'queue', Act.COLLECT),
+    ('Thread', 'spinning', 'entering', None, Act.COLLECT),
+    ('Thread', 'entering', 'running', 'start', Act.BEGIN),
+    ('Thread', 'spinning', 'running', 'go_on resumed', Act.RESUME),
+    ('Thread', 'running', 'leaving', 'end', Act.END),
+    ('Thread', 'running', 'leaving', 'await', Act.SUSPEND),
+    ('Thread', 'running', 'leaving', 'await outside', Act.SUSPEND),
+    ('Thread', 'popped', 'idle', 'refuse', Act.REFUSED),
+    ('Thread', 'running', 'idle', 'end', Act.END),
+    ('Thread', 'running', 'idle', 'await', Act.SUSPEND),
+    ('Thread', 'running', 'idle', 'await outside', Act.SUSPEND),
+    ('Thread', 'popped', 'running', 'go_on resumed', Act.RESUME),
+    ('Thread', 'assigned', 'running', 'go_on resumed', Act.RESUME),
+    ('Thread', 'idle', 'running', 'go_on resumed', Act.RESUME),
+    ('Callback', 'source', 'source', None, Act.ARRIVE),
 )
 _ON_A_THREAD = (Act.BEGIN, Act.REFUSED, Act.END, Act.SUSPEND, Act.RESUME)
 
@@ -252,7 +255,9 @@ class ObservedModel:
 def _act_of(process: Process, edge: Edge) -> Act | None:
     source, target = process.locations[edge.source].name, process.locations[edge.target].name
     place = process.template, source, target
-    fitting = (row for row in _SEEN if row[:3] == place and row[3] in edge.comment)
+    event = read_annotation(edge.comment)
+    keys = (None, event.key if event else None)
+    fitting = (row for row in _SEEN if row[:3] == place and row[3] in keys)
     return next((act for *_, act in fitting), None)
 
 

@@ -2,29 +2,21 @@
 What of a run shows that callbacks wait for ever: how they get there, and what it ends in.
 
 A run that refutes *it always ends* goes on until nothing moves any more, so that whatever else
-could happen has happened; most of it has no part in the wait. Knows the words that the edges of
-profile ``rclpy`` carry, and no template.
+could happen has happened; most of it has no part in the wait.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence, Moment
 
-_WAIT = re.compile(
-    r'(?P<who>\w+) (waits|(?P<spins>spins \w+|takes .* spins it)) on (?P<thread>\w+) for '
-    r'(the service of |(?P<lock>the lock of ))?'
-    r'(?P<needed>\w+)(, which nobody here offers)?'
-)
-_AWAIT = re.compile(r'(?P<who>\w+) awaits (?P<needed>\w+) and leaves (?P<thread>\w+)')
-_GO_ON = re.compile(r'(?P<who>\w+) (has .* and )?goes on(, on \w+)?')
-_ARRIVAL = re.compile(r'(timer (?P<timer>\w+) is due|data arrives for (?P<who>\w+))')
-_END = re.compile(r'(?P<who>\w+) ends on \w+')
-_WAKE = re.compile(r'\w+ wakes up: .*')
-_SERVED = re.compile(r'(?P<who>\w+) (starts|ends) on \w+')
+_AWAIT, _GO_ON, _WAKE, _END = 'await', 'go_on', 'wake', 'end'
+_ARRIVALS = ('due', 'arrival')
+#: What others do for a wait while it lasts.
+_PARTS = (*_ARRIVALS, 'start', _END)
 
 
 @dataclass(frozen=True)
@@ -83,19 +75,19 @@ def show_hang(
 
 def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
     waits: list[Standstill] = []
-    for index, text in _sentences(moments):
-        began = _WAIT.fullmatch(text) or _AWAIT.fullmatch(text)
-        ended = _GO_ON.fullmatch(text)
-        if began:
-            is_wait = began.re is _WAIT
-            thread = began['thread'] if is_wait else None
-            spins = is_wait and began['spins'] is not None
-            locked = is_wait and began['lock'] is not None
-            waits.append(Standstill(began['who'], began['needed'], thread, index, spins, locked))
-        elif ended:
-            over = next((wait for wait in waits if wait.who == ended['who']), None)
+    for index, event in _events(moments):
+        if event.is_wait and event.who is not None and event.needed is not None:
+            waits.append(_standstill(event, index))
+        elif event.kind == _GO_ON:
+            over = next((wait for wait in waits if wait.who == event.who), None)
             waits = [wait for wait in waits if wait is not over]
     return waits
+
+
+def _standstill(event: Event, since: int) -> Standstill:
+    assert event.who is not None and event.needed is not None, 'a wait of one for another'
+    thread = None if event.kind == _AWAIT else event.thread
+    return Standstill(event.who, event.needed, thread, since, event.is_spin, event.is_for_lock)
 
 
 def _concerned(
@@ -120,36 +112,24 @@ def _told(
     begin = {who: _begin(moments, who, since) for who, since in waiting.items()}
     first = min(waiting.values())
     last_wake: int | None = None
-    for index, text in _sentences(moments):
-        if _WAKE.fullmatch(text):
+    for index, event in _events(moments):
+        if event.kind == _WAKE:
             last_wake = index
-        who = next((word for word in re.findall(r'\w+', text) if word in waiting), None)
+        who = next((name for name in event.mentions if name in waiting), None)
         if who is not None:
             if begin[who] <= index <= waiting[who]:
                 yield index
-                if last_wake is not None and not _ARRIVAL.fullmatch(text):
+                if last_wake is not None and event.kind not in _ARRIVALS:
                     yield last_wake
                     last_wake = None
-        elif index > first and _does_its_part(text, names):
+        elif index > first and event.kind in _PARTS and event.who in names:
             yield index
 
 
 def _begin(moments: Sequence[Moment], who: str, since: int) -> int:
     """Where the arrival stands that led to the wait; a wait after another needs both."""
-    begin = 0
-    for index, text in _sentences(moments[:since]):
-        ended = _END.fullmatch(text)
-        if ended and ended['who'] == who:
-            begin = index + 1
-    return begin
-
-
-def _does_its_part(text: str, names: Collection[str]) -> bool:
-    arrival = _ARRIVAL.fullmatch(text)
-    if arrival:
-        return (arrival['who'] or arrival['timer']) in names
-    served = _SERVED.match(text)
-    return bool(served and served['who'] in names)
+    ends = (i for i, event in _events(moments[:since]) if (event.kind, event.who) == (_END, who))
+    return max((index + 1 for index in ends), default=0)
 
 
 def _renumbered(moments: Sequence[Moment], told: Sequence[int]) -> Iterator[Moment]:
@@ -179,7 +159,7 @@ def _state_of(wait: Standstill, groups: Mapping[str, str]) -> str:
     return f'{wait.words}, and keeps group {group} closed'
 
 
-def _sentences(moments: Sequence[Moment]) -> Iterator[tuple[int, str]]:
+def _events(moments: Sequence[Moment]) -> Iterator[tuple[int, Event]]:
     for index, moment in enumerate(moments):
-        for sentence in moment.sentences:
-            yield index, sentence.text
+        for event in moment.events:
+            yield index, event

@@ -15,7 +15,6 @@ CAN_OVERLAP = 'can_overlap'
 SELF_OVERLAP = 'self_overlap'
 PROGRESS = 'progress'
 NODE_KEPT = 'node_kept'
-_ABSENT = 'which nobody here offers'
 
 
 def verdict_on(family: str, context: Context, *callbacks: Callback) -> QueryResult | None:
@@ -54,7 +53,7 @@ def shown_hang(callback: Callback, about: Collection[str], context: Context) -> 
 
 def rests_on_absent_service(run: Evidence) -> bool:
     """True for a run in which somebody waits for a service that another program may well offer."""
-    return any(s.text.endswith(_ABSENT) for moment in run.moments for s in moment.sentences)
+    return any(event.is_for_service for moment in run.moments for event in moment.events)
 
 
 def _exclusive(context: Context) -> dict[str, str]:

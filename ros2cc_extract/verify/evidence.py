@@ -1,23 +1,23 @@
 """
-Tells a path of the model in the developer's words: which callback, which thread, which group.
+Tells a path of the model as events: which callback, which thread, which group.
 
-The words stand in the templates, as comments of the edges (``{callback my_cb_id} starts on
-{thread id}``); here the expressions in braces are evaluated in the state after each step. So
-this module knows no template, and a model of somebody else is told by its locations.
+Which event an edge is stands in the templates, as the comment of the edge; here its expressions
+are evaluated, and names are put for numbers. So this module knows no template, and a model of
+somebody else is told by its comments or its locations.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from ros2cc_extract.checker.api import EdgeRef, Run, StateView
+from ros2cc_extract.generator.events import Annotation, FieldText, read_annotation
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.events import WORDS, Event
 from ros2cc_extract.verify.uppaal.run import UppaalRun
-
-_PHRASE = re.compile(r'\{(callback|thread|group|executor)(?:\s+([^{}]+))?\}')
 
 
 @dataclass(frozen=True)
@@ -26,10 +26,17 @@ class Sentence:
     What one process does in a step.
 
     :param lane: name of the process whose edge it is: a thread, the executor, a group …
+    :param event: what it is; ``None`` in a model of somebody else.
     """
 
     lane: str
     text: str
+    event: Event | None = None
+
+    @staticmethod
+    def of(lane: str, event: Event) -> Sentence:
+        """Say an event."""
+        return Sentence(lane, event.words, event)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +54,11 @@ class Moment:
     sentences: tuple[Sentence, ...]
     places: tuple[tuple[str, Place], ...]
     changes: Mapping[str, int | str]
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What happens in it; nothing in a model of somebody else."""
+        return tuple(s.event for s in self.sentences if s.event is not None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,11 +119,11 @@ def tell(run: Run, names: Names) -> Evidence:
     """
     Turn a replayed run into moments.
 
-    Where comments have names in braces, as ours do, steps without words are passed over; of a
-    model of somebody else every step is told, by its comment or else by its locations.
+    Where comments are annotations, as ours are, steps without one are passed over; of a model of
+    somebody else every step is told, by its comment or else by its locations.
     """
-    comments = (edge.comment for step in run.steps for edge in step.edges)
-    phrase = _spoken(names) if any(map(_PHRASE.search, comments)) else _located
+    edges = (edge for step in run.steps for edge in step.edges)
+    is_ours = any(map(_annotation_of, edges))
     moments: list[Moment] = []
     cycle_from: int | None = None
     before = run.initial
@@ -120,12 +132,12 @@ def tell(run: Run, names: Names) -> Evidence:
         if index == run.cycle_start:
             cycle_from = len(moments) + 1
         changes |= _changes(before, step.state)
-        before = step.state
         sentences = tuple(
-            Sentence(edge.process, text)
-            for edge in step.edges
-            if (text := phrase(edge, step.state))
+            _spoken(step.edges, before, step.state, names)
+            if is_ours
+            else map(_located, step.edges)
         )
+        before = step.state
         if sentences:
             places = tuple(_places(sentences, names))
             moments.append(
@@ -144,32 +156,45 @@ def tell(run: Run, names: Names) -> Evidence:
     )
 
 
-Phrase = Callable[[EdgeRef, StateView], str]
+def _annotation_of(edge: EdgeRef) -> Annotation | None:
+    annotation = read_annotation(edge.comment)
+    return annotation if annotation is not None and annotation.key in WORDS else None
 
 
-def _spoken(names: Names) -> Phrase:
-    def phrase(edge: EdgeRef, state: StateView) -> str:
-        def fill(match: re.Match[str]) -> str:
-            kind, expression = match.groups()
-            if kind == 'executor' or expression is None:
-                return names.executor
-            return names.lookup(kind, state.evaluate(expression, edge.process))
-
-        return _PHRASE.sub(fill, ' '.join(edge.comment.split()))
-
-    return phrase
+def _spoken(
+    edges: Iterable[EdgeRef], before: StateView, after: StateView, names: Names
+) -> Iterator[Sentence]:
+    for edge in edges:
+        annotation = _annotation_of(edge)
+        if annotation is not None:
+            event = _evaluated(annotation, edge.process, before, after, names)
+            yield Sentence.of(edge.process, event)
 
 
-def _located(edge: EdgeRef, state: StateView) -> str:
+def _evaluated(
+    annotation: Annotation, process: str, before: StateView, after: StateView, names: Names
+) -> Event:
+    def value(field: FieldText) -> int | str:
+        if field.noun == 'executor':
+            return names.executor
+        state = before if field.is_before else after
+        number = state.evaluate(field.expression, process)
+        return number if field.noun == 'number' else names.lookup(field.noun, number)
+
+    values: dict[str, Any] = {field.name: value(field) for field in annotation.fields}
+    return Event(kind=annotation.kind, form=annotation.form, **values)
+
+
+def _located(edge: EdgeRef) -> Sentence:
     if edge.comment:
-        return f'{edge.process}: {" ".join(edge.comment.split())}'
+        return Sentence(edge.process, f'{edge.process}: {" ".join(edge.comment.split())}')
     channel = f' ({edge.channel})' if edge.channel else ''
-    return f'{edge.process}: {edge.source} -> {edge.target}{channel}'
+    return Sentence(edge.process, f'{edge.process}: {edge.source} -> {edge.target}{channel}')
 
 
 def _places(sentences: tuple[Sentence, ...], names: Names) -> Iterator[tuple[str, Place]]:
-    words = [word for sentence in sentences for word in re.findall(r'\w+', sentence.text)]
-    for name in dict.fromkeys(words):
+    named = [name for s in sentences if s.event is not None for name in s.event.mentions]
+    for name in dict.fromkeys(named):
         if name in names.places:
             yield name, names.places[name]
 

@@ -19,6 +19,7 @@ from ros2cc_extract.findings.workers import workers_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Act
 from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence
 
 _SPINS = (WaitKind.SPIN, WaitKind.SPUN_FUTURE)
@@ -60,12 +61,13 @@ def _waits_for_ever(other: Callback, holder: Callback, context: Context) -> bool
     run = refuting_run(PROGRESS, context, other)
     if run is None or rests_on_absent_service(run):
         return False
-    return _last_said_of(other, run).endswith(f'for the lock of {holder.name}')
+    last = _last_event_of(other, run)
+    return last is not None and last.is_for_lock and last.needed == holder.name
 
 
-def _last_said_of(callback: Callback, run: Evidence) -> str:
-    said = (s.text for moment in reversed(run.moments) for s in reversed(moment.sentences))
-    return next((text for text in said if text.startswith(f'{callback.name} ')), '')
+def _last_event_of(callback: Callback, run: Evidence) -> Event | None:
+    events = (event for moment in reversed(run.moments) for event in reversed(moment.events))
+    return next((event for event in events if event.who == callback.name), None)
 
 
 def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:

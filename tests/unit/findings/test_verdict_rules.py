@@ -20,10 +20,10 @@ from finding_units import (
 
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec, Unresolved
+from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
-NOBODY = 'which nobody here offers'
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')
 
 
@@ -94,8 +94,9 @@ def test_a_nested_spin_is_in_the_model_too() -> None:
 
 def test_a_hang_that_rests_on_an_absent_service_is_no_finding_of_the_model() -> None:
     """Another program may offer it; whoever waits is told so by the verdict."""
-    waits = Sentence('thread_0', 'on_left waits on thread_0 for the service of a, ' + NOBODY)
-    moment = Moment(number=1, sentences=(waits,), places=(), changes={})
+    waits = Event(kind='wait', form='service', who='on_left', thread='thread_0', needed='a')
+    told = (Sentence.of('thread_0', waits),)
+    moment = Moment(number=1, sentences=told, places=(), changes={})
     stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
     results = (replace(result, run=replace(RUN, moments=(moment,))) for result in stuck.results)
     assert found(circle(), replace(stuck, results=tuple(results))) == []

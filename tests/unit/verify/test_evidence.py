@@ -5,6 +5,7 @@ from __future__ import annotations
 from ros2cc_extract.checker.api import Query, Run, check, read_model
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
+from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Names, Sentence, tell
 
 COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
@@ -17,12 +18,12 @@ COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
 <transition><source ref="id0"/><target ref="id1"/>
 <label kind="synchronisation">go!</label>
 <label kind="assignment">mine = 1, n = n + 1</label>
-<label kind="comments">{callback mine} starts
-  on {thread id}</label></transition>
+<label kind="comments">event start; who: callback mine;
+  thread: thread id</label></transition>
 <transition><source ref="id1"/><target ref="id2"/>
 <label kind="assignment">n = n + 1</label></transition>
 <transition><source ref="id2"/><target ref="id2"/>
-<label kind="comments">{executor} spins, {group 7} too</label></transition>
+<label kind="comments">event close; group: group 7</label></transition>
 </template>
 <template><name>R</name><location id="id9"><name>w</name></location><init ref="id9"/>
 <transition><source ref="id9"/><target ref="id9"/>
@@ -42,7 +43,9 @@ def run_of(formula: str, xml: str = COMMENTED) -> Run:
 def test_expressions_are_evaluated_after_the_step() -> None:
     evidence = tell(run_of('E<> t0.busy'), NAMES)
     (moment,) = evidence.moments
-    assert moment.sentences == (Sentence('t0', 'b starts on worker'),)
+    assert moment.sentences == (
+        Sentence('t0', 'b starts on worker', Event(kind='start', who='b', thread='worker')),
+    )
     assert moment.places == (('b', Place('arm.py', 4)),)
     assert moment.changes == {'t0': 'busy', 'n': 1, 't0.mine': 1}
     assert evidence.start == {'t0': 'idle', 'r': 'w'}
@@ -71,15 +74,15 @@ def test_a_cycle_starts_at_its_first_told_step() -> None:
     evidence = tell(run, NAMES)
     assert [m.sentences[0].text for m in evidence.moments] == [
         'b starts on worker',
-        'ex spins, group 7 too',
+        'group group 7 closes',
     ]
     assert evidence.cycle_from == 2
 
 
 def test_a_model_without_words_is_told_by_its_locations() -> None:
-    bare = '\n'.join(line for line in COMMENTED.splitlines() if '{callback' not in line)
-    bare = bare.replace('  on {thread id}</label></transition>', '</transition>')
-    bare = bare.replace('<label kind="comments">{executor} spins, {group 7} too</label>', '')
+    bare = '\n'.join(line for line in COMMENTED.splitlines() if 'event start' not in line)
+    bare = bare.replace('  thread: thread id</label></transition>', '</transition>')
+    bare = bare.replace('<label kind="comments">event close; group: group 7</label>', '')
     evidence = tell(run_of('E<> t0.busy', bare), NAMES)
     assert [sentence.text for sentence in evidence.moments[0].sentences] == [
         't0: idle -> busy (go)',
@@ -88,22 +91,26 @@ def test_a_model_without_words_is_told_by_its_locations() -> None:
 
 
 def test_mermaid_draws_an_arrow_from_sender_to_receiver() -> None:
-    bare = COMMENTED.replace('{callback mine} starts', 'says; "hello" #1')
+    bare = COMMENTED.replace('event start; who: callback mine;', 'says; "hello" #1')
+    bare = bare.replace('event close; group: group 7', '').replace(
+        'thread: thread id', 'on worker'
+    )
     chart = mermaid(tell(run_of('E<> t0.busy', bare), NAMES), 'why; "so"')
     assert chart == (
-        '---\ntitle: "why, \'so\'"\n---\nsequenceDiagram\n    participant t0\n'
-        "    t0->>t0: 1. says, 'hello' no. 1 on worker\n"
+        '---\ntitle: "why, \'so\'"\n---\nsequenceDiagram\n    participant t0\n    participant r\n'
+        "    t0->>r: 1. t0: says, 'hello' no. 1 on worker<br/>r: w -> w (go)\n"
     )
 
 
 def test_mermaid_gets_other_names_for_what_it_would_read_as_signs() -> None:
     indexed = COMMENTED.replace('const int id', 'const int[0,0] id').replace('t0 = T(0); ', '')
-    indexed = indexed.replace('system t0, r;', 'system T, r;').replace('{', '').replace('}', '')
+    indexed = indexed.replace('system t0, r;', 'system T, r;').replace('event ', 'the event ')
     chart = mermaid(tell(run_of('E<> T(0).busy', indexed), Names()), 'why')
     assert chart.splitlines()[4:] == [
         '    participant p0 as T(0)',
         '    participant r',
-        '    p0->>r: 1. T(0): callback mine starts on thread id<br/>r: w -> w (go)',
+        '    p0->>r: 1. T(0): the event start, who: callback mine, thread: thread id<br/>'
+        'r: w -> w (go)',
     ]
 
 

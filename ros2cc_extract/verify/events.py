@@ -1,0 +1,135 @@
+"""
+Events of a run: what one process does in a step, with fields, and the words for it.
+
+The templates say which event an edge is (``generator.events``); the words stand here and nowhere
+else. What classifies a run reads the fields.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+#: Words of each kind and form; what stands in brackets is said where all its fields are known.
+WORDS = {
+    # Callbacks and groups.
+    'due': 'timer {who} is due',
+    'arrival': 'data arrives for {who}',
+    'done outside': 'a thread outside {executor} makes done what {who} awaits',
+    'done unseen': 'a thread outside {executor} makes done what {who} awaits, which wakes nobody',
+    'close': 'group {group} closes',
+    'open': 'group {group} opens',
+    'ready': '{who} becomes ready',
+    'ready unseen': '{who} becomes ready and unready again, unseen',
+    'unready': '{who} is no longer ready',
+    # Threads.
+    'take': '{thread} takes {who} from the queue',
+    'refuse': '{thread} is refused {who}: its group is closed',
+    'start': '{who} starts on {thread}[, inside {inside}]',
+    'end': '{who} ends on {thread}',
+    'answer': '{who} answers',
+    'raise': '{who} spins {executor}, which refuses as it spins already, and raises on {thread}',
+    # Waits.
+    'wait': '{who} waits on {thread} for {needed}',
+    'wait lock': '{who} waits on {thread} for the lock of {needed}',
+    'wait service': '{who} waits on {thread} for the service of {needed}, which nobody here '
+    'offers',
+    'await': '{who} awaits {needed} and leaves {thread}',
+    'await outside': '{who} awaits what a thread outside {executor} makes done, and leaves '
+    '{thread}',
+    'spin': '{who} spins {executor} on {thread}[ for {needed}]',
+    'spin taken': '{who} takes its node out of {executor} and spins it on {thread}[ for {needed}]',
+    'found': '{who} finds that {needed} has run',
+    'go_on': '{who} goes on',
+    'go_on resumed': '{who} goes on, on {thread}',
+    'go_on served': '{who} has served one callback and goes on',
+    'go_on timeout': '{who} has spun long enough and goes on',
+    # Executors.
+    'wake': '{executor} wakes up: something is ready',
+    'wake task': '{executor} wakes up: a task is ready',
+    'queue': '{by} queues {who}',
+    'queue last': '{by} queues {who} and stops: its spin raises what a callback raised',
+    'leave': '{executor} leaves {who}: its group is closed',
+    'stop': '{executor} stops: its spin raises what the callback raised',
+    # The published executor.
+    'poll': '{executor} polls which callbacks are ready',
+    'poll seen': '{executor} polls and sees {who} ready',
+    'full': '{executor} waits: all threads are busy',
+    'free': '{executor} goes on: {thread} is idle',
+    'assign': '{executor} assigns {who} to {thread}',
+    'pass': '{executor} passes over {who}: not ready, or its group is closed',
+    'pass unready': '{executor} passes over {who}: it is not ready',
+    'pass closed': '{executor} passes over {who}: its group is closed',
+}
+_OPTIONAL = re.compile(r'\[([^\[\]]*)\]')
+_FIELD = re.compile(r'\{(\w+)\}')
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """
+    What a process does in a step; fields that its kind has not are ``None``.
+
+    :param kind: first word of a key of ``WORDS``; ``form`` is the rest.
+    :param who: name of the callback it is about.
+    :param by: who hands it to the pool.
+    :param group: that opens or closes.
+    :param needed: name of the callback that must run before a wait ends, or that has the lock.
+    :param inside: the callback in whose nested spin ``who`` runs.
+    :param wait: which of the waits of ``who`` in the model, from 0.
+    """
+
+    kind: str
+    form: str = ''
+    who: str | None = None
+    by: str | None = None
+    thread: str | None = None
+    group: str | None = None
+    executor: str | None = None
+    needed: str | None = None
+    inside: str | None = None
+    wait: int | None = None
+
+    @property
+    def is_wait(self) -> bool:
+        """True where ``who`` begins to wait for others."""
+        return self.kind in ('wait', 'await', 'spin')
+
+    @property
+    def is_spin(self) -> bool:
+        """True for a wait that serves others meanwhile."""
+        return self.kind == 'spin'
+
+    @property
+    def is_for_lock(self) -> bool:
+        """True for a wait for a lock, which ``needed`` holds."""
+        return (self.kind, self.form) == ('wait', 'lock')
+
+    @property
+    def is_for_service(self) -> bool:
+        """True for a wait for a service that nobody in the unit offers."""
+        return (self.kind, self.form) == ('wait', 'service')
+
+    @property
+    def words(self) -> str:
+        """Say it in a sentence."""
+        return _FIELD.sub(lambda match: self._field(match[1]), self._pattern)
+
+    @property
+    def mentions(self) -> tuple[str, ...]:
+        """Names in the order of the sentence."""
+        return tuple(self._field(name) for name in _FIELD.findall(self._pattern))
+
+    @property
+    def _pattern(self) -> str:
+        return _OPTIONAL.sub(
+            lambda match: match[1] if all(self._known(match[1])) else '',
+            WORDS[f'{self.kind} {self.form}'.strip()],
+        )
+
+    def _known(self, part: str) -> Iterator[bool]:
+        return (getattr(self, name) is not None for name in _FIELD.findall(part))
+
+    def _field(self, name: str) -> str:
+        return str(getattr(self, name))
