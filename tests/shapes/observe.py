@@ -20,16 +20,21 @@ import tempfile
 import threading
 import time
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
 
-from tests.shapes.rows import DISTRIBUTIONS, Node, marked_lines, nodes
+from tests.shapes.rows import DISTRIBUTIONS, WAITS, Node, marked_lines, nodes
 
 WATCHED = Path(__file__).with_name('watched.py')
 PATIENCE_S = 9.0
 # A start on a busy machine, and one who cannot even be watched.
 SLACK_S = 15.0
 STILL_S = 3.0
+# What works does so every second.
+LATE_S = 2.5
 WORD = 'goes on'
+# What no wheel carries.
+NOT_RUN = 'not run'
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,7 @@ def _judge(
     output = '\n'.join(line for _, line in lines if line != WORD)
     standing = tuple(told['standing']) if told else ()
     raised = tuple(map(str, told['raised'])) if told else ()
-    marked = {line for lines_of in marked_lines(node.path) for line in lines_of}
+    marked = {line for lines_of in marked_lines(node.path, WAITS) for line in lines_of}
     if told is None:
         what = 'cannot be watched' if status is None else f'ends with status {status}'
     elif marked & set(standing) and not told['ended']:
@@ -108,7 +113,8 @@ def _judge(
     elif told['ended']:
         what = 'ends'
     elif words and over - words[-1] < STILL_S:
-        what = WORD
+        is_late = any(then - at > LATE_S for at, then in pairwise(words))
+        what = f'{WORD} late' if is_late else WORD
     else:
         what = 'falls silent' if words else 'never goes on'
     return Seen(what, standing, raised, len(words), output[-2000:])
@@ -126,6 +132,7 @@ def main() -> None:
     chosen = [
         node
         for node in nodes()
+        if node.observed[args.distribution] != NOT_RUN
         if not args.shapes or any(node.name.startswith(name) for name in args.shapes)
     ]
     domains: queue.Queue[int] = queue.Queue()

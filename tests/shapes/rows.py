@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -13,7 +12,8 @@ import yaml
 
 HERE = Path(__file__).parent
 TABLE = HERE / 'table.yaml'
-MARK = re.compile(r'#.*\b(waits|breaks) here\b')
+# Where something stands for ever, and where it is broken off.
+WAITS, BREAKS = 'waits here', 'breaks here'
 DISTRIBUTIONS = ('jazzy', 'kilted')
 
 
@@ -80,10 +80,11 @@ def nodes() -> tuple[Node, ...]:
 
 
 @cache
-def marked_lines(path: Path) -> tuple[range, ...]:
+def marked_lines(path: Path, *marks: str) -> tuple[range, ...]:
     """Lines of the statements that are marked; of a loop, its body too."""
     text = path.read_text(encoding='utf-8')
-    marks = {at for at, line in enumerate(text.splitlines(), 1) if MARK.search(line)}
+    lines = enumerate(text.splitlines(), 1)
+    marked = {at for at, line in lines if line.endswith(tuple(f'# {mark}' for mark in marks))}
     spans = []
     for statement in ast.walk(ast.parse(text)):
         if isinstance(statement, ast.stmt):
@@ -91,7 +92,7 @@ def marked_lines(path: Path) -> tuple[range, ...]:
             own = last if _is_whole(statement) else first
             spans.append((last - first, first, own, last))
     found = []
-    for mark in sorted(marks):
+    for mark in sorted(marked):
         # The smallest statement that holds the mark is the one that is meant.
         _, first, own, last = min(span for span in spans if span[1] <= mark <= span[3])
         found.append(range(first, max(own, mark) + 1))

@@ -30,11 +30,10 @@ class Reporter(Node):
 
     def on_reported(self, future):
         self.acks.publish(String())
-        self.received.wait()
-        print('goes on')
 
     def on_ack(self, msg):
         self.received.set()
+        print('goes on')
 
 
 def main():

@@ -10,7 +10,7 @@ from io import StringIO
 from pathlib import Path
 
 from ros2cc_extract.cli.main import main
-from tests.shapes.rows import Node, Row, marked_lines
+from tests.shapes.rows import BREAKS, WAITS, Node, Row, marked_lines
 
 # What says no more than what a set-up is good for.
 ADVICE = ('CC401', 'CC402', 'CC403', 'CC404', 'CC5', 'CC6')
@@ -59,7 +59,7 @@ def verdict(node: Node) -> str:
     """
     said = told(node.path)
     if node.word == 'bad':
-        marked = {line for lines in marked_lines(node.path) for line in lines}
+        marked = {line for lines in marked_lines(node.path, WAITS, BREAKS) for line in lines}
         codes = {code for code, line in said.findings if line in marked}
         undecided = marked & set(said.undecided)
     else:

@@ -1,0 +1,52 @@
+"""As many goals as there are threads wait for an event that a timer sets. Mended."""
+
+import threading
+
+import rclpy
+from rclpy.action import ActionClient, ActionServer
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from test_msgs.action import Fibonacci
+
+
+class Depot(Node):
+    def __init__(self):
+        super().__init__('depot')
+        self.open = threading.Event()
+        self.server = ActionServer(self, Fibonacci, 'load', self.load)
+        self.create_timer(1.5, self.unlock, callback_group=MutuallyExclusiveCallbackGroup())
+
+    def unlock(self):
+        self.open.set()
+
+    def load(self, goal_handle):
+        self.open.wait()
+        goal_handle.succeed()
+        print('goes on')
+        return Fibonacci.Result()
+
+
+class Trucks(Node):
+    def __init__(self):
+        super().__init__('trucks')
+        self.action = ActionClient(self, Fibonacci, 'load')
+        self.count = 0
+        self.create_timer(0.4, self.send)
+
+    def send(self):
+        self.count += 1
+        if self.count % 2 == 0:
+            self.action.send_goal_async(Fibonacci.Goal())
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=8)
+    executor.add_node(Depot())
+    executor.add_node(Trucks())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,28 @@
+"""A node is added to a second executor, which takes it over and is never spun."""
+
+import rclpy
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+
+
+class Mouse(Node):
+    def __init__(self):
+        super().__init__('mouse')
+        self.create_timer(0.3, self.run)
+
+    def run(self):
+        print('goes on')
+
+
+def main():
+    rclpy.init()
+    node = Mouse()
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(node)
+    reserve = SingleThreadedExecutor()  # breaks here
+    reserve.add_node(node)  # breaks here
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
