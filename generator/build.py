@@ -118,6 +118,16 @@ def render(
     )
 
 
+def queries_of(
+    closed: ClosedSpec, *, profile: Profile = Profile.PAPER, max_cycle: int | None = 1
+) -> tuple[Query, ...]:
+    """List the queries of ``closed``, without its model."""
+    numbered = number_unit(closed, max_cycle)
+    if profile is Profile.RCLPY:
+        return rclpy_queries(_with_threads_that_run(numbered))
+    return paper_queries(numbered)
+
+
 def _with_threads_that_run(unit: Unit) -> Unit:
     """Only a pool has as many threads as one asks for."""
     has_pool = unit.kind is ExecutorKind.MULTI_THREADED

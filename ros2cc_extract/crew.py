@@ -89,14 +89,22 @@ class Crew(Generic[Request, Answer]):
         :return: answers in the order of the requests, and which child gave them.
         """
         found: dict[int, tuple[Answer, int | None]] = {}
-        for number, given in self._answers(requests, by or [None] * len(requests)):
+        for number, given in self.each(requests, by):
             found[number] = given
             done(number)
-        for number, request in enumerate(requests):
-            if number not in found:
-                found[number] = (self._answer(request), None)
-                done(number)
         return [found[number] for number in range(len(requests))]
+
+    def each(
+        self, requests: Sequence[Request], by: Sequence[int | None] | None = None
+    ) -> Iterator[tuple[int, tuple[Answer, int | None]]]:
+        """Like ``ask``, one answer after the other with the number of its request."""
+        answered = set()
+        for number, given in self._answers(requests, by or [None] * len(requests)):
+            answered.add(number)
+            yield number, given
+        for number, request in enumerate(requests):
+            if number not in answered:
+                yield number, (self._answer(request), None)
 
     def _answers(
         self, requests: Sequence[Request], by: Sequence[int | None]

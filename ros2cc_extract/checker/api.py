@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from pathlib import Path
 
 from ros2cc_extract.checker import engines
-from ros2cc_extract.checker.limits import Limits, Progress, peak_mb
+from ros2cc_extract.checker.limits import Deadline, Limits, Progress, peak_mb
 from ros2cc_extract.checker.network import Network
 from ros2cc_extract.checker.replay import Replayer
 from ros2cc_extract.checker.run import EdgeRef, Run, StateView, Step
@@ -29,6 +29,7 @@ from ros2cc_extract.places import Place
 __all__ = [
     'Answer',
     'CheckResult',
+    'Deadline',
     'EdgeRef',
     'EngineKind',
     'Fairness',

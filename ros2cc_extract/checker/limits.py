@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 _MEMINFO = Path('/proc/meminfo')
@@ -18,13 +18,57 @@ _STEP_MB = 4
 WITH_LASSOS = 0.8
 
 
+@dataclass(frozen=True)
+class Deadline:
+    """
+    When several searches together have to end.
+
+    :param at: by ``time.monotonic``.
+    :param reason: to give up then.
+    """
+
+    at: float
+    reason: str
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing more is to begin."""
+        return time.monotonic() > self.at
+
+
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """When a search gives up; ``None`` is no limit. Memory is that of the whole process."""
+    """
+    When a search gives up; ``None`` is no limit. Memory is that of the whole process.
+
+    :param seconds: of one search; ``deadline`` is for this one and others.
+    """
 
     states: int | None = None
     memory_mb: float | None = None
     seconds: float | None = None
+    deadline: Deadline | None = None
+
+    def begun(self) -> Limits:
+        """The same from now on, for all searches that share these seconds."""
+        if self.seconds is None:
+            return self
+        own = Deadline(time.monotonic() + self.seconds, seconds_reason(self.seconds))
+        earliest = min(filter(None, (own, self.deadline)), key=lambda deadline: deadline.at)
+        return replace(self, seconds=None, deadline=earliest)
+
+    @property
+    def seconds_left(self) -> float | None:
+        """What a program that knows seconds alone may take."""
+        if self.deadline is None:
+            return self.seconds
+        left = max(0.0, self.deadline.at - time.monotonic())
+        return left if self.seconds is None else min(left, self.seconds)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the deadline has passed."""
+        return self.deadline is not None and self.deadline.is_over
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +108,11 @@ def states_reason(limit: int | None) -> str:
     return f'the limit of {limit} states was reached'
 
 
+def seconds_reason(limit: float) -> str:
+    """Return the reason to give up when the time of a search, or of a model, is over."""
+    return f'the limit of {limit:g} s was reached'
+
+
 class Watch:
     """
     Looks at the clock and the memory now and then; states are for the searches to count.
@@ -94,7 +143,10 @@ class Watch:
         """Return the reason to give up if the time is over, or all of the memory is used."""
         limit = self._limits.seconds
         if limit is not None and self.seconds() > limit:
-            return f'the limit of {limit:g} s was reached'
+            return seconds_reason(limit)
+        deadline = self._limits.deadline
+        if deadline is not None and deadline.is_over:
+            return deadline.reason
         return self._out_of_memory(0, 1.0)
 
     def _out_of_memory(self, more_bytes: int, share: float) -> str | None:

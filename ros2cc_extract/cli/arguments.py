@@ -117,7 +117,7 @@ def add_search_arguments(
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
         '--timeout',
-        type=_seconds,
+        type=number_of_seconds,
         default=seconds,
         metavar='S',
         help=f'stop a model after S seconds{limit}; what is open then is undecided',
@@ -188,7 +188,8 @@ def _range(text: str) -> range:
     return range(low, high + 1)
 
 
-def _seconds(text: str) -> float:
+def number_of_seconds(text: str) -> float:
+    """Read a number of seconds above 0."""
     try:
         value = float(text)
     except ValueError:

@@ -12,10 +12,19 @@ from ros2cc_extract.cli.arguments import (
     add_paths,
     add_search_arguments,
     add_unit_arguments,
+    number_of_seconds,
     options_of,
     policy_of,
 )
-from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS, EXIT_UNDECIDED
+from ros2cc_extract.cli.main import (
+    EXIT_CLEAN,
+    EXIT_ERROR,
+    EXIT_FINDINGS,
+    EXIT_INTERRUPTED,
+    EXIT_TERMINATED,
+    EXIT_UNDECIDED,
+)
+from ros2cc_extract.cli.termination import termination_as_interrupt
 
 if TYPE_CHECKING:
     from ros2cc_extract.cli.config import Config
@@ -23,6 +32,7 @@ if TYPE_CHECKING:
     from ros2cc_extract.report.formats import Checked
 
 DEFAULT_SECONDS = 20.0
+DEFAULT_MAX_SECONDS = 120.0
 WITH_RUNS = ('json', 'html')
 """Formats that show the run behind every verdict."""
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
@@ -57,6 +67,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=DEFAULT_SECONDS)
+    parser.add_argument(
+        '--max-seconds',
+        type=number_of_seconds,
+        default=DEFAULT_MAX_SECONDS,
+        metavar='S',
+        help='verify all units together for S seconds at most (default %(default)g); what is '
+        'open then is undecided',
+    )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -65,14 +83,20 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
-    job = replace(job, known=_known(args, config, job, stderr))
-    outcome = check_paths(job, stderr)
+    with termination_as_interrupt() as termination:
+        job = replace(job, known=_known(args, config, job, stderr))
+        outcome = check_paths(job, stderr)
+    if outcome.interrupted and args.write_baseline is not None:
+        raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
     if args.output is not None:
         _keep(args, outcome, stderr)
     if args.write_baseline is not None:
         _write_baseline(args.write_baseline, outcome, job, stderr)
         return EXIT_CLEAN
     _tell(args, outcome, job, stdout)
+    if outcome.interrupted:
+        print('interrupted: what was not verified by then is undecided', file=stderr)
+        return EXIT_TERMINATED if termination.is_asked else EXIT_INTERRUPTED
     return _status(args, outcome)
 
 
@@ -92,6 +116,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         root=config.root.resolve(),
         cached=not args.no_cache,
         keeps_runs=args.output_format in WITH_RUNS,
+        max_seconds=args.max_seconds,
     )
 
 

@@ -38,7 +38,7 @@ COMMANDS = {
     'merge': 'join a specification from source with one from a live run',
 }
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
-EXIT_INTERRUPTED = 130
+EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
 LONGEST_MESSAGE = 300
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TextIO
 
@@ -12,8 +12,8 @@ from ros2cc_extract.cachefile import default_cache_folder
 from ros2cc_extract.cli.config import Config
 from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.cli.sources import scan_sources
-from ros2cc_extract.cli.verifying import Task, examine_all
-from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.cli.verifying import Examined, Task, examine_all
+from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.findings.baseline import compare
 from ros2cc_extract.findings.collect import all_findings, is_unread
@@ -21,6 +21,7 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.selection import select
 from ros2cc_extract.findings.suppress import suppress
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.model import Spec
@@ -35,6 +36,7 @@ class Job:
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
     :param keeps_runs: the run behind every verdict is wanted.
+    :param max_seconds: for the verification of all units together.
     """
 
     paths: Sequence[Path]
@@ -46,6 +48,7 @@ class Job:
     known: frozenset[str] = frozenset()
     cached: bool = True
     keeps_runs: bool = False
+    max_seconds: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +58,7 @@ class Outcome:
 
     :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
+    :param interrupted: somebody has ended it before all units were verified.
     """
 
     extraction: Extraction
@@ -64,6 +68,7 @@ class Outcome:
     findings: tuple[Finding, ...]
     accepted: int
     sources: Mapping[str, str]
+    interrupted: bool = False
 
     @property
     def summary(self) -> dict[str, int]:
@@ -113,7 +118,11 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         for unit, each in zip(units, closed, strict=True)
     ]
     with bar(stderr, 'verifying') as meter:
-        examined = examine_all(tasks, default_cache_folder() if job.cached else None, meter)
+        folder = default_cache_folder() if job.cached else None
+        examination = examine_all(tasks, folder, meter, job.max_seconds)
+    examined = examination.units
+    defects = tuple(_defects(units, examined))
+    extraction = replace(extraction, diagnostics=(*extraction.diagnostics, *defects))
     findings = (
         *all_findings(
             [each.findings for each in examined],
@@ -135,7 +144,22 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
+        interrupted=examination.interrupted,
     )
+
+
+def _defects(units: Sequence[Spec], examined: Sequence[Examined]) -> Iterator[Diagnostic]:
+    """Tell which units could not be verified because something is wrong here."""
+    for unit, each in zip(units, examined, strict=True):
+        if each.shown.defect:
+            yield Diagnostic(
+                severity=Severity.ERROR,
+                slug='defect',
+                place=unit.executor.source
+                or Place(unit.sources[0] if unit.sources else unit.name),
+                message=f'unit {unit.name} is not verified: {each.shown.defect}',
+                help='this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where',
+            )
 
 
 def _files_shown(findings: Sequence[Finding]) -> set[str]:

@@ -40,6 +40,8 @@ def fingerprints_at(revision: str, job: Job, stderr: TextIO) -> frozenset[str]:
                 return frozenset()
             root = Path(name).resolve()
             outcome = check_paths(replace(job, paths=paths, root=root, known=frozenset()), stderr)
+            if outcome.interrupted:
+                raise KeyboardInterrupt
             return frozenset(fingerprints(outcome.findings, root.as_posix()))
 
 

@@ -13,13 +13,13 @@ from ros2cc_extract.cli.arguments import (
     options_of,
     policy_of,
 )
-from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_UNDECIDED
+from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_UNDECIDED
 from ros2cc_extract.cli.progress import search_progress
 
 if TYPE_CHECKING:
     from ros2cc_extract.checker.api import Query
     from ros2cc_extract.spec.close import ClosedSpec
-    from ros2cc_extract.verify.unit import QueryResult, Verification
+    from ros2cc_extract.verify.unit import OnProgress, Options, QueryResult, Verification
 
 MODEL_SUFFIX = '.xml'
 
@@ -85,6 +85,12 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         _print_json(verifications, stdout)
     else:
         _print_text(verifications, args, stdout)
+    for verification in verifications:
+        if verification.defect:
+            told = f'{verification.model} is not verified: {verification.defect}'
+            print(f'{told}; ROS2CC_TRACEBACK=1 shows where', file=stderr)
+    if any(verification.defect for verification in verifications):
+        return EXIT_ERROR
     undecided = any(verification.is_undecided for verification in verifications)
     return EXIT_UNDECIDED if undecided else EXIT_CLEAN
 
@@ -98,7 +104,7 @@ def _refuse_with_ranges(args: argparse.Namespace) -> None:
 
 
 def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
-    from ros2cc_extract.verify.unit import ask_unit, verify_model, verify_unit
+    from ros2cc_extract.verify.unit import ask_unit, verify_model
 
     options, queries = options_of(args), _queries(args)
     if args.path.suffix == MODEL_SUFFIX:
@@ -110,7 +116,20 @@ def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verific
             if queries:
                 yield ask_unit(closed, queries, options, progress)
             else:
-                yield verify_unit(closed, options, progress)
+                yield _verified(closed, options, progress)
+
+
+def _verified(closed: ClosedSpec, options: Options, progress: OnProgress | None) -> Verification:
+    """One unit; an error of its model is told beside the other units."""
+    from ros2cc_extract.verify.undecided import failed_unit, is_defect
+    from ros2cc_extract.verify.unit import verify_unit
+
+    try:
+        return verify_unit(closed, options, progress)
+    except Exception as error:
+        if not is_defect(error):
+            raise
+        return failed_unit(closed, options, error)
 
 
 def _queries(args: argparse.Namespace) -> list[Query]:

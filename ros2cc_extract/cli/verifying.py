@@ -8,6 +8,7 @@ for stays behind; whoever asks for it later has the unit verified once more.
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, partial
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import ros2cc_extract.generator.build as generator
 from ros2cc_extract.cachefile import code_version, load_value, store_value, tidy
+from ros2cc_extract.checker.api import Deadline
 from ros2cc_extract.cli.progress import Meter
 from ros2cc_extract.crew import Crew, usable_cores
 from ros2cc_extract.findings.collect import findings_of_unit
@@ -24,6 +26,7 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
 from ros2cc_extract.verify.unit import (
     Checker,
     OnProgress,
@@ -37,6 +40,7 @@ from ros2cc_extract.version import __version__
 LONGEST_JUDGEMENT_S = 10.0
 FEWEST_TO_SHARE = 4
 """With fewer units to verify, children cost more than they save."""
+INTERRUPTED = 'interrupted'
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,11 @@ class Task:
         return replace(options, profile=Profile.RCLPY, limits=limits, structural=False)
 
     @property
+    def size(self) -> int:
+        """How much there is to verify, roughly."""
+        return len(self.closed.spec.callbacks)
+
+    @property
     def key(self) -> str:
         """Equal where nothing differs on which the answer depends."""
         text = '\0'.join((__version__, *_code(), repr(self)))
@@ -88,41 +97,105 @@ class Examined:
         return self.shown.complete and self.judged.complete
 
 
-def examine_all(tasks: Sequence[Task], folder: Path | None, meter: Meter) -> list[Examined]:
+@dataclass(frozen=True)
+class Examination:
     """
-    Verify every unit and find what there is to find.
+    All units.
+
+    :param interrupted: somebody has ended it: what was not reached by then is undecided.
+    """
+
+    units: tuple[Examined, ...]
+    interrupted: bool
+
+
+def examine_all(
+    tasks: Sequence[Task], folder: Path | None, meter: Meter, seconds: float | None = None
+) -> Examination:
+    """
+    Verify every unit and find what there is to find, small units first.
 
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
+    :param seconds: for all of them; what is not decided by then is undecided.
     """
+    deadline = _deadline(seconds)
     found = {n: known for n, task in enumerate(tasks) if (known := _load(task, folder))}
-    left = [number for number in range(len(tasks)) if number not in found]
+    left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
     size = min(usable_cores(), len(left)) if len(left) >= FEWEST_TO_SHARE else 1
     finished = count(len(found))
     meter.step(next(finished), len(tasks))
 
     def answer(number: int) -> Examined:
         task = tasks[number]
+        if deadline is not None and deadline.is_over:
+            return _unasked(task, deadline.reason)
         watch = meter.search(task.closed.spec.name) if size == 1 else None
-        examined = examine(task, watch)
+        examined = examine(task, watch, deadline)
         _store(task, examined, folder)
         return examined
 
-    with Crew(answer, size) as crew:
-        answers = crew.ask(left, done=lambda _: meter.step(next(finished), len(tasks)))
-    found.update((number, given) for number, (given, _) in zip(left, answers, strict=True))
+    interrupted = False
+    try:
+        with Crew(answer, size) as crew:
+            for place, (given, _) in crew.each(left):
+                found[left[place]] = given
+                meter.step(next(finished), len(tasks))
+    except KeyboardInterrupt:
+        interrupted = True
     if folder is not None and left:
         tidy(folder)
-    return [_with_runs(found[number], task) for number, task in enumerate(tasks)]
+    units = (
+        _with_runs(found[number], task) if number in found else _unasked(task, INTERRUPTED)
+        for number, task in enumerate(tasks)
+    )
+    return Examination(tuple(units), interrupted)
 
 
-def examine(task: Task, watch: OnProgress | None = None) -> Examined:
-    """Verify one unit; runs that are not kept are told by nobody but ``_with_runs``."""
-    shown = verify_unit(task.closed, task.options, watch)
-    judged = verify_unit(task.closed, task.judging, watch) if task.judging else shown
+def _deadline(seconds: float | None) -> Deadline | None:
+    if seconds is None:
+        return None
+    reason = f'the limit of {seconds:g} s for all units was reached; see --max-seconds'
+    return Deadline(time.monotonic() + seconds, reason)
+
+
+def _unasked(task: Task, reason: str) -> Examined:
+    """A unit that nobody has come to."""
+    shown = undecided_unit(task.closed, task.options, reason)
+    judged = undecided_unit(task.closed, task.judging, reason) if task.judging else shown
+    return Examined(shown, judged, findings_of_unit(task.unit, judged))
+
+
+def examine(
+    task: Task, watch: OnProgress | None = None, deadline: Deadline | None = None
+) -> Examined:
+    """
+    Verify one unit; runs that are not kept are told by nobody but ``_with_runs``.
+
+    What is wrong with our own model of it is told, and the other units go on.
+    """
+    try:
+        return _examine(task, watch, deadline)
+    except Exception as error:
+        if not is_defect(error):
+            raise  # such as a program that was asked for and is not there
+        shown = failed_unit(task.closed, task.options, error)
+        judged = failed_unit(task.closed, task.judging, error) if task.judging else shown
+        return Examined(shown, judged, findings_of_unit(task.unit, None))
+
+
+def _examine(task: Task, watch: OnProgress | None, deadline: Deadline | None) -> Examined:
+    shown = verify_unit(task.closed, _until(deadline, task.options), watch)
+    judged = shown
+    if task.judging:
+        judged = verify_unit(task.closed, _until(deadline, task.judging), watch)
     findings = findings_of_unit(task.unit, judged)
     kept = _kept(shown, task.keeps_runs)
     return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
+
+
+def _until(deadline: Deadline | None, options: Options) -> Options:
+    return replace(options, limits=replace(options.limits, deadline=deadline))
 
 
 def _kept(verification: Verification, with_runs: bool) -> Verification:
@@ -173,8 +246,17 @@ class _Again:
 
     def _run(self, number: int) -> Evidence:
         evidence = self._verification.results[number].evidence
-        assert evidence is not None, 'the same search finds the same run'
-        return evidence
+        return evidence or _LOST
+
+
+#: A slower search, with as little time as the first.
+_LOST = Evidence(
+    start={},
+    moments=(),
+    cycle_from=None,
+    ends=None,
+    closing='this run was not found again within the limits',
+)
 
 
 def _load(task: Task, folder: Path | None) -> Examined | None:

@@ -6,21 +6,17 @@ What slices cannot decide is asked of the whole unit, as far as the limits go.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.slices import Names, Shape, Slicer, shape_of
-
-if TYPE_CHECKING:
-    from ros2cc_extract.verify.unit import QueryResult
 
 #: A unit of up to so many callbacks is explored as a whole if it has no more states than that.
 SMALL = 8
@@ -56,7 +52,7 @@ def narrow(
     closed: ClosedSpec, queries: Sequence[Query], max_cycle: int, search: Search, limits: Limits
 ) -> Found:
     """Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each."""
-    clock = _Clock(limits, time.monotonic())
+    limits = limits.begun()
     found: Found | None = None
     if len(closed.spec.callbacks) <= SMALL:
         first = replace(limits, states=FIRST_LOOK_STATES)
@@ -65,7 +61,7 @@ def narrow(
             return found
     left = [q for q in queries if found is None or _is_open(found.results[key_of(q)])]
     slicer = Slicer(closed, max_cycle)
-    slicing = _Slicing(slicer, search, clock)
+    slicing = _Slicing(slicer, search, limits)
     # Who starves follows from who comes to no end, as a rule.
     for last in (False, True):
         part = slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
@@ -77,28 +73,31 @@ def narrow(
     results = {} if found is None else found.results
     rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
     if rest or found is None:
-        whole = search(closed, rest, clock.remaining or replace(limits, states=1))
+        whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, limits)
         found = whole if found is None else _joined(found, whole)
     complete = not any(map(_is_open, found.results.values()))
     return replace(found, check=replace(found.check, complete=complete))
 
 
+def _unasked(queries: Sequence[Query], keys: Sequence[Key], limits: Limits) -> Found:
+    """What is open when the time is over before the whole unit could be asked."""
+    reason = limits.deadline.reason if limits.deadline else ''
+    left = [query for query in queries if key_of(query) in keys]
+    check = CheckResult(
+        engine='none',
+        note='',
+        states=0,
+        transitions=0,
+        seconds=0.0,
+        peak_mb=0.0,
+        complete=False,
+        answers=(),
+    )
+    return Found({key_of(query): open_result(query, reason) for query in left}, check)
+
+
 def _is_undecided(result: QueryResult | None) -> bool:
     return result is None or _is_open(result)
-
-
-@dataclass(frozen=True)
-class _Clock:
-    limits: Limits
-    started: float
-
-    @property
-    def remaining(self) -> Limits | None:
-        """What is left of the time; ``None`` when nothing is."""
-        if self.limits.seconds is None:
-            return self.limits
-        seconds = self.limits.seconds - (time.monotonic() - self.started)
-        return replace(self.limits, seconds=seconds) if seconds > 0 else None
 
 
 @dataclass(frozen=True)
@@ -125,7 +124,7 @@ class _Question:
 class _Slicing:
     slicer: Slicer
     search: Search
-    clock: _Clock
+    limits: Limits
 
     def decide(self, queries: Iterable[Query]) -> Found | None:
         """Ask every slice of ``queries``; ``None`` where none of them has any."""
@@ -141,9 +140,8 @@ class _Slicing:
                     asked.setdefault(shape, []).append(_Question(part, key_of(query)))
         found: Found | None = None
         for questions in asked.values():
-            remaining = self.clock.remaining
-            if remaining is not None:
-                answered = self._ask(questions, replace(remaining, states=SLICE_STATES))
+            if not self.limits.is_over:
+                answered = self._ask(questions, replace(self.limits, states=SLICE_STATES))
                 found = answered if found is None else _joined(found, answered)
         return found
 

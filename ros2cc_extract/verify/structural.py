@@ -65,6 +65,11 @@ def structural_verdicts(
         shape = _shape(part.spec, callback)
         answer = known.get(shape)
         seconds = 0.0
+        if answer is None and limits.deadline is not None and limits.is_over:
+            reason = limits.deadline.reason
+            query = structural_starvation(numbered)
+            yield Structural(query, Verdict.UNDECIDED, reason, 0.0, None)
+            continue
         if answer is None:
             answer = known[shape] = _ask(part, callback.name, engine, limits)
             seconds = answer.seconds

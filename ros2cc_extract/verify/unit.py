@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 
 from ros2cc_extract.checker.api import (
@@ -33,8 +33,10 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
-from ros2cc_extract.verify.load import Load, load_of
+from ros2cc_extract.verify.load import load_of
 from ros2cc_extract.verify.narrowing import Found, Key, key_of, narrow
+from ros2cc_extract.verify.results import QueryResult as QueryResult
+from ros2cc_extract.verify.results import Verification as Verification
 from ros2cc_extract.verify.structural import structural_verdicts
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta
@@ -75,68 +77,11 @@ class Options:
     jobs: int = 1
 
 
-@dataclass(frozen=True, kw_only=True)
-class QueryResult:
-    """
-    One verdict with its evidence.
-
-    :param family: value of ``generator.build.Family``; ``None`` for a query we did not write.
-    :param callbacks: names of the callbacks the query is about.
-    :param seconds: when it was decided, counted from the start of the exploration.
-    :param load: what the rates say, beside a verdict of profile rclpy on starvation.
-    :param run: the run behind the verdict, or what gives it; use ``evidence``.
-    """
-
-    family: str | None
-    formula: str
-    words: str
-    callbacks: tuple[str, ...]
-    verdict: Verdict
-    reason: str | None
-    seconds: float
-    run: Evidence | Callable[[], Evidence] | None
-    load: Load | None = None
-
-    @cached_property
-    def evidence(self) -> Evidence | None:
-        """The run behind the verdict, replayed and told when it is first asked for."""
-        return self.run() if callable(self.run) else self.run
-
-
-@dataclass(frozen=True, kw_only=True)
-class Verification:
-    """
-    All verdicts of one model.
-
-    :param peak_mb: largest resident memory of the process, in MB.
-    :param complete: false when a limit ended the exploration.
-    :param assumptions: what was decided about open facts of the unit, in words.
-    :param notes: what else the reader should know, such as a checker that could not be used.
-    """
-
-    model: str
-    profile: str | None
-    text: str | None
-    engine: str
-    states: int
-    transitions: int
-    seconds: float
-    peak_mb: float
-    complete: bool
-    results: tuple[QueryResult, ...]
-    assumptions: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    @property
-    def is_undecided(self) -> bool:
-        """True when a limit left at least one query open."""
-        return any(result.verdict is Verdict.UNDECIDED for result in self.results)
-
-
 def verify_unit(
     closed: ClosedSpec, options: Options = Options(), progress: OnProgress | None = None
 ) -> Verification:
     """Render, check and tell one unit."""
+    options = replace(options, limits=options.limits.begun())
     rendered = _render(closed, options)
     if options.text is build.Text.COMPACT:
         # It resets its variables itself: looking for dead ones costs time and finds no state less.
@@ -151,10 +96,12 @@ def verify_unit(
         _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
         for query in rendered.queries
     )
+    structural = tuple(_structural(closed, options))
+    is_open = any(result.verdict is Verdict.UNDECIDED for result in structural)
     return _verification(
         rendered.name,
-        found.check,
-        _with_loads((*results, *_structural(closed, options)), closed),
+        replace(found.check, complete=found.check.complete and not is_open),
+        _with_loads((*results, *structural), closed),
         profile=options.profile.value,
         text=options.text.value,
         assumptions=closed.assumptions,
@@ -386,7 +333,7 @@ def _ask_verifyta(
         program=find_verifyta(options.verifyta),
         runs=options.runs,
         fairness=options.fairness,
-        seconds=options.limits.seconds,
+        seconds=options.limits.seconds_left,
     )
 
 

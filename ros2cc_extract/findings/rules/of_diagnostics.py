@@ -57,8 +57,10 @@ UNREADABLE = Rule(
     severity=Severity.ERROR,
     title='Not read, or not followed to its end',
     what='A file is no UTF-8 text, does not parse as Python, or could not be opened: nothing in '
-    'it was checked. As a warning: a program is too long to be followed to its end, or makes '
-    'entities of an object that is no node in sight; they are missing from the units.',
+    'it was checked. Or the model of a unit could not be used, which is a defect of this tool: '
+    'the other units were verified. As a warning: a program is too long to be followed to its '
+    'end, or makes entities of an object that is no node in sight; they are missing from the '
+    'units.',
     why='The extractor reads source by the syntax of the Python version it runs on.',
     bad="""\
 def on_timer(self:

@@ -167,10 +167,14 @@ def test_what_slices_leave_open_is_asked_of_the_whole_unit() -> None:
     assert (found.check.states, found.check.seconds) == (20, 1.0)
 
 
-def test_without_time_the_whole_unit_gets_a_single_state() -> None:
+def test_without_time_nothing_is_asked_and_all_is_open() -> None:
     search = Asked(all_are(OPEN))
-    found = narrow(APART, queries_of(APART, Family.SELF_OVERLAP), 1, search, Limits(seconds=0))
-    assert [(len(names), states) for names, _, states in search.questions] == [(9, 1)]
+    queries = queries_of(APART, Family.SELF_OVERLAP)
+    found = narrow(APART, queries, 1, search, Limits(seconds=0))
+    assert search.questions == []
+    assert {r.reason for r in found.results.values()} == {'the limit of 0 s was reached'}
+    assert set(verdicts(found).values()) == {OPEN}
+    assert len(found.results) == len(queries)
     assert not found.check.complete
 
 

@@ -1,0 +1,86 @@
+"""What is known of a model: its verdicts, each with its evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.generator.build import Query
+from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.load import Load
+
+
+@dataclass(frozen=True, kw_only=True)
+class QueryResult:
+    """
+    One verdict with its evidence.
+
+    :param family: value of ``generator.build.Family``; ``None`` for a query we did not write.
+    :param callbacks: names of the callbacks the query is about.
+    :param seconds: when it was decided, counted from the start of the exploration.
+    :param load: what the rates say, beside a verdict of profile rclpy on starvation.
+    :param run: the run behind the verdict, or what gives it; use ``evidence``.
+    """
+
+    family: str | None
+    formula: str
+    words: str
+    callbacks: tuple[str, ...]
+    verdict: Verdict
+    reason: str | None
+    seconds: float
+    run: Evidence | Callable[[], Evidence] | None
+    load: Load | None = None
+
+    @cached_property
+    def evidence(self) -> Evidence | None:
+        """The run behind the verdict, replayed and told when it is first asked for."""
+        return self.run() if callable(self.run) else self.run
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verification:
+    """
+    All verdicts of one model.
+
+    :param peak_mb: largest resident memory of the process, in MB.
+    :param complete: false when a limit ended the exploration.
+    :param assumptions: what was decided about open facts of the unit, in words.
+    :param notes: what else the reader should know, such as a checker that could not be used.
+    :param defect: what went wrong in this tool, so that nothing was decided; mostly empty.
+    """
+
+    model: str
+    profile: str | None
+    text: str | None
+    engine: str
+    states: int
+    transitions: int
+    seconds: float
+    peak_mb: float
+    complete: bool
+    results: tuple[QueryResult, ...]
+    assumptions: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    defect: str = ''
+
+    @property
+    def is_undecided(self) -> bool:
+        """True when a limit left at least one query open."""
+        return any(result.verdict is Verdict.UNDECIDED for result in self.results)
+
+
+def open_result(query: Query, reason: str) -> QueryResult:
+    """The answer to a query that was not asked, or not to the end."""
+    return QueryResult(
+        family=query.family.value,
+        formula=query.formula,
+        words=query.words,
+        callbacks=query.callbacks,
+        verdict=Verdict.UNDECIDED,
+        reason=reason,
+        seconds=0.0,
+        run=None,
+    )
