@@ -43,7 +43,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-o', '--output', type=Path, metavar='DIR', help='keep specification, model and queries'
     )
-    parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
+    parser.add_argument(
+        '--strict',
+        action='store_true',
+        help='exit 3 when a fact is unresolved or a wait undecided',
+    )
     parser.add_argument('--output-format', choices=FORMATS, default='text')
     parser.add_argument(
         '--tables',
@@ -211,9 +215,9 @@ def _status(args: argparse.Namespace, outcome: Outcome) -> int:
 
 
 def _is_unresolved(outcome: Outcome) -> bool:
-    """Whether a unit has an open fact, or was left out for one, or a file was not read."""
+    """Whether a unit has an open fact or wait, or was left out, or a file was not read."""
     from ros2cc_extract.cli.sources import NOT_FOLLOWED, has_unread
 
-    of_units = any(unit.unresolved for unit in outcome.units)
     noticed = outcome.extraction.diagnostics
+    of_units = any(unit.unresolved for unit in outcome.units) or bool(outcome.undecided_waits)
     return of_units or has_unread(noticed) or any(d.slug == NOT_FOLLOWED for d in noticed)

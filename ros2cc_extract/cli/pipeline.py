@@ -19,6 +19,7 @@ from ros2cc_extract.findings.baseline import compare
 from ros2cc_extract.findings.collect import all_findings, is_unread
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
+from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.findings.selection import select
 from ros2cc_extract.findings.suppress import suppress
 from ros2cc_extract.places import Place
@@ -84,7 +85,8 @@ class Outcome:
             'undecided': verdicts['undecided'],
             'errors': severities[Severity.ERROR],
             'warnings': severities[Severity.WARNING],
-            'notes': severities[Severity.NOTE],
+            'notes': severities[Severity.NOTE] - len(self.undecided_waits),
+            'undecided_waits': len(self.undecided_waits),
             'accepted': self.accepted,
         }
 
@@ -92,6 +94,11 @@ class Outcome:
     def is_undecided(self) -> bool:
         """True when a limit left a verdict open."""
         return any(verification.is_undecided for verification in self.verifications)
+
+    @property
+    def undecided_waits(self) -> tuple[Finding, ...]:
+        """Waits of which it is open whether they end."""
+        return tuple(finding for finding in self.findings if finding.code == UNDECIDED_WAIT)
 
     @property
     def has_findings(self) -> bool:

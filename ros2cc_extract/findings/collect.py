@@ -10,11 +10,16 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.registry import BY_SLUG, RULES
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.rules.of_diagnostics import UNREADABLE
+from ros2cc_extract.findings.rules.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.rules.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases import has_change
 from ros2cc_extract.verify.unit import Verification
+
+OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
+"""Told of a wait of which no other rule says more."""
+_OF_WAITS = ('CC1', 'CC2')
 
 
 def findings_of(
@@ -86,7 +91,13 @@ def _identity(finding: Finding) -> tuple[object, ...]:
 
 def findings_of_unit(unit: Spec, verification: Verification | None) -> tuple[Finding, ...]:
     """What the rules find in one unit."""
-    return tuple(_of_unit(Context(unit, verification)))
+    found = tuple(_of_unit(Context(unit, verification)))
+    decided = {_line(f) for f in found if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
+    return tuple(f for f in found if f.code not in OPEN_WAITS or _line(f) not in decided)
+
+
+def _line(finding: Finding) -> tuple[str, int | None]:
+    return finding.place.file, finding.place.line
 
 
 def _of_unit(context: Context) -> Iterator[Finding]:

@@ -11,9 +11,10 @@ from rich.padding import Padding
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.report.confidence_text import confidence_lines
 from ros2cc_extract.report.counts import counted
-from ros2cc_extract.report.findings_text import print_findings
+from ros2cc_extract.report.findings_text import print_findings, print_in_lines
 from ros2cc_extract.report.overview_text import print_overview
 from ros2cc_extract.report.spec_text import print_spec
 from ros2cc_extract.report.style import table
@@ -29,7 +30,7 @@ MOST_NOTES = 10
 MOST_FILES = 10
 """Of more files than this the notes are counted together."""
 LONGEST_TABLE = 40
-FINDINGS = ('errors', 'warnings', 'notes', 'accepted')
+FINDINGS = ('errors', 'warnings', 'notes', 'undecided_waits', 'accepted')
 SIZES = ('files', 'units', 'callbacks')
 VERDICTS = ('satisfied', 'not_satisfied', 'undecided')
 OF_NO_INTEREST = {'group_closed_while_running', 'group_always_open'}
@@ -59,12 +60,15 @@ def print_check(
             console.print()
             _print_verification(verification, console)
             console.print()
+    open_waits = [finding for finding in findings if finding.code == UNDECIDED_WAIT]
+    findings = [finding for finding in findings if finding not in open_waits]
     notes = [finding for finding in findings if finding.severity is Severity.NOTE]
     brief = len(notes) > MOST_NOTES and not tables
     told = [finding for finding in findings if finding not in notes] if brief else findings
     print_findings(told, Path.cwd(), console)
     if brief:
         _print_notes(notes, console)
+    print_in_lines(open_waits, console)
     for line in confidence_lines(confidence_in(unit for unit, _ in verified), 0):
         console.print(line)
     console.print(_totals(summary), soft_wrap=True)
@@ -72,7 +76,8 @@ def print_check(
 
 def _totals(summary: Mapping[str, int]) -> str:
     """What decides the exit status stands first."""
-    found = f'{_counts(summary, FINDINGS)} in {_counts(summary, SIZES)}'
+    kinds = [kind for kind in FINDINGS if summary[kind] or kind != 'undecided_waits']
+    found = f'{_counts(summary, kinds)} in {_counts(summary, SIZES)}'
     return f'{found}; verdicts: {_counts(summary, VERDICTS)}' if summary['units'] else found
 
 

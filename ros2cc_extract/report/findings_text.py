@@ -21,10 +21,7 @@ _COLOURS = {Severity.ERROR: 'red', Severity.WARNING: 'magenta', Severity.NOTE: '
 def print_findings(findings: Sequence[Finding], root: Path, console: Console) -> None:
     """Print each finding with its source line, evidence and help."""
     for finding in findings:
-        head = Text(f'{finding.place}: ')
-        head.append(finding.code, style=_COLOURS[finding.severity])
-        head.append(f' {finding.message}')
-        console.print(head, soft_wrap=True)
+        _print_head(finding, console)
         for line in source_excerpt(finding.place, root):
             console.print(line, soft_wrap=True)
         for remark in (*finding.chain, *finding.related[:MOST_RELATED]):
@@ -37,6 +34,19 @@ def print_findings(findings: Sequence[Finding], root: Path, console: Console) ->
             print_run(finding.run, console)
         if finding.help:
             console.print(f'  help: {finding.help}', soft_wrap=True)
+
+
+def print_in_lines(findings: Sequence[Finding], console: Console) -> None:
+    """Print each finding on one line, without source and evidence."""
+    for finding in findings:
+        _print_head(finding, console)
+
+
+def _print_head(finding: Finding, console: Console) -> None:
+    head = Text(f'{finding.place}: ')
+    head.append(finding.code, style=_COLOURS[finding.severity])
+    head.append(f' {finding.message}')
+    console.print(head, soft_wrap=True)
 
 
 def source_excerpt(place: Place, root: Path) -> list[str]:

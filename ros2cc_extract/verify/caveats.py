@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.generator.waits import unknown_ends, waits_of
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import Spec
 
 
@@ -44,3 +45,12 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
             f'{executor.kind} runs callbacks on one thread; the published model has a pool of '
             'as many as asked'
         )
+
+
+def open_ends(unit: Spec) -> dict[str, tuple[Blocking, ...]]:
+    """Give for each callback that somebody wrote the waits whose end is in no model, by name."""
+    return {
+        callback.name: tuple(unknown_ends(callback, unit))
+        for callback in unit.callbacks
+        if not callback.builtin
+    }

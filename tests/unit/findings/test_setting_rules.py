@@ -273,7 +273,7 @@ def test_a_nested_spin_gives_groups_an_effect_on_one_thread(call: str) -> None:
 
 def test_an_await_gives_groups_an_effect_on_one_thread() -> None:
     waiter = timer('a', 'other', blocking=calls('helper', call='await'))
-    assert found(unit(ONE_THREAD, waiter, timer('b'))) == []
+    assert found(unit(ONE_THREAD, waiter, timer('b'))) == ['CC120:40 note']
 
 
 def test_the_events_executor_never_asks_the_groups() -> None:

@@ -29,6 +29,7 @@ SUMMARY = {
     'errors': 1,
     'warnings': 0,
     'notes': 2,
+    'undecided_waits': 1,
     'accepted': 3,
 }
 
@@ -114,9 +115,17 @@ def test_a_unit_without_an_entry_is_told_by_the_file_that_is_its_own(
 
 def test_the_last_line_begins_with_what_decides(checked: tuple[Spec, Verification]) -> None:
     assert told(checked, []).splitlines()[-1] == (
-        '1 error, 0 warnings, 2 notes, 3 accepted in 1 file, 4 units, 12 callbacks; '
-        'verdicts: 44 satisfied, 28 not satisfied, 0 undecided'
+        '1 error, 0 warnings, 2 notes, 1 undecided wait, 3 accepted in 1 file, 4 units, '
+        '12 callbacks; verdicts: 44 satisfied, 28 not satisfied, 0 undecided'
     )
+
+
+def test_an_undecided_wait_is_a_line_of_its_own_among_however_many_notes(
+    checked: tuple[Spec, Verification],
+) -> None:
+    wait = replace(NOTE, code='CC120', message='not decided: feed waits in Barrier.wait')
+    lines = told(checked, [NOTE] * 11 + [wait]).splitlines()
+    assert f'{NOTE.place}: CC120 not decided: feed waits in Barrier.wait' in lines
 
 
 @pytest.mark.parametrize(('units', 'tables'), [(3, False), (4, True)])

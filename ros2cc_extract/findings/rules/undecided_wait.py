@@ -1,0 +1,174 @@
+"""CC120 and CC121: waits whose end the model does not know, and waits that others outside end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.verdicts import PROGRESS, surely_ends, verdict_on
+from ros2cc_extract.findings.waits import (
+    Wait,
+    WaitKind,
+    at_one_place,
+    callers_of,
+    kind_of,
+    waits_in,
+    ways_of_others,
+    who_waits,
+)
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import OUTSIDE, Blocking
+from ros2cc_extract.verify.caveats import open_ends
+from ros2cc_extract.verify.unit import Verdict
+
+CODE = 'CC120'
+_NOBODY_KNOWN = 'it is not known who ends it'
+
+
+def find_undecided(context: Context) -> Iterator[Hit]:
+    """One line for each wait, however many callbacks it may hold up."""
+    yield from _hits(context, is_outside=False)
+
+
+def find_outside(context: Context) -> Iterator[Hit]:
+    """What ends by another process or the operating system, if it ends."""
+    yield from _hits(context, is_outside=True)
+
+
+def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
+    reasons: dict[int, str] = {}
+    waits: list[Wait] = []
+    ends = open_ends(context.unit)
+    for caller in context.written:
+        for block, reason in _open(caller.blocking, ends[caller.name]):
+            wait = Wait(caller, block, kind_of(block))
+            if _ends_outside(block) is is_outside and not surely_ends(wait, context):
+                waits.append(wait)
+                reasons[id(wait)] = reason
+    if not is_outside:
+        for wait in _cut_short(context, waits):
+            waits.append(wait)
+            reasons[id(wait)] = _limit_of(wait, context)
+    for alike in at_one_place(waits):
+        yield _hit(alike, reasons[id(alike[0])], is_outside=is_outside)
+
+
+def _open(
+    blocking: Sequence[Blocking], unknown: Sequence[Blocking]
+) -> Iterator[tuple[Blocking, str]]:
+    for block in blocking:
+        if any(block is each for each in unknown):
+            yield block, _reason(block)
+
+
+def _reason(block: Blocking) -> str:
+    if block.escapes is not None:
+        return f'it is not known who ends it: {block.escapes.reason}'
+    if isinstance(block.on, Unknown):
+        return f'{_NOBODY_KNOWN}: {block.on.reason}'
+    return _NOBODY_KNOWN
+
+
+def _ends_outside(block: Blocking) -> bool:
+    wakers = {waker.by for waker in block.wakers}
+    return block.escapes is None and wakers == {OUTSIDE}
+
+
+def _cut_short(context: Context, told: Sequence[Wait]) -> Iterator[Wait]:
+    """Waits of callbacks about whose end a limit of the checker has left the question open."""
+    if told:
+        return  # claims about ends are open for the reason that is told
+    for caller in context.written:
+        result = verdict_on(PROGRESS, context, caller)
+        if result is not None and result.verdict is Verdict.UNDECIDED:
+            yield from (
+                Wait(caller, block, kind_of(block))
+                for block in caller.blocking
+                if kind_of(block) is not WaitKind.SLEEP and block.seconds is None
+            )
+
+
+def _limit_of(wait: Wait, context: Context) -> str:
+    result = verdict_on(PROGRESS, context, wait.caller)
+    return (result.reason if result else None) or 'a limit was hit'
+
+
+def _hit(waits: Sequence[Wait], reason: str, *, is_outside: bool) -> Hit:
+    wait = waits[0]
+    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
+    named = f' for {what}' if what else ''
+    verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
+    start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
+    ends = f'and {verb} for ever if nobody outside this program ends it'
+    return Hit(
+        place=wait.place,
+        message=f'{start} without a time-out, {ends}'
+        if is_outside
+        else f'not decided: {start}, and {reason}',
+        help=''
+        if is_outside
+        else 'give it a time-out, or see to it that whoever ends it can be followed',
+        subjects=callers_of(waits),
+        chain=wait.chain,
+        related=tuple(ways_of_others(waits)),
+    )
+
+
+UNDECIDED = Rule(
+    code=CODE,
+    slug='undecided-wait',
+    severity=Severity.NOTE,
+    title='Wait that could not be decided',
+    what='A callback waits for something, and whoever ends that wait could not be followed: the '
+    'object was handed to code that is not in sight, or nobody in sight ends it. Whether the '
+    'callback goes on is open, and so is every claim that rests on it. There is one line for each '
+    'wait, not for each callback that it may hold up. With `--strict` the exit status is 3.',
+    why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
+    'result means that no wait can last for ever; where that is not known it is said. Sources: '
+    'rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py`.',
+    bad="""\
+class Feeder(Node):
+    def __init__(self):
+        super().__init__('feeder')
+        self.jobs = connect_to_plant()           # a library whose source is not in sight
+        self.create_timer(0.5, self.feed)
+
+    def feed(self):
+        self.jobs.wait()
+""",
+    good="""\
+class Feeder(Node):
+    def feed(self):
+        self.jobs.wait(timeout=0.1)
+""",
+    mend='Give the wait a time-out. Or let a callback or a thread in sight end it, so that the '
+    'model can decide it.',
+    find=find_undecided,
+)
+
+OUTSIDE_WAIT = Rule(
+    code='CC121',
+    slug='outside-wait',
+    severity=Severity.NOTE,
+    title='Wait that only another program ends',
+    what='A callback waits without a time-out for a process, a socket, a serial line or a person. '
+    'The verdicts assume that it ends. If it does not, the callback keeps its thread and its '
+    'mutually exclusive group for ever.',
+    why='Nothing in this program ends such a wait: without a time-out it lasts until the other '
+    'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
+    'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '
+    'returns.',
+    bad="""\
+class Feeder(Node):
+    def feed(self):
+        subprocess.run(['plant', 'feed'])
+""",
+    good="""\
+class Feeder(Node):
+    def feed(self):
+        subprocess.run(['plant', 'feed'], timeout=1.0)
+""",
+    mend='Give the wait a time-out, or do it in a thread of its own.',
+    find=find_outside,
+)

@@ -1,0 +1,57 @@
+"""CC120 and CC121: a wait that no model decides is told, once, and weighs with ``--strict``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from finding_units import ONE_THREAD, calls, client, found, only, threads, timer, unit
+
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import OUTSIDE, Waker
+
+
+def test_a_wait_whose_end_nobody_knows_is_told() -> None:
+    waits = calls('jobs', call='Barrier.wait')
+    finding = only(unit(threads(2), timer('feed', blocking=waits)), 'CC120')
+    assert finding.message == (
+        'not decided: feed waits in Barrier.wait for jobs, and it is not known who ends it'
+    )
+
+
+def test_why_it_is_not_known_is_said() -> None:
+    (wait,) = calls(None, call='Queue.get')
+    wait = replace(wait, resource='jobs', escapes=Unknown('jobs is passed to plant.connect'))
+    finding = only(unit(threads(2), timer('feed', blocking=(wait,))), 'CC120')
+    assert finding.message.endswith(
+        'for jobs, and it is not known who ends it: jobs is passed to plant.connect'
+    )
+
+
+def test_one_line_for_one_wait_however_many_callbacks_get_there() -> None:
+    waits = calls('jobs', call='Barrier.wait')
+    spec = unit(ONE_THREAD, timer('feed', blocking=waits), timer('drain', blocking=waits))
+    assert found(spec) == ['CC120:40 note']
+    assert only(spec, 'CC120').subjects == ('feed', 'drain')
+
+
+def test_a_wait_that_is_found_to_hang_is_told_by_its_own_rule_alone() -> None:
+    waits = calls('plan_client')
+    assert found(unit(ONE_THREAD, timer('drive', blocking=waits), client('plan_client'))) == [
+        'CC102:40'
+    ]
+
+
+def test_what_another_program_ends_rests_on_that_program() -> None:
+    (wait,) = calls(None, call='subprocess.run')
+    wait = replace(wait, wakers=(Waker(by=OUTSIDE),))
+    spec = unit(threads(2), timer('feed', blocking=(wait,)))
+    assert found(spec) == ['CC121:40 note']
+    assert only(spec, 'CC121').message == (
+        'feed waits in subprocess.run without a time-out, and waits for ever if nobody outside '
+        'this program ends it'
+    )
+
+
+def test_a_time_out_ends_it_in_any_case() -> None:
+    waits = calls('jobs', call='Barrier.wait', seconds=0.5)
+    assert found(unit(threads(2), timer('feed', blocking=waits))) == []
