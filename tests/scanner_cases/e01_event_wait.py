@@ -34,6 +34,8 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer wait in a_default every 1
-#     blocks Event.wait on on_in @18
-#     blocks Event.wait on on_in 2.0 s @19
+#     blocks Event.wait on on_in through done @18
+#       ended by on_in @22
+#     blocks Event.wait on on_in through done 2.0 s @19
+#       ended by on_in @22
 #   subscription on_in in a_default key=in

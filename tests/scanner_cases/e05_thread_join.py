@@ -34,3 +34,6 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
 #     blocks Thread.join on worker @18
+#       ended by work @17
+#   activity thread work (A.work) started by tick @17 count=?
+#     writes A.value @21

@@ -37,6 +37,7 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
 #     blocks busy wait on ? @21
+#       ended by ?
 #     blocks rclpy.spin_once on a 0.1 s @22
 #     blocks time.sleep 0.1 s @24
 #     reads A.arrived @21

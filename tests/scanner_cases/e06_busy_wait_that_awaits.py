@@ -49,11 +49,13 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1 coroutine
 #     blocks await on go_client @26
-#     blocks await on lambda_set_result @29>21
+#     blocks await on lambda_set_result through woken conditional @29>21
+#       ended by lambda_set_result @20
 #     changes timer @29>20
 #   timer tock in a_default every 1 coroutine
 #     blocks busy wait on go_client @33
-#     blocks await on woken @35>21
+#     blocks await on woken through woken#2 conditional @35>21
+#       ended by lambda_set_result @20
 #     blocks time.sleep 0.01 s @36
 #     changes timer @35>20
 #   timer lambda_set_result in a_default (A.pause.<locals>.<lambda>) every 0.1 conditional count=? when=callback

@@ -49,9 +49,15 @@ if __name__ == '__main__':
 #   group no_group REENTRANT groupless
 #   timer wait in a_default every 1 coroutine
 #     blocks Event.wait on two @24
+#       ended by wait after 4 @30
+#       ended by on_in @33
 #     blocks Event.wait on other @25
-#     blocks Event.wait on lambda_set @28
-#     blocks await on on_in @29
+#       ended by time @21
+#       ended by on_in @34
+#     blocks Event.wait on lambda_set through answer @28
+#       ended by lambda_set @27
+#     blocks await on on_in through result @29
+#       ended by on_in @35
 #     changes done_callback @27
 #   subscription on_in in a_default key=in
 #   client go_client in a_default key=go

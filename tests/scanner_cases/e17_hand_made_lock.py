@@ -102,7 +102,8 @@ if __name__ == '__main__':
 #     locks free @63>15
 #     locks free @66>19
 #   timer write in a_default every 1
-#     blocks Condition.wait on free @70>26
+#     blocks Condition.wait on read through free each @70>26
+#       ended by read @21
 #     reads A.rw @70
 #     reads ReadWriteLock.readers under free @70>25
 #     reads A.rw under free, rw @72

@@ -35,7 +35,7 @@ if __name__ == '__main__':
 # unit courier: SingleThreadedExecutor x1 rclpy.spin, main
 #   group courier_default EXCLUSIVE default
 #   timer deliver in courier_default every 1
-#     blocks client.call on door_client @20
+#     blocks client.call on door_client conditional @20
 #     reads Courier.parcels @18
 #   subscription on_parcel in courier_default key=parcel
 #     writes Courier.parcels update in_place @23

@@ -48,7 +48,7 @@ def main():
 #     blocks client.call on door_client @22
 #     reads Courier.parcels iterates list @21
 #   timer count in courier_default every 2
-#     blocks client.call on door_client @26
+#     blocks client.call on door_client conditional @26
 #     reads Courier.doors @25
 #   subscription parcel_on_parcel in courier_default (Courier.on_parcel) key=parcel
 #     reads Courier.doors @30

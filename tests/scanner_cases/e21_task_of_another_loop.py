@@ -43,3 +43,4 @@ def main():
 #     reads Bridge.loop @22
 #     reads Bridge.loop @24
 #     writes Bridge.seen @20
+#   activity thread run_forever daemon loops

@@ -55,12 +55,12 @@ if __name__ == '__main__':
 #     locks lock @24
 #     locks again holding lock @24
 #   timer queue in arm_default every 1
-#     blocks Condition.wait on filled holding lock @31
+#     blocks Condition.wait on filled each holding lock @31
 #     blocks time.sleep 0.1 s holding lock, filled (re-entrant) @32
 #     locks lock @29
 #     locks filled holding lock @30
 #   timer attempt in arm_default every 1
-#     blocks time.sleep 0.2 s @37
+#     blocks time.sleep conditional 0.2 s @37
 #     locks slots @35
 #     locks lock tries @36
 #   client plan_client in arm_default key=plan

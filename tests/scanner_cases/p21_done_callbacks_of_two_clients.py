@@ -44,7 +44,8 @@ def main():
 #   group asker_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   timer tick in asker_default every 1
-#     blocks Event.wait on go_on @24
+#     blocks Event.wait on go_on through answered @24
+#       ended by go_on @33
 #     changes done_callback @20>27
 #     changes done_callback @22>27
 #     changes done_callback @23

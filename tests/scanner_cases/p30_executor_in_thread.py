@@ -32,3 +32,6 @@ if __name__ == '__main__':
 # unit a: MultiThreadedExecutor x2 spin in thread, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
+#   activity main main
+#     blocks Thread.join on thread @25
+#       ended by outside @24

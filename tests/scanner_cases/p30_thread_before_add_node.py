@@ -32,3 +32,8 @@ if __name__ == '__main__':
 # unit a: MultiThreadedExecutor x4 spin in thread, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
+#   activity main main
+#     blocks Thread.join on thread @25
+#       ended by outside @23
+#     changes timer @24>13
+#     changes add_node @24

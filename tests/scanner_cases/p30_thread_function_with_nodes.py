@@ -41,3 +41,6 @@ if __name__ == '__main__':
 #   group b_default EXCLUSIVE default
 #   timer a_tick in a_default (A.tick) every 0.5 node=a
 #   timer b_tick in b_default (A.tick) every 0.5 node=b
+#   activity main main
+#     blocks Thread.join on thread @31
+#       ended by outside @30

@@ -40,3 +40,6 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 spin in thread, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
+#   activity main main
+#     blocks Thread.join on spinner @33
+#       ended by outside @32

@@ -30,3 +30,6 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin in thread, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
+#   activity main main
+#     blocks Thread.join on thread @23
+#       ended by outside @22

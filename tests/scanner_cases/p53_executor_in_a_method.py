@@ -35,3 +35,6 @@ if __name__ == '__main__':
 # unit robot: MultiThreadedExecutor x2 spin in thread, main
 #   group robot_default EXCLUSIVE default
 #   timer tick in robot_default every 0.5
+#   activity main main
+#     blocks Thread.join on thread @28
+#       ended by outside @16

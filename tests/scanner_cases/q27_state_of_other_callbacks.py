@@ -91,13 +91,13 @@ if __name__ == '__main__':
 #   group worker_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   timer speak in worker_default every 1
-#     blocks time.sleep 0.01 s @36
+#     blocks time.sleep conditional 0.01 s @36
 #   timer look in worker_default every 2
-#     blocks time.sleep 0.03 s @60
-#     blocks time.sleep 0.04 s @62
-#     blocks time.sleep 0.05 s @64
-#     blocks time.sleep 0.06 s @66
-#     blocks time.sleep 0.07 s @69
+#     blocks time.sleep conditional 0.03 s @60
+#     blocks time.sleep conditional 0.04 s @62
+#     blocks time.sleep conditional 0.05 s @64
+#     blocks time.sleep conditional 0.06 s @66
+#     blocks time.sleep conditional 0.07 s @69
 #     blocks time.sleep 0.09 s @70
 #     reads Worker.shared @59
 #     reads Shared.ready @59

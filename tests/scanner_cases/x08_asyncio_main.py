@@ -35,3 +35,6 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 spin in thread, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 0.5
+#   activity main main
+#     blocks await on Future @28>23
+#       ended by outside @23

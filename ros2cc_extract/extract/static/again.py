@@ -27,7 +27,7 @@ def both(before: Deeds, again: Deeds) -> Deeds:
 
 def remember(world: World, cls: Class | Library, place: Place, instance: Instance) -> Instance:
     """Keep what a callback makes, for when it is followed again."""
-    if world.deeds is not None:
+    if world.deeds is not None or world.activity is not None:
         world.made_then[_site(world, cls, place)] = instance
     return instance
 
@@ -41,7 +41,7 @@ def made_then(world: World, cls: Class | Library, place: Place) -> Instance | No
 
 
 def _site(world: World, cls: Class | Library, place: Place) -> object:
-    return id(world.current), cls, place, world.chain
+    return id(world.activity or world.current), cls, place, world.chain
 
 
 def _both(before: list[Deed], again: list[Deed], name: Callable[[Deed], object]) -> list[Deed]:

@@ -58,7 +58,7 @@ class Attributes(Machine):
         reason = f'attribute {name!r} could not be followed'
         if name.startswith(MAKING):
             note_once(self.world.cut, Cut(reason, place, self.running_classes()))
-        if isinstance(value, Instance) and self.world.deeds is not None:
+        if isinstance(value, Instance) and self.world.in_callback:
             self.world.lacking.append((value, name))
         return self.mystery(reason, place, text or name)
 

@@ -1,4 +1,4 @@
-"""What a callback does while it is followed: it blocks, locks, reads, writes, publishes."""
+"""What a callback does while it is followed: it locks, reads, writes, publishes."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.containers import Collection, collection_class
-from ros2cc_extract.extract.static.held_locks import held_over
-from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -17,7 +15,6 @@ from ros2cc_extract.extract.static.values import (
     Call,
     Class,
     Const,
-    Coroutine,
     Function,
     Instance,
     Library,
@@ -28,22 +25,18 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.extract.static.waits import Waits, touch
 from ros2cc_extract.extract.static.world import (
     RECENT,
     AccessKind,
-    EntityRef,
-    EntityState,
     ExecutorState,
-    NodeState,
     PlainState,
-    SettableRef,
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import SHARED, Access, Act, Blocking
+from ros2cc_extract.spec.deeds import SHARED, Access, Act
 
 _CODE = (Module, Library, Class, Function)
-_SETTABLE = frozenset({'event', 'future'})
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
@@ -51,8 +44,8 @@ def _shared(lock: str) -> bool:
     return lock.endswith(SHARED)
 
 
-class Effects(Machine):
-    """Notes for the callback that is being followed; nothing while there is none."""
+class Effects(Waits):
+    """Notes for the callback or activity that is being followed; nothing while there is none."""
 
     def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
         """
@@ -63,6 +56,8 @@ class Effects(Machine):
         """
         if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
             return
+        if self.world.activity is not None and isinstance(owner, Instance):
+            touch(self.world.activity, owner)
         cls = owner.cls if isinstance(owner, Instance) else owner
         if not isinstance(cls, Class) or self._is_behaviour(owner, name):
             return
@@ -159,85 +154,6 @@ class Effects(Machine):
             return
         self._note_access(f'{module.name}.{name}', kind, place)
 
-    def note_loop(self, node: ast.While, frame: Frame) -> None:
-        """
-        A ``while`` loop begins; one that only waits for a future is a busy wait.
-
-        A coroutine that awaits in each round gives its thread back, as one that awaits the future.
-        """
-        deeds = self.world.deeds
-        if deeds is None and not outside_waits.is_idle(node):
-            return
-        gives_back = deeds is not None and outside_waits.awaits_each_round(node)
-        place, is_known = frame.place(node), False
-        for part in ast.walk(node.test):
-            if (
-                isinstance(part, ast.Call)
-                and isinstance(part.func, ast.Attribute)
-                and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
-            ):
-                owner = self.evaluate(part.func.value, frame)
-                is_known = True
-                if part.func.attr in ('done', 'is_set'):
-                    self.note_blocking('await' if gives_back else 'busy wait', owner, None, place)
-        if deeds is not None and not is_known and outside_waits.spins(node):
-            # How many callbacks run before it ends is not one.
-            reason = f'what ends the loop: {ast.unparse(node.test)}'
-            self.note_blocking('busy wait', self.mystery(reason, place), None, place)
-
-    def note_blocking(
-        self, name: str, on: Value | None, seconds: Value | None, place: Place
-    ) -> None:
-        """A call that can hold its thread."""
-        deeds = self.world.deeds
-        if deeds is None:
-            self.note_outside_wait(name, on, seconds, place)
-            return
-        block = Blocking(
-            call=name,
-            source=place,
-            on=self._waited_for(on),
-            seconds=_seconds(seconds, place),
-            chain=self.world.chain[1:],
-            held=held_over(self.world, on),
-        )
-        if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
-            deeds.blocking.append(block)
-
-    def note_outside_wait(
-        self,
-        name: str,
-        on: Value | None,
-        seconds: Value | None,
-        place: Place,
-        spun: tuple[Instance, ...] = (),
-    ) -> None:
-        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
-        if isinstance(on, Instance) and seconds in (None, NONE):
-            outside_waits.note(self.world, name, on, place, spun)
-
-    def _waited_for(self, value: Value | None) -> str | Unknown | None:
-        if value is None or value == NONE:
-            return None
-        if isinstance(value, Mystery):
-            return value.unknown
-        if isinstance(value, Instance):
-            state = value.state
-            source = state.of if isinstance(state, PlainState) and state.of else value
-            if isinstance(source, Instance) and isinstance(source.state, EntityState):
-                return EntityRef.to(source.state)
-            if isinstance(state, PlainState) and state.kind in _SETTABLE:
-                return SettableRef.to_object(value, value.hint or value.class_name)
-            if isinstance(value.state, (NodeState, ExecutorState)):
-                return EntityRef.to_object(value, value.hint or value.class_name)
-            return value.hint or value.class_name
-        return None
-
-    def note_await(self, value: Value, place: Place) -> None:
-        """A callback awaits ``value``; awaiting its own coroutine is only a call."""
-        if not isinstance(value, Coroutine):
-            self.note_blocking('await', value, None, place)
-
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
         """A lock is taken; with a time-out it may not be."""
         for option in options_of(lock):
@@ -297,13 +213,6 @@ class Effects(Machine):
             given_back = (lock, lock + SHARED)
             self.world.held = tuple(held for held in self.world.held if held not in given_back)
 
-    def note_set(self, thing: Value) -> None:
-        """An event or future is set, by the callback that is followed or by something else."""
-        setter = self.world.current if self.world.deeds is not None else None
-        for option in options_of(thing):
-            self.world.setters.setdefault(id(option), []).append(setter)
-            self.world.set_in_threads[id(option)] += setter is None and self.world.in_thread
-
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""
         deeds = self.world.deeds
@@ -316,27 +225,6 @@ class Effects(Machine):
         elif isinstance(key, Mystery):
             name = key.unknown
         note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
-
-    def note_nested_spin(
-        self,
-        how: str,
-        node: Instance | None,
-        executor: Value,
-        future: tuple[Value | None, Value | None],
-        place: Place,
-        change: str = '',
-    ) -> bool:
-        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
-        if self.world.deeds is None:
-            return False
-        awaited, timeout = future
-        spun = executor if node is None else node
-        self.note_blocking(how, spun, timeout if awaited is None else None, place)
-        if awaited is not None:
-            self.note_blocking('spin for future', awaited, timeout, place)
-        if node is not None:
-            self.note_change(change, node, place)
-        return True
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:
         """A callback changes which executor serves ``node``."""
@@ -396,23 +284,7 @@ def _is_assigned(cls: Value, name: str) -> bool:
     )
 
 
-def _is_same_wait(one: Blocking, other: Blocking) -> bool:
-    """References to two entities are equal as texts."""
-    numbers = [block.on.number for block in (one, other) if isinstance(block.on, EntityRef)]
-    return one == other and len(set(numbers)) < 2
-
-
 def _object_name(owner: Instance | Class, cls: Class) -> str:
     """The class; helper objects of one class are told apart, nodes are by their callbacks."""
     is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
     return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
-
-
-def _seconds(value: Value | None, place: Place) -> float | Unknown | None:
-    if value is None or value == NONE:
-        return None
-    if isinstance(value, Const) and isinstance(value.value, (int, float)):
-        return float(value.value)
-    if isinstance(value, Mystery):
-        return value.unknown
-    return Unknown('a duration that could not be followed', place)

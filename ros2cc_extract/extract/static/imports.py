@@ -37,6 +37,7 @@ class Imports(Machine):
         tree = source.tree
         if tree is not None:
             self.world.trees.append(tree)
+            self.world.files.append((tree, source.shown))
             self._run_top_level(tree, module)
         return module
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import sys
 
 from ros2cc_extract.extract.static import again, rclpy_api
+from ros2cc_extract.extract.static.activities import run_in_thread
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, UNKNOWN_CLIENT, result_of
 from ros2cc_extract.extract.static.ros_nodes import CREATE_CALLS, NODE, ghost_node, make_node
 from ros2cc_extract.extract.static.same_node import made_before, remember
-from ros2cc_extract.extract.static.threads_library import run_in_thread
 from ros2cc_extract.extract.static.values import (
     Bound,
     Call,

@@ -31,6 +31,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
 )
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import AccessKind, World
 from ros2cc_extract.places import Place, Unknown
 
@@ -204,6 +205,10 @@ class Machine(ABC):
         """A ``while`` loop begins; matters when it waits for something."""
 
     @abstractmethod
+    def note_endless(self, node: ast.While) -> None:
+        """A loop was followed that nothing in its body leaves."""
+
+    @abstractmethod
     def run_function(self, function: Function, call: Call) -> Value:
         """Run the body of a scanned function, also of a coroutine function."""
 
@@ -331,8 +336,8 @@ class Machine(ABC):
         """A lock is given back."""
 
     @abstractmethod
-    def note_set(self, thing: Value) -> None:
-        """An event or future is set."""
+    def note_wake(self, thing: Value, word: Word, place: Place) -> None:
+        """Something is done to ``thing`` that may end a wait for it."""
 
     @abstractmethod
     def note_lock_method(self, owner: Value, name: str) -> None:

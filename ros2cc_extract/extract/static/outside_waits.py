@@ -80,7 +80,13 @@ def spins(loop: ast.While) -> bool:
     )
 
 
-def _called_name(call: ast.Call | ast.Await) -> str:
+def is_endless(loop: ast.While) -> bool:
+    """True for ``while True`` and ``while rclpy.ok()``."""
+    test = loop.test
+    return bool(test.value) if isinstance(test, ast.Constant) else _called_name(test) == 'ok'
+
+
+def _called_name(call: ast.expr) -> str:
     function = call.func if isinstance(call, ast.Call) else None
     if isinstance(function, ast.Attribute):
         return function.attr

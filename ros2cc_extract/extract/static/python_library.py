@@ -362,7 +362,6 @@ _FUNCTIONS: dict[str, Handler] = {
     'asyncio.ensure_future': _make_task,
     'asyncio.run_coroutine_threadsafe': _make_task,
     'collections.deque': _deque,
-    'queue.Queue': _deque,
     'collections.OrderedDict': _dict,
     'collections.defaultdict': _defaultdict,
     'os.getenv': _environment,
@@ -375,10 +374,16 @@ def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('result of asyncio.sleep', call.place, 'asyncio.sleep')
 
 
+def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
+    if machine.world.activity is not None:
+        machine.world.activity.loops = True
+    return NONE
+
+
 _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_coroutine,
     'create_task': _make_task,
-    'run_forever': _print,
+    'run_forever': _run_forever,
     'run_in_executor': run_in_executor,
 }
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from ros2cc_extract.extract.static import (
     python_library,
+    queues_library,
     ros_actions,
     ros_called,
     ros_clients,
@@ -48,6 +49,7 @@ def table() -> Library:
         [
             python_library.TABLE,
             threads_library.TABLE,
+            queues_library.TABLE,
             ros_groups.TABLE,
             ros_nodes.TABLE,
             ros_executors.TABLE,

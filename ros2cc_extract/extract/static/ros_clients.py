@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
 )
 from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
@@ -97,7 +98,7 @@ def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _set_result(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_set(receiver)
+    machine.note_wake(receiver, Word.SET, call.place)
     return NONE
 
 

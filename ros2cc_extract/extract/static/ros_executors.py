@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ros2cc_extract.extract.static import activities
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
@@ -199,6 +200,9 @@ def global_executor(machine: Machine) -> Instance:
 
 def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ever: bool) -> None:
     world = machine.world
+    if world.retelling:
+        return
+    activities.spins(world, for_ever=ever)
     nodes = nodes_of(executor)
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
@@ -352,7 +356,7 @@ def _get_nodes(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
     found = receiver.slots.get('__executor__')
-    if found is None and machine.world.deeds is not None:
+    if found is None and machine.world.in_callback:
         found = receiver.slots.get('__owner__')  # a callback runs while it is spun
     known = options_of(found) if isinstance(found, Value) else ()
     if known:

@@ -207,7 +207,11 @@ def entity_made_before(
     if known is None:
         return None
     is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
-    if not is_again and not made_while_missing(world, known.state, key, callback):
+    if (
+        not is_again
+        and not world.retelling
+        and not made_while_missing(world, known.state, key, callback)
+    ):
         return None
     if machine.world.deeds is not None:
         act = Act(name=kind.value, source=place, chain=machine.world.chain[1:])

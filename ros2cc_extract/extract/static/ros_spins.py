@@ -87,7 +87,7 @@ def _spin_node(
     future: Awaited,
 ) -> None:
     node = as_node(machine, node_value)
-    if node is None:
+    if node is None or machine.world.retelling:
         return
     call, moved, change = _nested(machine, node, given, how)
     if machine.note_nested_spin(call, moved, given, future, place, change):

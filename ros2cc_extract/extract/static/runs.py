@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static import activities
 from ros2cc_extract.extract.static.again import both
 from ros2cc_extract.extract.static.alternatives import IN_A_CALLBACK
 from ros2cc_extract.extract.static.call_order import (
@@ -32,7 +33,14 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import Cut, Deeds, EntityState, NodeState, World
+from ros2cc_extract.extract.static.world import (
+    ActivityState,
+    Cut,
+    Deeds,
+    EntityState,
+    NodeState,
+    World,
+)
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 
@@ -157,6 +165,7 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
         world.stopped, world.deeds, world.current, world.looking = False, None, None, ()
         world.shutting_down = False
         world.in_thread, world.when = False, When.START
+        world.activity, world.again, world.retelling = None, False, False
         machine.store.reset()
 
 
@@ -199,6 +208,9 @@ def run_callbacks(machine: Interpreter) -> None:
         for entity in again:
             _run_again(machine, entity)
         _run_new_callbacks(machine)
+    for state in activities.followed(machine.world):
+        _tell(machine, state)
+        _run_new_callbacks(machine)
 
 
 def _run_new_callbacks(machine: Interpreter) -> None:
@@ -216,27 +228,40 @@ def _run_new_callbacks(machine: Interpreter) -> None:
                 _run_again(machine, entity)
 
 
+def _tell(machine: Interpreter, state: ActivityState) -> None:
+    """Follow what a thread does beside the callbacks."""
+
+    def follow() -> None:
+        activities.begin_telling(machine.world, state)
+        mark = machine.store.open_branch()
+        call = state.call or Call(state.place)
+        for option in options_of(state.target) if state.target is not None else ():
+            machine.run_if_coroutine(machine.call(option, call), state.place)
+        machine.store.join([machine.store.close_branch(mark), {}])
+
+    guarded(machine, follow, state.place)
+
+
 def _run_again(machine: Interpreter, entity: EntityState) -> None:
     before = entity.deeds or Deeds()
-    machine.world.again = True
-    entity.deeds = both(before, _run_callbacks_of(machine, entity))
-    machine.world.again = False
+    entity.deeds = both(before, _run_callbacks_of(machine, entity, again=True))
 
 
-def _run_callbacks_of(machine: Interpreter, entity: EntityState) -> Deeds:
+def _run_callbacks_of(machine: Interpreter, entity: EntityState, *, again: bool = False) -> Deeds:
     entity.deeds = Deeds()
     machine.world.met = machine.world.met_by[id(entity)] = {}
     for callback in (entity.callback, *entity.extra_callbacks):
         if callback is not None:
-            _run_callback(machine, entity, callback, entity.deeds)
+            _run_callback(machine, entity, callback, entity.deeds, again=again)
     return entity.deeds
 
 
 def _run_callback(
-    machine: Interpreter, entity: EntityState, callback: Value, deeds: Deeds
+    machine: Interpreter, entity: EntityState, callback: Value, deeds: Deeds, *, again: bool
 ) -> None:
     def follow() -> None:
         world = machine.world
+        world.again, world.asked = again, set()
         world.deeds, world.current, world.after_spin = deeds, entity, False
         transition = _transition_of(entity, callback)
         if transition:
@@ -244,7 +269,8 @@ def _run_callback(
         else:
             world.when = When.CALLBACK
             world.count = Unknown('made each time the callback runs', entity.place)
-            world.path = world.callback_path = ((entity.place, IN_A_CALLBACK),)
+            world.path = ((entity.place, IN_A_CALLBACK),)
+        world.callback_path = world.path
         mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):

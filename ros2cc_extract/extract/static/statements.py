@@ -303,6 +303,8 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
     reason = Unknown('made in a while loop', frame.place(node))
     with loops.counted(machine, reason), _loop(machine, frame):
         flow = _round(machine, node.body, frame)
+    if not flow & (BREAK | RETURN):
+        machine.note_endless(node)
     return loops.after_loop(flow)
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.containers import Mapping
-from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -14,16 +17,16 @@ from ros2cc_extract.extract.static.values import (
     Instance,
     Value,
     choice,
-    options_of,
 )
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
-from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.model import ActivityKind, When
 
 _IS_SET = '__set__'
 
 
-def _thread_state(machine: Machine, instance: Instance) -> ThreadState:
-    return ThreadState()
+def _thread_state(kind: ActivityKind) -> StateFactory:
+    return lambda machine, instance: ThreadState(kind)
 
 
 def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -31,6 +34,9 @@ def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
     state = receiver.state
     state.target = call.argument(1, 'target')
     state.call = _target_call(machine, call, call.argument(3, 'args'), call.argument(4, 'kwargs'))
+    daemon = call.argument(5, 'daemon')
+    if daemon is not None:
+        machine.store.write(receiver, 'daemon', daemon)
     return NONE
 
 
@@ -56,54 +62,45 @@ def _target_call(machine: Machine, call: Call, args: Value | None, keywords: Val
     return inner
 
 
-def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
-    """Follow what another thread runs; it holds no lock of ours and is no callback."""
-    world = machine.world
-    saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
-    path = world.path
-    world.in_thread, world.deeds, world.held = True, None, ()
-    try:
-        result = machine.call(target, call)
-        machine.run_if_coroutine(result, call.place)
-    finally:
-        world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
-        world.stopped = False
-        world.path = path
-
-
 def _start(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     state = receiver.state
-    if state.started:
+    if state.started and not machine.world.again:
         return NONE
     state.started = True
     run = machine.attribute(receiver, 'run', call.place)
-    if isinstance(run, Bound):
-        run_in_thread(machine, run, Call(call.place))
-    elif state.target is not None:
-        for target in options_of(state.target):
-            run_in_thread(machine, target, state.call or Call(call.place))
+    target = run if isinstance(run, Bound) else state.target
+    inner = Call(call.place) if isinstance(run, Bound) or state.call is None else state.call
+    inner = replace(inner, place=call.place)
+    begin(machine, state.kind, target, inner, receiver, daemon=_is_daemon(receiver))
     return NONE
 
 
+def _is_daemon(thread: Instance) -> bool:
+    return bool(thread.slots.get('daemon', NONE) == Const(True))
+
+
 def _submit(machine: Machine, receiver: Value, call: Call) -> Value:
+    future = machine.future(call.place, 'pool')
     if call.args:
         inner = Call(call.place, call.args[1:], call.keywords, call.more)
-        run_in_thread(machine, call.args[0], inner)
-    return machine.future(call.place, 'pool')
+        begin(machine, ActivityKind.POOL, call.args[0], inner, future)
+    return future
 
 
 def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
     """``loop.run_in_executor(pool, function, …)``."""
+    future = machine.future(call.place, 'pool')
     if len(call.args) > 1:
-        run_in_thread(machine, call.args[1], Call(call.place, call.args[2:]))
-    return machine.future(call.place, 'pool')
+        inner = Call(call.place, call.args[2:])
+        begin(machine, ActivityKind.POOL, call.args[1], inner, future)
+    return future
 
 
 def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
     if call.args:
         inner = _target_call(machine, call, call.argument(1), call.argument(2))
-        run_in_thread(machine, call.args[0], inner)
+        begin(machine, ActivityKind.THREAD, call.args[0], inner, daemon=True)
     return NONE
 
 
@@ -120,6 +117,14 @@ def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
         timeout = call.argument(timeout_index, timeout_name)
         machine.note_blocking(call_name, receiver, timeout, call.place)
         return machine.mystery(f'result of {call_name}', call.place)
+
+    return handler
+
+
+def _wakes(word: Word) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        machine.note_wake(receiver, word, call.place)
+        return NONE
 
     return handler
 
@@ -142,13 +147,14 @@ def _event_init(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _set(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    machine.note_set(receiver)
+    machine.note_wake(receiver, Word.SET, call.place)
     _keep_flag(machine, receiver, Const(True))
     return NONE
 
 
 def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
+    machine.world.cleared.add(id(receiver))
     _keep_flag(machine, receiver, Const(False))
     return NONE
 
@@ -183,6 +189,9 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         **_LOCK_METHODS,
         'wait': _blocking('Condition.wait', 0, 'timeout'),
         'wait_for': _blocking('Condition.wait_for', 1, 'timeout'),
+        'notify': _wakes(Word.SET),
+        'notify_all': _wakes(Word.SET),
+        'notifyAll': _wakes(Word.SET),
     },
     'semaphore': _LOCK_METHODS,
     'event': {
@@ -199,7 +208,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
 }
 
 _THREAD = LibraryClass(
-    state=_thread_state,
+    state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
     methods={'start': _start, 'join': _blocking('Thread.join', 0, 'timeout')},
 )
@@ -209,9 +218,13 @@ _JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')
 TABLE = Library(
     classes={
         'threading.Thread': _THREAD,
-        'threading.Timer': LibraryClass(init=_timer_init, bases=('threading.Thread',)),
+        'threading.Timer': LibraryClass(
+            state=_thread_state(ActivityKind.TIMER),
+            init=_timer_init,
+            bases=('threading.Thread',),
+        ),
         'multiprocessing.Process': LibraryClass(
-            state=_thread_state,
+            state=_thread_state(ActivityKind.PROCESS),
             init=_thread_init,
             methods={'start': _start, 'join': _JOIN_PROCESS},
         ),

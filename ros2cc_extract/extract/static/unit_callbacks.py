@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
@@ -14,8 +14,9 @@ from ros2cc_extract.extract.static.naming import (
     describe,
     snake_case,
 )
-from ros2cc_extract.extract.static.setters import the_setter
+from ros2cc_extract.extract.static.unit_activities import activities_of, activity, facts_of
 from ros2cc_extract.extract.static.unit_executor import Unit, executor_of
+from ros2cc_extract.extract.static.unit_waits import UnitWaits
 from ros2cc_extract.extract.static.values import (
     Class,
     Const,
@@ -23,16 +24,11 @@ from ros2cc_extract.extract.static.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.extract.static.world import (
-    EntityRef,
-    EntityState,
-    SettableRef,
-    World,
-)
+from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
+    Activity,
     Callback,
     CallbackGroup,
     EntityKind,
@@ -97,9 +93,11 @@ class UnitBuilder:
         self._note_open_ends()
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry)
+        with_waits, activities = self._with_waits(callbacks, entities, executor)
         return Spec(
             name=name,
-            callbacks=tuple(self._with_waits(callbacks, entities, executor)),
+            callbacks=with_waits,
+            activities=activities,
             groups=tuple(groups),
             executor=executor,
             origin=Origin.STATIC,
@@ -267,7 +265,6 @@ class UnitBuilder:
             assumed=assumed or period_assumed,
             source=entity.place,
             defined=facts.defined,
-            blocking=tuple(deeds.blocking) if deeds else (),
             reads=tuple(deeds.reads) if deeds else (),
             writes=tuple(deeds.writes) if deeds else (),
             locks=tuple(deeds.locks) if deeds else (),
@@ -302,35 +299,23 @@ class UnitBuilder:
 
     def _with_waits(
         self, callbacks: list[Callback], entities: Sequence[EntityState], executor: Executor
-    ) -> list[Callback]:
-        """What is waited for, by the name it has in this unit."""
+    ) -> tuple[tuple[Callback, ...], tuple[Activity, ...]]:
+        """What is waited for, by the name it has in this unit; and the activities beside."""
         names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
         names |= {number: names[id(first)] for number, first in self._same.items()}
         names |= self._node_names
-        for number, setters in self._world.setters.items():
-            setter = the_setter(setters)
-            if setter is not None and id(setter) in names:
-                names[number] = names[id(setter)]
         if self._unit.executor is not None:
             names[id(self._unit.executor)] = executor.name
-        return [
-            replace(callback, blocking=tuple(dict.fromkeys(self._with_names(callback, names))))
-            for callback in callbacks
-        ]
-
-    def _with_names(self, callback: Callback, names: dict[int, str]) -> Iterator[Blocking]:
-        """Waits for one of several that have no name here are alike."""
-        for block in callback.blocking:
-            yield replace(
-                block, on=_waited_name(block.on, names), foreign=self._is_foreign(block.on)
-            )
-
-    def _is_foreign(self, on: object) -> bool:
-        """Whether nothing but threads of the user's own sets what is waited for."""
-        if not isinstance(on, SettableRef):
-            return False
-        setters = self._world.setters.get(on.number, ())
-        return bool(setters) and len(setters) == self._world.set_in_threads[on.number]
+        states = activities_of(self._world, self._nodes, entities, is_only=self._unit.is_only)
+        names |= {id(state): self._taken.take(facts_of(state).label) for state in states}
+        waits = UnitWaits(self._world, names, (*entities, *states))
+        return (
+            tuple(
+                replace(callback, blocking=waits.of(entity))
+                for callback, entity in zip(callbacks, entities, strict=True)
+            ),
+            tuple(activity(state, names[id(state)], names, waits) for state in states),
+        )
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
         places = [entity.place.file for entity in entities]
@@ -386,14 +371,6 @@ def _number(value: Value | None) -> float | None:
     if isinstance(value, Const) and isinstance(value.value, (int, float)):
         return float(value.value)
     return None
-
-
-def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
-    if isinstance(on, SettableRef):
-        return names.get(on.number) or str(on)
-    if isinstance(on, EntityRef):
-        return names.get(on.number) or Unknown('an entity of another executor')
-    return on if isinstance(on, (str, Unknown)) else None
 
 
 def _unit_label(nodes: Sequence[str]) -> str:

@@ -21,12 +21,14 @@ class Unit:
 
     :param spin: the call that spins it, ``None`` when there is none in sight.
     :param mark: tells units apart of which a program only ever runs one.
+    :param is_only: the program has no other.
     """
 
     executor: Instance | None
     nodes: list[Instance]
     spin: Spin | None
     mark: Mark = NO_MARK
+    is_only: bool = False
 
     @property
     def state(self) -> ExecutorState | None:

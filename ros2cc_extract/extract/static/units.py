@@ -18,7 +18,9 @@ from ros2cc_extract.spec.model import Spec, collect_unresolved
 def specs_of(world: World, entry: str | None) -> list[Spec]:
     """The specifications of one run."""
     found = []
-    for unit in units_of(world):
+    units = units_of(world)
+    for unit in units:
+        unit.is_only = len(units) == 1
         is_lost = unit.spin is None and not any(node.state.nested for node in unit.nodes)
         if entry is not None and unit.executor is not None and is_lost:
             world.diagnostics.append(_not_spun(unit.executor))

@@ -24,9 +24,10 @@ from ros2cc_extract.extract.static.values import (
     Path,
     Value,
 )
+from ros2cc_extract.extract.static.wakings import Waking
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
-from ros2cc_extract.spec.model import EntityKind, GroupType, When
+from ros2cc_extract.spec.model import ActivityKind, EntityKind, GroupType, When
 
 
 @dataclass(eq=False)
@@ -137,35 +138,6 @@ class AccessKind(Enum):
     UPDATE_IN_PLACE = 'update in place'
 
 
-class EntityRef(str):
-    """Stands for an entity in a ``Blocking`` until the unit has given it a name."""
-
-    number: int
-
-    @staticmethod
-    def to(entity: EntityState) -> EntityRef:
-        """A reference to ``entity``."""
-        return EntityRef.to_object(entity, entity.kind.value)
-
-    @staticmethod
-    def to_object(thing: object, text: str) -> EntityRef:
-        """A reference to a node or executor; ``text`` stands for it outside every unit."""
-        reference = EntityRef(text)
-        reference.number = id(thing)
-        return reference
-
-
-class SettableRef(EntityRef):
-    """Stands for an event or future until it is known which one callback sets it."""
-
-    @staticmethod
-    def to_object(thing: object, text: str) -> SettableRef:
-        """A reference to ``thing``; ``text`` stays where no one callback alone sets it."""
-        reference = SettableRef(text)
-        reference.number = id(thing)
-        return reference
-
-
 @dataclass(eq=False)
 class Spin:
     """One spin call: the executor, the nodes it has then, and how it is called."""
@@ -205,6 +177,7 @@ class OutsideWait:
 class ThreadState:
     """A ``threading.Thread`` or timer: what it runs when started."""
 
+    kind: ActivityKind
     target: Value | None = None
     call: Call | None = None
     started: bool = False
@@ -222,7 +195,11 @@ class PlainState:
 
 @dataclass
 class Deeds:
-    """What one callback does, in the order of its text."""
+    """
+    What one callback or activity does, in the order of its text.
+
+    :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    """
 
     blocking: list[Blocking] = field(default_factory=list)
     reads: list[Access] = field(default_factory=list)
@@ -230,6 +207,42 @@ class Deeds:
     locks: list[Act] = field(default_factory=list)
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
+    behind: object = None
+
+
+def way_of(block: Blocking) -> object:
+    """Equal for one wait, however often it is met."""
+    return block.call, block.source, block.chain
+
+
+@dataclass(eq=False)
+class ActivityState:
+    """
+    Code that runs on a thread which no executor has.
+
+    :param place: where it is started.
+    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
+    :param starts: who starts it.
+    :param serves: it spins an executor.
+    :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
+    :param site: equal for one start that is met again.
+    """
+
+    kind: ActivityKind
+    place: Place
+    target: Value | None = None
+    call: Call | None = None
+    runners: list[Value] = field(default_factory=list)
+    starts: list[Waking] = field(default_factory=list)
+    deeds: Deeds = field(default_factory=Deeds)
+    path: Path = ()
+    count: int | Unknown = 1
+    daemon: bool = False
+    loops: bool = False
+    serves: bool = False
+    nodes: set[int] = field(default_factory=set)
+    things: set[int] = field(default_factory=set)
+    site: object = None
 
 
 @dataclass(frozen=True)
@@ -267,8 +280,15 @@ class World:
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
-    :param setters: what sets an event or future; ``None`` for what is no callback.
-    :param set_in_threads: how many of them are threads of the user's own.
+    :param wakings: what is done to an object that others may wait on, by its identity.
+    :param asked: objects that the function has been asked of whether a wait would wait.
+    :param made_at: identities of the objects that others may wait on, by the place they come from.
+    :param cleared: events that somebody clears.
+    :param given: objects that were handed to code which is not followed, with the reason.
+    :param activity: the thread or the part of the main program that is followed.
+    :param activities: all of them, in the order of their start.
+    :param told: how many of them were followed for what they do.
+    :param retelling: one is followed for what it does; what it makes is known already.
     :param called: every function that was followed, by the identity of its statement.
     :param subclasses: the direct ones of each class, in the order of their definition.
     :param made_of: how many instances there are of each class.
@@ -283,7 +303,7 @@ class World:
     :param iterating: class of the collection that a loop begins to go over.
     :param refilling: an item is stored under a key that the dictionary surely has.
     :param stopped: this branch of the program has ended.
-    :param trees: the text of every module that was run.
+    :param trees: the text of every module that was run; ``files`` with the names of its file.
     :param changing: how often a callback has read what other functions may change.
     :param unset: how often one has read ``None`` where other functions put something.
     :param lacking: attributes that callbacks asked for before anybody had set them.
@@ -306,8 +326,15 @@ class World:
     stopped: bool = False
     deeds: Deeds | None = None
     current: EntityState | None = None
-    setters: dict[int, list[EntityState | None]] = field(default_factory=dict)
-    set_in_threads: Counter[int] = field(default_factory=Counter)
+    wakings: dict[int, list[Waking]] = field(default_factory=dict)
+    asked: set[int] = field(default_factory=set)
+    made_at: dict[object, list[int]] = field(default_factory=dict)
+    cleared: set[int] = field(default_factory=set)
+    given: dict[int, Unknown] = field(default_factory=dict)
+    activity: ActivityState | None = None
+    activities: list[ActivityState] = field(default_factory=list)
+    told: int = 0
+    retelling: bool = False
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
     locks: dict[str, list[Instance]] = field(default_factory=dict)
@@ -348,6 +375,7 @@ class World:
     global_executor: Instance | None = None
     groupless: Instance | None = None
     trees: list[ast.Module] = field(default_factory=list)
+    files: list[tuple[ast.Module, str]] = field(default_factory=list)
     changing: int = 0
     unset: int = 0
     lacking: list[tuple[Instance, str]] = field(default_factory=list)
@@ -361,3 +389,8 @@ class World:
     rounds: Counter[int] = field(default_factory=Counter)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
+
+    @property
+    def in_callback(self) -> bool:
+        """Whether a callback is followed, and no thread that it starts."""
+        return self.deeds is not None and self.activity is None

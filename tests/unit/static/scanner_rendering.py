@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec, When
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, Executor, Spec, When
 
 
 def rendered(extraction: Extraction) -> str:
@@ -31,6 +31,9 @@ def _unit(unit: Spec) -> Iterator[str]:
     for callback in unit.callbacks:
         yield f'  {_callback(callback, unit)}'
         yield from (f'    {line}' for line in _deeds(callback))
+    for activity in unit.activities:
+        yield f'  {_activity(activity)}'
+        yield from (f'    {line}' for line in _deeds(activity))
     for fact in unit.unresolved:
         yield f'  ? {fact.subject} {fact.fact}'
 
@@ -118,8 +121,21 @@ def _known(value: object) -> str:
     return '?' if isinstance(value, Unknown) else str(value)
 
 
-def _deeds(callback: Callback) -> Iterator[str]:
-    yield from (_blocking(block) for block in callback.blocking)
+def _activity(activity: Activity) -> str:
+    words = ['activity', activity.kind.value, activity.name]
+    function = (activity.function or '').partition('.')[2]
+    words += [f'({function})'] if function and function != activity.name else []
+    words += [f'started by {_waker(start)}' for start in activity.starts]
+    words += [name for name in ('daemon', 'loops') if getattr(activity, name)]
+    words += [_count(activity.count)] if activity.count != 1 else []
+    words += ['UNRESOLVED'] if activity.unresolved else []
+    return ' '.join(words)
+
+
+def _deeds(callback: Callback | Activity) -> Iterator[str]:
+    for block in callback.blocking:
+        yield _blocking(block)
+        yield from (f'  {line}' for line in _ends(block))
     for access in callback.reads:
         yield f'reads {_access(access)}'
     for access in callback.writes:
@@ -136,11 +152,31 @@ def _blocking(block: Blocking) -> str:
     words = ['blocks', block.call]
     if block.on is not None:
         words.append(f'on {_known(block.on)}')
+    if block.resource not in (None, block.on):
+        words.append(f'through {block.resource}')
+    words += [block.needs.value] if block.needs is not Needs.ONCE else []
+    words += ['conditional'] if block.conditional else []
     if block.seconds is not None:
         words.append(f'{_known(block.seconds)} s')
     if block.held:
         words.append(f'holding {", ".join(block.held)}')
     return ' '.join(words) + _trail(block.source, block.chain)
+
+
+def _ends(block: Blocking) -> Iterator[str]:
+    """Who ends it; left out where that is time, or what it is said to be on."""
+    for waker in block.wakers:
+        if waker.source is not None or waker.by not in (TIME, OUTSIDE, block.on):
+            yield f'ended by {_waker(waker)}'
+    if block.escapes is not None:
+        yield 'ended by ?'
+
+
+def _waker(waker: Waker) -> str:
+    words = [waker.by]
+    words += [f'after {waker.after}'] if waker.after else []
+    words += ['conditional'] if waker.conditional else []
+    return ' '.join(words) + _trail(waker.source, ())
 
 
 def _access(access: Access) -> str:

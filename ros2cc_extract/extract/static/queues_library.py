@@ -1,0 +1,92 @@
+"""Queues of the standard library: who puts, who gets, and who waits for the other."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
+from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.extract.static.world import PlainState
+
+_MAXSIZE = '__maxsize__'
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, _MAXSIZE, call.argument(0, 'maxsize') or Const(0))
+    return NONE
+
+
+def _may_be_full(queue: Instance) -> bool:
+    """Source: ``queue.py``; a size of zero or less has no bound."""
+    size = queue.slots.get(_MAXSIZE, Const(0))
+    is_number = isinstance(size, Const) and isinstance(size.value, (int, float))
+    return not is_number or size.value > 0
+
+
+def _waits(call: Call, position: int) -> bool:
+    """``block`` is true unless it is said otherwise."""
+    block = call.argument(position, 'block')
+    return not (isinstance(block, Const) and not block.value)
+
+
+def _get(machine: Machine, receiver: Value, call: Call) -> Value:
+    if _waits(call, 0):
+        machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
+    machine.note_wake(receiver, Word.GET, call.place)
+    return machine.mystery('what was put into a queue', call.place, 'get()')
+
+
+def _put(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance) and _may_be_full(receiver) and _waits(call, 1):
+        machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
+    machine.note_wake(receiver, Word.PUT, call.place)
+    return NONE
+
+
+def _without_waiting(word: Word) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        machine.note_wake(receiver, word, call.place)
+        return machine.mystery('what was put into a queue', call.place, 'get_nowait()')
+
+    return handler
+
+
+def _join(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_blocking('Queue.join', receiver, None, call.place)
+    return NONE
+
+
+def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who has asked whether there is something, or room, does not wait for it."""
+    machine.world.asked.add(id(receiver))
+    return machine.mystery('how full a queue is', call.place, 'queue')
+
+
+_QUEUE = LibraryClass(
+    state=lambda machine, instance: PlainState('queue', place=instance.place),
+    init=_init,
+    methods={
+        'get': _get,
+        'put': _put,
+        'get_nowait': _without_waiting(Word.GET),
+        'put_nowait': _without_waiting(Word.PUT),
+        'task_done': _without_waiting(Word.DONE),
+        'join': _join,
+        'empty': _asked,
+        'full': _asked,
+        'qsize': _asked,
+    },
+)
+
+TABLE = Library(
+    classes={
+        'queue.Queue': _QUEUE,
+        'queue.LifoQueue': _QUEUE,
+        'queue.PriorityQueue': _QUEUE,
+        'queue.SimpleQueue': _QUEUE,
+        'multiprocessing.Queue': _QUEUE,
+        'multiprocessing.JoinableQueue': _QUEUE,
+        'multiprocessing.SimpleQueue': _QUEUE,
+    },
+)

@@ -1,0 +1,83 @@
+"""Functions that nobody in sight calls, and whose text would end a wait if somebody did."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.relevance import noted_on, walk
+from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.extract.static.world import World
+from ros2cc_extract.places import Place, Unknown
+
+_METHODS: dict[str, Word] = {
+    'set': Word.SET,
+    'set_result': Word.SET,
+    'set_exception': Word.SET,
+    'notify': Word.SET,
+    'notify_all': Word.SET,
+    'put': Word.PUT,
+    'put_nowait': Word.PUT,
+    'get': Word.GET,
+    'get_nowait': Word.GET,
+    'task_done': Word.DONE,
+    'release': Word.RELEASE,
+}
+
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
+
+
+@dataclass(frozen=True)
+class _Operation:
+    """One call ``….name.set()`` inside a function."""
+
+    name: str
+    word: Word
+    line: int
+    column: int
+    function: int
+    called: str
+
+
+def uncalled_wakers(world: World, name: str, words: frozenset[Word]) -> Unknown | None:
+    """Why somebody who is not in sight may end a wait for what is stored under ``name``."""
+    for tree, file in world.files:
+        for operation in noted_on(tree, 'waking_operations', _operations):
+            is_meant = operation.name == name and operation.word in words
+            if is_meant and operation.function not in world.called:
+                at = Place(file, operation.line, operation.column)
+                return Unknown(f'nobody in sight calls {operation.called}, which ends it', at)
+    return None
+
+
+def _operations(tree: ast.Module) -> tuple[_Operation, ...]:
+    return tuple(
+        operation
+        for part in walk(tree)
+        if isinstance(part, _FUNCTIONS)
+        for operation in _of_function(part)
+    )
+
+
+def _of_function(
+    node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda,
+) -> Iterator[_Operation]:
+    called = 'a lambda' if isinstance(node, ast.Lambda) else node.name
+    for part in _own_parts(node):
+        if not isinstance(part, ast.Call) or not isinstance(part.func, ast.Attribute):
+            continue
+        word, owner = _METHODS.get(part.func.attr), part.func.value
+        name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, 'id', None)
+        if word is not None and name is not None:
+            yield _Operation(name, word, part.lineno, part.col_offset + 1, id(node), called)
+
+
+def _own_parts(node: ast.AST) -> Iterator[ast.AST]:
+    """What stands in a function, and in none inside of it."""
+    waiting = list(ast.iter_child_nodes(node))
+    while waiting:
+        part = waiting.pop()
+        if not isinstance(part, _FUNCTIONS):
+            yield part
+            waiting.extend(ast.iter_child_nodes(part))

@@ -1,0 +1,189 @@
+"""The waits of one unit: what each waits on, and who may end it, by the names of the unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+
+from ros2cc_extract.extract.static.activities import is_activity
+from ros2cc_extract.extract.static.setters import the_setter
+from ros2cc_extract.extract.static.uncalled import uncalled_wakers
+from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
+from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, SettableRef, Waking, Word
+from ros2cc_extract.extract.static.world import ActivityState, Deeds, EntityState, World, way_of
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Waker
+
+Doer = EntityState | ActivityState
+_SETTING = frozenset({Word.SET, Word.PUT})
+
+
+@dataclass
+class _Kept:
+    """The waits of one callback or activity that the unit tells of, and where each raw one is."""
+
+    raw: list[Blocking] = field(default_factory=list)
+    named: list[Blocking] = field(default_factory=list)
+    places: dict[object, int] = field(default_factory=dict)
+
+
+class UnitWaits:
+    """
+    Names what the callbacks and activities of a unit wait for.
+
+    :param names: of entities, activities, nodes and the executor, by their identity.
+    """
+
+    def __init__(self, world: World, names: dict[int, str], doers: Iterable[Doer]) -> None:
+        self._world = world
+        self._names = names
+        self._resources: dict[int, str] = {}
+        self._taken: dict[str, int] = {}
+        self._settled = dict(names)
+        for number, wakings in world.wakings.items():
+            setter = the_setter(wakings)
+            if setter is not None and id(setter) in names:
+                self._settled[number] = names[id(setter)]
+        doers = tuple(doers)
+        self._kept = {id(doer): self._keep(doer.deeds or Deeds()) for doer in doers}
+
+    def of(self, doer: Doer) -> tuple[Blocking, ...]:
+        """The waits of ``doer``."""
+        kept = self._kept[id(doer)]
+        pairs = zip(kept.raw, kept.named, strict=True)
+        return tuple(self._with_wakers(raw, named) for raw, named in pairs)
+
+    def _keep(self, deeds: Deeds) -> _Kept:
+        """Waits for one of several that have no name here are alike."""
+        kept = _Kept()
+        for raw in deeds.blocking:
+            if not self._is_none(raw):
+                named = self._named(raw)
+                if named not in kept.named:
+                    kept.raw.append(raw)
+                    kept.named.append(named)
+                kept.places[way_of(raw)] = kept.named.index(named) + 1
+            else:
+                kept.places[way_of(raw)] = len(kept.named)
+        return kept
+
+    def _is_none(self, raw: Blocking) -> bool:
+        """Whether it never waits: it was asked before, and nobody else changes the answer."""
+        reference = raw.resource
+        if not isinstance(reference, ResourceRef) or not reference.asked:
+            return False
+        rival = WAITS[raw.call].rival
+        wakings = wakings_of(self._world, reference)
+        return len({id(waking.by) for waking in wakings if waking.word is rival}) < 2
+
+    def _named(self, raw: Blocking) -> Blocking:
+        resource = raw.resource
+        is_settled = not isinstance(resource, ResourceRef) or not _SETTING.isdisjoint(
+            resource.ended_by
+        )
+        on = _waited_name(raw.on, self._settled if is_settled else {})
+        if isinstance(resource, ResourceRef):
+            resource = self._resource(resource)
+        elif isinstance(raw.on, EntityRef) and isinstance(on, str):
+            resource = on
+        return replace(raw, on=on, foreign=self._is_foreign(raw.on), resource=resource)
+
+    def _resource(self, reference: ResourceRef) -> str:
+        known = self._resources.get(reference.number)
+        if known is None:
+            text = str(reference)
+            number = self._taken[text] = self._taken.get(text, 0) + 1
+            known = text if number == 1 else f'{text}#{number}'
+            self._resources[reference.number] = known
+        return known
+
+    def _is_foreign(self, on: object) -> bool:
+        """Whether nothing but threads of the user's own sets what is waited for."""
+        if not isinstance(on, SettableRef):
+            return False
+        wakings = self._world.wakings.get(on.number, ())
+        setters = [waking for waking in wakings if waking.word is Word.SET]
+        return bool(setters) and all(is_activity(waking.by) for waking in setters)
+
+    def _with_wakers(self, raw: Blocking, named: Blocking) -> Blocking:
+        row = WAITS.get(raw.call, NO_ROW)
+        wakers = [Waker(by=by) for by in row.always]
+        escapes = raw.escapes
+        if isinstance(raw.resource, ResourceRef):
+            more, why = self._wakers_of(raw.resource)
+            wakers += more
+            escapes = escapes or why
+        elif row.ended_by and isinstance(raw.on, EntityRef):
+            is_here = isinstance(named.on, str) and named.on in self._names.values()
+            wakers.append(Waker(by=str(named.on) if is_here else OUTSIDE))
+        elif row.ended_by and escapes is None:
+            unknown = Unknown('what is waited for is not known', raw.source)
+            escapes = raw.on if isinstance(raw.on, Unknown) else unknown
+        return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
+
+    def _wakers_of(self, reference: ResourceRef) -> tuple[list[Waker], Unknown | None]:
+        wakings = wakings_of(self._world, reference)
+        mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        found = [waker for waking in mine for waker in self._wakers(waking, reference)]
+        return found, self._why_open(mine, reference)
+
+    def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
+        """Why somebody may end the wait who is not known."""
+        given = self._world.given.get(reference.number)
+        if given is not None:
+            return given
+        if reference.asked:
+            return Unknown('somebody else may have taken what was asked for')
+        uncalled = next((w for w in mine if w.uncalled is not None), None)
+        if uncalled is not None:
+            return Unknown(
+                f'nobody in sight calls {uncalled.uncalled}, which ends it', uncalled.place
+            )
+        return uncalled_wakers(self._world, str(reference), reference.ended_by)
+
+    def _wakers(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
+        by, place = waking.by, waking.place
+        if by is None:
+            if waking.uncalled is None and not waking.after_spin:
+                yield from self._by_set_up(waking, reference)
+            return
+        name = self._names.get(id(by))
+        if name is None:
+            yield Waker(by=OUTSIDE, source=place)
+            return
+        after = None if waking.word is Word.END else self.after(waking)
+        yield Waker(by=name, source=place, after=after, conditional=waking.conditional)
+
+    def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
+        """What is set before anything else runs stays so, unless it is taken back."""
+        if waking.word is Word.SET and reference.is_kept:
+            is_open = waking.conditional or reference.number in self._world.cleared
+            yield Waker(by=TIME, source=waking.place, conditional=is_open)
+        elif waking.word in (Word.PUT, Word.RELEASE, Word.GET, Word.DONE):
+            yield Waker(by=TIME, source=waking.place, conditional=True)
+
+    def after(self, waking: Waking) -> int:
+        """How many of its own waits the doer of ``waking`` has behind it then."""
+        kept = self._kept.get(id(waking.by))
+        return kept.places.get(waking.behind, 0) if kept is not None else 0
+
+
+def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
+    """
+    What is done to an object.
+
+    A callback makes an object of its own each time; who ends the wait for one of them, from one
+    place, ends it for all, where nothing is seen that ends it for this one.
+    """
+    known = world.wakings.get(reference.number)
+    if known is not None:
+        return known
+    return [waking for number in reference.like for waking in world.wakings.get(number, ())]
+
+
+def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
+    if isinstance(on, SettableRef):
+        return names.get(on.number) or str(on)
+    if isinstance(on, EntityRef):
+        return names.get(on.number) or Unknown('an entity of another executor')
+    return on if isinstance(on, (str, Unknown)) else None

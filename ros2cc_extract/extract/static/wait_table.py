@@ -1,0 +1,74 @@
+"""
+What waits, and what ends it: the one table of the waits that the scanner knows.
+
+Sources: CPython 3.12, ``threading.py``, ``queue.py``, ``concurrent/futures/``; rclpy 7.1.6,
+``client.py``, ``timer.py``, ``task.py``, ``clock.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Needs
+
+
+@dataclass(frozen=True)
+class WaitRow:
+    """
+    One kind of wait.
+
+    :param ended_by: operations on the object that end it.
+    :param always: who may end it beside them, whoever else does.
+    :param unless_asked: it does not wait where it was asked before whether it would.
+    :param rival: what others do that makes the answer to that question false.
+    """
+
+    ended_by: frozenset[Word] = frozenset()
+    needs: Needs = Needs.ONCE
+    always: tuple[str, ...] = ()
+    unless_asked: bool = False
+    rival: Word | None = None
+
+
+def _row(
+    *words: Word,
+    needs: Needs = Needs.ONCE,
+    unless_asked: bool = False,
+    rival: Word | None = None,
+) -> WaitRow:
+    return WaitRow(frozenset(words), needs, unless_asked=unless_asked, rival=rival)
+
+
+_SLEEP = WaitRow(always=(TIME,))
+_OUTSIDE = WaitRow(always=(OUTSIDE,))
+_ANSWER = _row(Word.END)
+_FUTURE = _row(Word.SET, Word.END, unless_asked=True)
+
+WAITS: dict[str, WaitRow] = {
+    'Event.wait': _row(Word.SET),
+    'Condition.wait': _row(Word.SET, needs=Needs.EACH),
+    'Condition.wait_for': _row(Word.SET, needs=Needs.EACH),
+    'Queue.get': _row(Word.PUT, needs=Needs.EACH, unless_asked=True, rival=Word.GET),
+    'Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
+    'Queue.join': _row(Word.DONE, needs=Needs.EACH),
+    'Barrier.wait': _row(Word.ARRIVE, needs=Needs.ALL),
+    'Semaphore.acquire': _row(Word.RELEASE, needs=Needs.EACH),
+    'Thread.join': _row(Word.END),
+    'Process.join': _row(Word.END),
+    'Future.result': _FUTURE,
+    'Future.exception': _FUTURE,
+    'await': _FUTURE,
+    'busy wait': _FUTURE,
+    'time.sleep': _SLEEP,
+    'asyncio.sleep': _SLEEP,
+    'client.call': _ANSWER,
+    'send_goal': _ANSWER,
+    'get_result': _ANSWER,
+    'cancel_goal': _ANSWER,
+    'Rate.sleep': _ANSWER,
+    'wait_for_service': _OUTSIDE,
+    'wait_for_server': _OUTSIDE,
+}
+
+NO_ROW = WaitRow()

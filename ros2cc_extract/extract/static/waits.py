@@ -1,0 +1,266 @@
+"""What may hold a thread while it is followed, and what ends the waits of others."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static.held_locks import held_over
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Const,
+    Coroutine,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS, WaitRow
+from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, SettableRef, Waking, Word
+from ros2cc_extract.extract.static.world import (
+    RECENT,
+    ActivityState,
+    EntityState,
+    ExecutorState,
+    NodeState,
+    PlainState,
+    way_of,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Blocking, Needs
+from ros2cc_extract.spec.model import ActivityKind, When
+
+_SETTABLE = frozenset({'event', 'future', 'condition', 'queue', 'semaphore', 'barrier', 'pool'})
+
+
+class Waits(Machine):
+    """Notes for the callback or activity that is being followed."""
+
+    def note_loop(self, node: ast.While, frame: Frame) -> None:
+        """
+        A ``while`` loop begins; one that only waits for a future is a busy wait.
+
+        A coroutine that awaits in each round gives its thread back, as one that awaits the future.
+        """
+        deeds = self.world.deeds
+        if deeds is None and not outside_waits.is_idle(node):
+            return
+        gives_back = self.world.in_callback and outside_waits.awaits_each_round(node)
+        place, is_known = frame.place(node), False
+        for part in ast.walk(node.test):
+            if (
+                isinstance(part, ast.Call)
+                and isinstance(part.func, ast.Attribute)
+                and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
+            ):
+                owner = self.evaluate(part.func.value, frame)
+                is_known = True
+                if part.func.attr in ('done', 'is_set'):
+                    self.note_blocking('await' if gives_back else 'busy wait', owner, None, place)
+        if self.world.in_callback and not is_known and outside_waits.spins(node):
+            # How many callbacks run before it ends is not one.
+            reason = f'what ends the loop: {ast.unparse(node.test)}'
+            self.note_blocking('busy wait', self.mystery(reason, place), None, place)
+
+    def note_endless(self, node: ast.While) -> None:
+        """A loop was followed that nothing but the end of the program ends."""
+        world = self.world
+        is_telling = world.activity is not None and world.deeds is not None
+        if is_telling and outside_waits.is_endless(node) and world.path == world.callback_path:
+            world.activity.loops = True  # type: ignore[union-attr]
+
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+        world, deeds = self.world, self.world.deeds
+        if deeds is None or _is_main(world.activity):
+            self.note_outside_wait(name, on, seconds, place)
+        if deeds is None:
+            return
+        row = WAITS.get(name, NO_ROW)
+        thing, why = _one_object(on, place)
+        block = Blocking(
+            call=name,
+            source=place,
+            on=self._waited_for(on if thing is None or why is not None else thing),
+            seconds=_seconds(seconds, place),
+            chain=world.chain[1:],
+            held=held_over(world, on),
+            resource=self._resource(thing, row),
+            needs=row.needs,
+            escapes=why if row is not NO_ROW else None,
+            conditional=world.path != world.callback_path,
+        )
+        touch(world.activity, thing)
+        deeds.behind = way_of(block)
+        if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
+            deeds.blocking.append(block)
+
+    def _resource(self, thing: Instance | None, row: WaitRow) -> ResourceRef | None:
+        if thing is None or not row.ended_by or _is_of_entity(thing):
+            return None
+        reference = ResourceRef(thing.hint or thing.class_name)
+        reference.number = id(thing)
+        reference.ended_by = row.ended_by
+        reference.asked = row.unless_asked and id(thing) in self.world.asked
+        reference.is_kept = row.needs is Needs.ONCE
+        reference.like = self._made_there(thing)
+        return reference
+
+    def _made_there(self, thing: Instance) -> list[int]:
+        """Identities of what was made where ``thing`` was made, itself among them."""
+        alike = self.world.made_at.setdefault((thing.cls, thing.place), [])
+        if id(thing) not in alike:
+            alike.append(id(thing))
+            self.world.kept.append(thing)
+        return alike
+
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+        if isinstance(on, Instance) and seconds in (None, NONE):
+            outside_waits.note(self.world, name, on, place, spun)
+
+    def _waited_for(self, value: Value | None) -> str | Unknown | None:
+        if value is None or value == NONE:
+            return None
+        if isinstance(value, Mystery):
+            return value.unknown
+        if isinstance(value, Instance):
+            state = value.state
+            source = state.of if isinstance(state, PlainState) and state.of else value
+            if isinstance(source, Instance) and isinstance(source.state, EntityState):
+                return EntityRef.to_object(source.state, source.state.kind.value)
+            if isinstance(state, PlainState) and state.kind in _SETTABLE:
+                return SettableRef.to_object(value, value.hint or value.class_name)
+            if isinstance(value.state, (NodeState, ExecutorState)):
+                return EntityRef.to_object(value, value.hint or value.class_name)
+            return value.hint or value.class_name
+        return None
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """A callback awaits ``value``; awaiting its own coroutine is only a call."""
+        if not isinstance(value, Coroutine):
+            self.note_blocking('await', value, None, place)
+
+    def note_wake(self, thing: Value, word: Word, place: Place) -> None:
+        """Something is done to ``thing`` that may end a wait for it."""
+        world = self.world
+        if world.activity is not None and world.deeds is None:
+            return
+        for option in options_of(thing):
+            wakings = world.wakings.setdefault(id(option), [])
+            waking = self._waking(word, place)
+            if not any(_is_same_waking(waking, other) for other in wakings):
+                wakings.append(waking)
+                if isinstance(option, Instance):
+                    self._made_there(option)
+            touch(world.activity, option)
+
+    def _waking(self, word: Word, place: Place) -> Waking:
+        world = self.world
+        doer = world.activity or (world.current if world.deeds is not None else None)
+        is_uncalled = doer is None and world.when is When.LATER
+        return Waking(
+            word,
+            doer,
+            place,
+            behind=world.deeds.behind if world.deeds is not None else None,
+            conditional=world.path != world.callback_path if doer else bool(world.path),
+            after_spin=world.after_spin,
+            uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
+        )
+
+    def note_nested_spin(
+        self,
+        how: str,
+        node: Instance | None,
+        executor: Value,
+        future: tuple[Value | None, Value | None],
+        place: Place,
+        change: str = '',
+    ) -> bool:
+        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
+        if not self.world.in_callback:
+            return False
+        awaited, timeout = future
+        spun = executor if node is None else node
+        self.note_blocking(how, spun, timeout if awaited is None else None, place)
+        if awaited is not None:
+            self.note_blocking('spin for future', awaited, timeout, place)
+        if node is not None:
+            self.note_change(change, node, place)
+        return True
+
+
+def _is_main(activity: ActivityState | None) -> bool:
+    return activity is not None and activity.kind is ActivityKind.MAIN
+
+
+def _one_object(on: Value | None, place: Place) -> tuple[Instance | None, Unknown | None]:
+    """The one object that is waited on, or why it is not known which one that is."""
+    options = [option for option in options_of(on) if option != NONE] if on is not None else []
+    things = [option for option in options if isinstance(option, Instance)]
+    if len(things) == 1 and len(options) == 1:
+        return things[0], None
+    if len(things) > 1 and len(things) == len(options):
+        return None, Unknown('one of several objects, depending on a branch', place)
+    unknown = next((option.unknown for option in options if isinstance(option, Mystery)), None)
+    return (things[0] if len(things) == 1 else None), unknown
+
+
+def _is_of_entity(thing: Instance) -> bool:
+    """Whether an entity of a node ends it, as the client of a request does."""
+    of = thing.state.of if isinstance(thing.state, PlainState) else thing
+    return isinstance(of, Instance) and isinstance(of.state, EntityState)
+
+
+def touch(activity: ActivityState | None, thing: Value | None) -> None:
+    """An activity belongs to the nodes of what it touches."""
+    if activity is None or not isinstance(thing, Instance):
+        return
+    state = thing.state
+    of = state.of if isinstance(state, PlainState) and state.of is not None else thing
+    if isinstance(of, Instance) and isinstance(of.state, EntityState):
+        activity.nodes.add(id(of.state.node))
+    elif isinstance(of, Instance) and isinstance(of.state, NodeState):
+        activity.nodes.add(id(of))
+    activity.things.add(id(thing))
+
+
+def _is_same_waking(one: Waking, other: Waking) -> bool:
+    return (
+        one.word is other.word
+        and one.by is other.by
+        and one.place == other.place
+        and one.uncalled == other.uncalled
+    )
+
+
+def _is_same_wait(one: Blocking, other: Blocking) -> bool:
+    """References to two objects are equal as texts."""
+    if one != other:
+        return False
+    for here, there in ((one.on, other.on), (one.resource, other.resource)):
+        are_references = isinstance(here, EntityRef) and isinstance(there, EntityRef)
+        if are_references and here.number != there.number:  # type: ignore[union-attr]
+            return False
+    return True
+
+
+def _seconds(value: Value | None, place: Place) -> float | Unknown | None:
+    if value is None or value == NONE:
+        return None
+    if isinstance(value, Const) and isinstance(value.value, (int, float)):
+        return float(value.value)
+    if isinstance(value, Mystery):
+        return value.unknown
+    return Unknown('a duration that could not be followed', place)

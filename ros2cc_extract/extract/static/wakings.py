@@ -1,0 +1,81 @@
+"""What waits are for, and what is done to end them, until a unit has given names to all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.places import Place
+
+
+class EntityRef(str):
+    """Stands for an entity in a ``Blocking`` until the unit has given it a name."""
+
+    number: int
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> EntityRef:
+        """A reference to a node or executor; ``text`` stands for it outside every unit."""
+        reference = EntityRef(text)
+        reference.number = id(thing)
+        return reference
+
+
+class SettableRef(EntityRef):
+    """Stands for an event, queue, thread … until it is known which one callback ends a wait."""
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> SettableRef:
+        """A reference to ``thing``; ``text`` stays where no one callback alone sets it."""
+        reference = SettableRef(text)
+        reference.number = id(thing)
+        return reference
+
+
+class Word(Enum):
+    """What is done to an object that others wait on."""
+
+    SET = 'set'
+    PUT = 'put'
+    GET = 'get'
+    DONE = 'done'
+    RELEASE = 'release'
+    ARRIVE = 'arrive'
+    END = 'end'
+
+
+class ResourceRef(SettableRef):
+    """
+    Stands for what is waited on until the unit has given it a name.
+
+    :param ended_by: which operations on it end this wait.
+    :param asked: it was asked before whether it would wait at all.
+    :param like: identities of objects that were made at the same place.
+    :param is_kept: what ends the wait ends all that come after it.
+    """
+
+    ended_by: frozenset[Word] = frozenset()
+    asked = False
+    is_kept = False
+    like: Sequence[int] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Waking:
+    """
+    An operation that may end a wait of others.
+
+    :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
+        calls.
+    :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
+    :param uncalled: in whose text, which nobody in sight calls, it stands.
+    """
+
+    word: Word
+    by: object
+    place: Place
+    behind: object = None
+    conditional: bool = False
+    after_spin: bool = False
+    uncalled: str | None = None
