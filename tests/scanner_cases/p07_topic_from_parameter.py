@@ -27,5 +27,4 @@ if __name__ == '__main__':
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
-#   subscription on_in in a_default key=?
-#   ? on_in topic
+#   subscription on_in in a_default key=in ASSUMED

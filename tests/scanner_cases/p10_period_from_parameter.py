@@ -25,5 +25,4 @@ if __name__ == '__main__':
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
-#   timer tick in a_default every ?
-#   ? tick period
+#   timer tick in a_default every 0.1 ASSUMED

@@ -1,5 +1,7 @@
 """P26: what an unknown loop collected is met again, once each, never as one that is certain."""
-# live: no, the number depends on a parameter
+# live: no, the number depends on the environment
+
+import os
 
 import rclpy
 from rclpy.node import Node
@@ -9,9 +11,8 @@ from std_msgs.msg import String
 class A(Node):
     def __init__(self):
         super().__init__('a')
-        self.declare_parameter('robots', ['r1', 'r2'])
         names, by_name, ready = ['base'], {}, set()
-        for name in self.get_parameter('robots').value:
+        for name in os.environ['ROBOTS'].split():
             if name != 'all':
                 names.append(name)
             by_name[name] = self.on_dict

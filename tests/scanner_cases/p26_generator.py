@@ -1,5 +1,7 @@
 """P26: a loop over a generator: what it surely yields, and what it yields perhaps or often."""
 
+import os
+
 import rclpy
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -8,16 +10,16 @@ from std_msgs.msg import String
 class A(Node):
     def __init__(self):
         super().__init__('a')
-        self.declare_parameter('more', ['x'])
+        self.more = os.environ.get('MORE', 'x').split()
         for topic in self.topics():
             self.create_subscription(String, topic, self.on_msg, 10)
 
     def topics(self):
         yield from ('one', 'two')
         yield 'three'
-        if self.get_parameter('more').value == ['x']:
+        if self.more == ['x']:
             yield 'four'
-        for name in self.get_parameter('more').value:
+        for name in self.more:
             yield name
 
     def on_msg(self, msg):

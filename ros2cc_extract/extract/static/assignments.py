@@ -10,6 +10,7 @@ from typing import Any
 from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.containers import Sequence as Items
+from ros2cc_extract.extract.static.defaults import items_by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -123,6 +124,9 @@ class Assignments(Machine):
     def _unpack(self, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
         place = frame.place(targets[0]) if targets else Place('')
         items, rest = self.items_of(value, place)
+        by_default = items_by_default(value)
+        if by_default:
+            items, rest = by_default, None
         for index, target in enumerate(targets):
             if isinstance(target, ast.Starred):
                 behind = len(targets) - index - 1

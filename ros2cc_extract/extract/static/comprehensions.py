@@ -55,7 +55,7 @@ class Comprehensions(Machine):
             return
         generator, deeper = generators[0], generators[1:]
         place = frame.place(generator.iter)
-        items = loops.items_in(self, self.evaluate(generator.iter, frame), place)
+        items = loops.items_to_run(self, self.evaluate(generator.iter, frame), place)
         self.note_iteration(generator.iter, frame)
         is_long = len(items.known) > loops.UNROLL_LIMIT
         here = Unknown('a long comprehension', place) if is_long else why

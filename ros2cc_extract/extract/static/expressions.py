@@ -7,8 +7,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, folding, loops
+from ros2cc_extract.extract.static import changing, conditions, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.relevance import CHANGING_METHODS
 from ros2cc_extract.extract.static.subscripts import slice_alone, subscript
@@ -116,7 +117,8 @@ class Expressions(Machine):
         for side in (left, right):
             if isinstance(side, Mystery):
                 text = node if isinstance(node, ast.BinOp) else side.text
-                return Mystery(side.unknown, text)
+                default = by_default([left, right], partial(folding.binary, op))
+                return Mystery(side.unknown, text, default)
         return self.mystery('an expression that could not be folded', frame.place(node))
 
     def _has_truth_method(self, value: Instance) -> bool:
@@ -294,44 +296,6 @@ def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
     return Mapping(entries, rest, many)
 
 
-def _if_expression(machine: Expressions, node: ast.IfExp, frame: Frame) -> Value:
-    holds = changing.decide(machine, node.test, frame)
-    if holds is not None:
-        return machine.evaluate(node.body if holds else node.orelse, frame)
-    arms = (node.body, node.orelse)
-    return machine.branch(
-        [partial(machine.evaluate, arm, frame) for arm in arms], frame.place(node)
-    )
-
-
-def _boolean(machine: Expressions, node: ast.BoolOp, frame: Frame) -> Value:
-    stops_on = isinstance(node.op, ast.Or)
-    found: list[Value] = []
-    for index, part in enumerate(node.values):
-        before = machine.world.changing
-        value = machine.evaluate(part, frame)
-        is_open = machine.world.changing != before
-        last = index == len(node.values) - 1
-        for option in options_of(value):
-            truth = None if is_open else machine.truth(option)
-            if truth is None or truth is stops_on or last:
-                found.append(option)
-        if not is_open and machine.truth(value) is stops_on:
-            break
-    return choice(found) if found else machine.mystery('condition', frame.place(node))
-
-
-def _unary(machine: Expressions, node: ast.UnaryOp, frame: Frame) -> Value:
-    value = machine.evaluate(node.operand, frame)
-    if isinstance(node.op, ast.Not):
-        truth = machine.truth(value)
-        if truth is not None:
-            return Const(not truth)
-        return machine.mystery('a condition', frame.place(node))
-    folded = folding.unary(node.op, value)
-    return folded or machine.mystery('arithmetic on an unknown value', frame.place(node))
-
-
 def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
     left = machine.evaluate(node.left, frame)
     right = machine.evaluate(node.right, frame)
@@ -344,38 +308,26 @@ def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.AST) -> Valu
     return Sequence(left.items, left.kind, Unknown('unknown length', frame.place(node)))
 
 
-def _compare(machine: Expressions, node: ast.Compare, frame: Frame) -> Value:
-    before = machine.world.changing
-    left = machine.evaluate(node.left, frame)
-    verdict: bool | None = True
-    for operator, right_node in zip(node.ops, node.comparators, strict=True):
-        right = machine.evaluate(right_node, frame)
-        holds = folding.compare(operator, left, right)
-        verdict = False if holds is False else (verdict if holds else None)
-        if verdict is False:
-            break
-        left = right
-    if verdict is None or machine.world.changing != before:
-        return machine.mystery('a condition', frame.place(node))
-    return Const(verdict)
-
-
 def _formatted(machine: Expressions, node: ast.JoinedStr, frame: Frame) -> Value:
     parts: list[str] = []
+    held: list[Value] = []
     mystery: Mystery | None = None
     for part in node.values:
-        if isinstance(part, ast.Constant):
-            parts.append(str(part.value))
-            continue
         value = machine.evaluate(part, frame)
+        held.append(value)
         if isinstance(value, Const):
             parts.append(str(value.value))
         elif mystery is None:
             mystery = value if isinstance(value, Mystery) else None
             mystery = mystery or machine.mystery('f-string part not followed', frame.place(part))
     if mystery is not None:
-        return Mystery(mystery.unknown, node, mystery.default and None)
+        return Mystery(mystery.unknown, node, by_default(held, _joined_text))
     return Const(''.join(parts))
+
+
+def _joined_text(*parts: Value) -> Value | None:
+    texts = [str(part.value) for part in parts if isinstance(part, Const)]
+    return Const(''.join(texts)) if len(texts) == len(parts) else None
 
 
 def _formatted_part(machine: Expressions, node: ast.FormattedValue, frame: Frame) -> Value:
@@ -446,11 +398,11 @@ _EXPRESSIONS: dict[type[ast.expr], Callable[..., Value]] = {
     ast.Dict: _dictionary,
     ast.Subscript: subscript,
     ast.Slice: slice_alone,
-    ast.IfExp: _if_expression,
-    ast.BoolOp: _boolean,
-    ast.UnaryOp: _unary,
+    ast.IfExp: conditions.if_expression,
+    ast.BoolOp: conditions.boolean,
+    ast.UnaryOp: conditions.unary,
     ast.BinOp: _binary,
-    ast.Compare: _compare,
+    ast.Compare: conditions.compare,
     ast.JoinedStr: _formatted,
     ast.FormattedValue: _formatted_part,
     ast.Lambda: _lambda,

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.defaults import assumption, items_by_default
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -41,11 +42,13 @@ class Items:
     :param known: the items that are known, in order.
     :param others: why there may be some that no known one stands for.
     :param many: as in ``Collection``.
+    :param assumed: the rule by which these are assumed to be all.
     """
 
     known: tuple[Value, ...]
     others: Unknown | None
     many: dict[Value, Value]
+    assumed: str | None = None
 
     def why_many(self, item: Value) -> Unknown | None:
         """Why ``item`` stands for any number of items, ``None`` when it is one."""
@@ -66,6 +69,14 @@ def items_in(machine: Machine, value: Value, place: Place) -> Items:
     if not known and others is None and may_be_filled(machine, value):
         others = Unknown('it is filled when the program runs', place)
     return Items(known, others, value.many)
+
+
+def items_to_run(machine: Machine, value: Value, place: Place) -> Items:
+    """What a loop runs over; a list that is a default by assumption."""
+    known = items_by_default(value)
+    if known and isinstance(value, Mystery):
+        return Items(known, None, {}, assumption('number', value))
+    return items_in(machine, value, place)
 
 
 def _one_of(items: list[Items]) -> Items:
@@ -130,6 +141,8 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
     """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` told from ``NEXT``."""
     path, ends = machine.world.path, 0
+    assumed = machine.world.assumed
+    machine.world.assumed = items.assumed or assumed
     try:
         if len(items.known) > UNROLL_LIMIT:
             return _run_many(machine, items.known, once, place)
@@ -154,7 +167,7 @@ def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place
                 ends |= once(item) & _OUT
         return ends | _NEXT
     finally:
-        machine.world.path = path
+        machine.world.path, machine.world.assumed = path, assumed
 
 
 def _run_item(machine: Machine, item: Value, once: Callable[[Value], int], place: Place) -> int:

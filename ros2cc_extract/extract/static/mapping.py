@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Sequence
+from ros2cc_extract.extract.static.defaults import by_default, items_by_default
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.values import NONE, Call, Mystery, Value
+from ros2cc_extract.extract.static.values import ABSENT, NONE, Call, Choice, Mystery, Value
 from ros2cc_extract.places import Unknown
 
 _NEXT = 1
 
 
 def zipped(machine: Machine, receiver: Value, call: Call) -> Value:
+    mystery = next((arg for arg in call.args if isinstance(arg, Mystery)), None)
+    default = by_default(
+        call.args, lambda *held: zipped(machine, NONE, Call(call.place, list(held)))
+    )
+    if mystery is not None and default is not None and call.more is None:
+        return Mystery(mystery.unknown, 'zip(…)', default)
     columns = [loops.items_in(machine, arg, call.place) for arg in call.args]
     rows: list[Value] = []
     for parts in zip(*(column.known for column in columns), strict=False):
-        if any(c.why_many(part) is not None for c, part in zip(columns, parts, strict=True)):
+        if any(_why_unsure(c, part) is not None for c, part in zip(columns, parts, strict=True)):
             break
         rows.append(Sequence(parts, 'tuple'))
     why = call.more or _why_more(columns, len(rows))
@@ -32,8 +39,17 @@ def _why_more(columns: list[loops.Items], length: int) -> Unknown | None:
     """Why there may be more rows than ``length``; a column that surely ends there ends all."""
     if any(len(column.known) == length and column.others is None for column in columns):
         return None
-    whys = [why for c in columns for why in (c.others, *map(c.why_many, c.known)) if why]
+    whys = [
+        why for c in columns for why in (c.others, *(_why_unsure(c, i) for i in c.known)) if why
+    ]
     return whys[0] if whys else None
+
+
+def _why_unsure(column: loops.Items, item: Value) -> Unknown | None:
+    """Why ``item`` may stand at another position: it is several, or perhaps none."""
+    if isinstance(item, Choice) and ABSENT in item.options:
+        return Unknown('an item that may be missing')
+    return column.why_many(item)
 
 
 def _from_there_on(column: loops.Items, index: int, why: Unknown) -> Value:
@@ -55,16 +71,23 @@ def mapped(machine: Machine, receiver: Value, call: Call) -> Value:
     many: dict[Value, Value] = {}
 
     def once(item: Value) -> int:
-        row = not is_one and isinstance(item, Sequence)
-        args = list(item.items) if row and isinstance(item, Sequence) else [item]
+        args = [item] if is_one else _row(item)
         result = machine.call(function, Call(call.place, args))
         results.append(result)
         if isinstance(machine.world.count, Unknown):
             many[result] = machine.why_many()
         return _NEXT
 
-    loops.run_loop(machine, loops.items_in(machine, over, call.place), once, call.place)
+    items = loops.items_to_run(machine, over, call.place)
+    loops.run_loop(machine, items, once, call.place)
     return Sequence(tuple(results), 'list', None, many)
+
+
+def _row(item: Value) -> list[Value]:
+    held = items_by_default(item)
+    if isinstance(item, Sequence):
+        held = item.items
+    return list(held) if held else [item]
 
 
 def filtered(machine: Machine, receiver: Value, call: Call) -> Value:

@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
@@ -37,9 +38,12 @@ _RANGE_LIMIT = 100_000
 
 
 def _range(machine: Machine, receiver: Value, call: Call) -> Value:
+    mystery = next((arg for arg in call.args if isinstance(arg, Mystery)), None)
+    default = _of_defaults(_range, machine, call)
+    if mystery is not None and default is not None:
+        return Mystery(mystery.unknown, 'range(…)', default)
     bounds = [arg.value for arg in call.args if isinstance(arg, Const)]
     if len(bounds) != len(call.args) or not all(isinstance(bound, int) for bound in bounds):
-        mystery = next((arg for arg in call.args if isinstance(arg, Mystery)), None)
         reason = mystery.unknown.reason if mystery else 'range of unknown length'
         return Sequence((), 'range', Unknown(reason, call.place))
     try:
@@ -51,7 +55,19 @@ def _range(machine: Machine, receiver: Value, call: Call) -> Value:
     return Sequence(tuple(Const(number) for number in numbers), 'range')
 
 
+def _of_defaults(handler: Handler, machine: Machine, call: Call) -> Value | None:
+    """What a function gives for the defaults of its arguments, where one of these is open."""
+    if call.more is not None or call.keywords:
+        return None
+    return by_default(
+        call.args, lambda *defaults: handler(machine, NONE, Call(call.place, list(defaults)))
+    )
+
+
 def _enumerate(machine: Machine, receiver: Value, call: Call) -> Value:
+    default = _of_defaults(_enumerate, machine, call)
+    if default is not None and isinstance(call.args[0], Mystery):
+        return Mystery(call.args[0].unknown, call.args[0].text, default)
     items = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
     start = call.argument(1, 'start')
     first = start.value if isinstance(start, Const) and isinstance(start.value, int) else 0
@@ -124,6 +140,8 @@ def _fill_with_pairs(
 
 def _len(machine: Machine, receiver: Value, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
+    if isinstance(value, Mystery) and isinstance(value.default, Sequence):
+        return Mystery(value.unknown, f'len({value.text})', _of_defaults(_len, machine, call))
     if isinstance(value, Collection) and loops.may_be_filled(machine, value):
         return machine.mystery('length when the program runs', call.place, 'len(…)')
     if (
@@ -150,6 +168,11 @@ def _scalar(kind: type) -> Handler:
         if kind is bool:
             truth = machine.truth(value)
             return value if truth is None else Const(truth)
+        if isinstance(value, Mystery) and value.default is not None:
+            default = by_default(
+                [value], lambda held: handler(machine, NONE, Call(call.place, [held]))
+            )
+            return Mystery(value.unknown, value.text, default)
         return (
             value
             if isinstance(value, Mystery)
@@ -170,6 +193,10 @@ def _extreme(act: str) -> Handler:
                 return Const(max(numbers) if act == 'max' else min(numbers))
             except TypeError:
                 pass
+        mystery = next((value for value in call.args if isinstance(value, Mystery)), None)
+        default = _of_defaults(handler, machine, call)
+        if mystery is not None and default is not None:
+            return Mystery(mystery.unknown, f'{act}(…)', default)
         return machine.mystery(f'{act}() of unknown values', call.place, f'{act}(…)')
 
     return handler

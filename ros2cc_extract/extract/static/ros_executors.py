@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static import activities
+from ros2cc_extract.extract.static.defaults import assumption
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
@@ -103,12 +104,20 @@ def _init(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _is_count(value: Const) -> bool:
+    return isinstance(value.value, int) and value.value > 0
+
+
 def _set_threads(state: ExecutorState, value: Value | None, place: Place) -> None:
     if value is None or value == NONE:
         return
     state.threads_at = place
-    if isinstance(value, Const) and isinstance(value.value, int) and value.value > 0:
+    if isinstance(value, Const) and _is_count(value):
         state.threads = value.value
+        return
+    default = value.default if isinstance(value, Mystery) else None
+    if isinstance(value, Mystery) and isinstance(default, Const) and _is_count(default):
+        state.threads, state.assumed = default.value, assumption('number of threads', value)
         return
     state.threads = 2
     reason = value.unknown.reason if isinstance(value, Mystery) else 'computed at run time'

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static.containers import Sequence
+from ros2cc_extract.extract.static.defaults import default_of
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_builtins import (
@@ -119,6 +121,7 @@ def add_entity(
     """Record an entity of ``node`` made here and now."""
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
+    entity.assumed = world.assumed
     entity.when = world.when
     entity.number = len(world.entities) + len(world.builtins)
     world.entities.append(entity)
@@ -285,16 +288,51 @@ def _parameter(machine: Machine, receiver: Value, call: Call) -> Value:
     default = call.argument(1, 'value')
     text = f'parameter {name.value!r}' if isinstance(name, Const) else 'a parameter'
     assert isinstance(receiver, Instance)
-    known = receiver.slots.setdefault('__parameters__', {})
+    known = _declared(receiver)
     if isinstance(name, Const):
         if default is not None:
             known[name.value] = default
         default = known.get(name.value)
-    if isinstance(default, Const) and default.value is not None:
+    default = _usable(default_of(default))
+    if isinstance(default, Const):
         text = f'{text} (default {default.value!r})'
     made = Instance(Name('rclpy.parameter.Parameter'), call.place)
-    made.state = PlainState('parameter', Mystery(Unknown(f'value of {text}', call.place), text))
+    value = Mystery(Unknown(f'value of {text}', call.place), text, default)
+    made.state = PlainState('parameter', value)
     return made
+
+
+def _declared(node: Instance) -> dict[object, Value]:
+    """The parameters that a node has declared, with their defaults."""
+    known: dict[object, Value] = node.slots.setdefault('__parameters__', {})
+    return known
+
+
+def _usable(default: Value | None) -> Value | None:
+    """A default that says something: a type alone, ``None`` and an empty list do not."""
+    if isinstance(default, Sequence):
+        return default if default.items and default.rest is None else None
+    return default if default != NONE else None
+
+
+def _declare_all(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``declare_parameters(namespace, [(name, default, …), …])``."""
+    space, rows = call.argument(0, 'namespace'), call.argument(1, 'parameters')
+    items, rest = machine.items_of(rows or NONE, call.place)
+    made = []
+    for row in items:
+        parts = list(row.items) if isinstance(row, Sequence) else []
+        name = parts[0] if parts else NONE
+        if isinstance(space, Const) and isinstance(name, Const) and space.value:
+            parts[0] = Const(f'{space.value}.{name.value}')
+        made.append(_parameter(machine, receiver, Call(call.place, parts[:2])))
+    return Sequence(tuple(made), 'list', rest)
+
+
+def _get_all(machine: Machine, receiver: Value, call: Call) -> Value:
+    items, rest = machine.items_of(call.argument(0, 'names') or NONE, call.place)
+    made = [_parameter(machine, receiver, Call(call.place, [name])) for name in items]
+    return Sequence(tuple(made), 'list', rest)
 
 
 def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -306,7 +344,12 @@ def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
-    return _parameter(machine, receiver, call)
+    """``get_parameter_or(name, alternative)``; the alternative is a parameter itself."""
+    other = call.argument(1, 'alternative_value')
+    state = other.state if isinstance(other, Instance) else None
+    default = state.key if isinstance(state, PlainState) else None
+    args = [arg for arg in (call.argument(0, 'name'), default) if arg is not None]
+    return _parameter(machine, receiver, Call(call.place, args))
 
 
 def _parameter_value(machine: Machine, receiver: Instance, place: Place) -> Value:
@@ -364,7 +407,9 @@ NODE_METHODS: dict[str, Handler] = {
     'destroy_client': _destroy,
     'destroy_guard_condition': _destroy,
     'declare_parameter': _parameter,
+    'declare_parameters': _declare_all,
     'get_parameter': _parameter,
+    'get_parameters': _get_all,
     'get_parameter_or': _parameter_or,
     'get_clock': _unfollowed('the clock'),
     'get_name': _unfollowed('name of the node at run time'),

@@ -271,7 +271,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     place = frame.place(node.iter)
     values = machine.evaluate(node.iter, frame)
     machine.note_iteration(node.iter, frame)
-    items = loops.items_in(machine, values, place)
+    items = loops.items_to_run(machine, values, place)
 
     def once(item: Value) -> int:
         machine.assign(node.target, item, frame)

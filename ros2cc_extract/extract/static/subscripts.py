@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.defaults import default_of, items_by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -62,6 +63,10 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         method = machine.attribute(owner, '__getitem__', place)
         if isinstance(method, Bound):
             return machine.call(method, Call(place, [key]))
+    by_default = items_by_default(owner)
+    index = loops.index_of(default_of(key) or key, len(by_default))
+    if by_default and index is not None:
+        return by_default[index]
     reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
     return machine.mystery(reason, place, node)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
 from ros2cc_extract.extract.static.alternatives import Branches, beyond, shared
+from ros2cc_extract.extract.static.defaults import assumption
 from ros2cc_extract.extract.static.likeness import same_on_a_ghost
 from ros2cc_extract.extract.static.naming import (
     FunctionFacts,
@@ -262,7 +263,7 @@ class UnitBuilder:
             library=entity.library,
             builtin=entity.builtin,
             unresolved=facts.unresolved if entity.library is None else None,
-            assumed=assumed or period_assumed,
+            assumed=assumed or period_assumed or entity.assumed,
             source=entity.place,
             defined=facts.defined,
             reads=tuple(deeds.reads) if deeds else (),
@@ -346,7 +347,7 @@ def _key(value: Value | None) -> tuple[str | Unknown | None, str | None]:
     if isinstance(value, Mystery):
         default = constant_text(value.default)
         if default is not None:
-            return default, f'name is the default of parameter {value.text!r}'
+            return default, assumption('name', value)
         label = f'{value.text}: ' if value.text else ''
         return Unknown(f'{label}{value.unknown.reason}', value.unknown.at), None
     return Unknown('name that could not be followed'), None
@@ -361,7 +362,7 @@ def _period(value: Value | None) -> tuple[float | Unknown | None, str | None]:
     if isinstance(value, Mystery):
         default = _number(value.default)
         if default is not None:
-            return default, f'period is the default of parameter {value.text!r}'
+            return default, assumption('period', value)
         label = f'{value.text}: ' if value.text else ''
         return Unknown(f'{label}{value.unknown.reason}', value.unknown.at), None
     return Unknown('period that could not be followed'), None

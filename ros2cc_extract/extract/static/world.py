@@ -101,6 +101,7 @@ class EntityState:
     """
     A ROS entity or a piece of group-less work; one record for each that is made.
 
+    :param assumed: the rule by which it is assumed to be there.
     :param part_of: the subscription whose event it handles.
     """
 
@@ -124,6 +125,7 @@ class EntityState:
     argument: Value | None = None
     number: int = 0
     part_of: EntityState | None = None
+    assumed: str | None = None
 
 
 class AccessKind(Enum):
@@ -302,6 +304,7 @@ class World:
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     :param iterating: class of the collection that a loop begins to go over.
     :param refilling: an item is stored under a key that the dictionary surely has.
+    :param assumed: the rule by which the running loop is assumed to go over these items.
     :param stopped: this branch of the program has ended.
     :param trees: the text of every module that was run; ``files`` with the names of its file.
     :param changing: how often a callback has read what other functions may change.
@@ -324,6 +327,7 @@ class World:
     is_program: bool = False
     in_thread: bool = False
     stopped: bool = False
+    assumed: str | None = None
     deeds: Deeds | None = None
     current: EntityState | None = None
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
