@@ -11,6 +11,7 @@ from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_FINDINGS, EXIT_UNDECIDED
 
 if TYPE_CHECKING:
     from ros2cc_extract.conform.observations import Observation
+    from ros2cc_extract.conform.search import Answer
     from ros2cc_extract.conform.trace import Trace
     from ros2cc_extract.conform.unit import Comparison
     from ros2cc_extract.spec.model import Spec
@@ -89,7 +90,8 @@ def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
     answer, spec = comparison.answer, comparison.unit.spec
     events = len(comparison.observations)
     if answer.outcome is Outcome.CONFORMS:
-        yield f'{spec.name}: conforms: all {events} events are a path of the model'
+        how = _reordering(answer)
+        yield f'{spec.name}: conforms{how}: all {events} events are a path of the model'
     elif answer.outcome is Outcome.UNDECIDED:
         yield f'{spec.name}: undecided: {answer.seen} states looked at, {events} events'
     else:
@@ -102,6 +104,11 @@ def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
         yield f'  not in the specification, but it ran: {lacking}'
     if trace.lost:
         yield f'  the trace has {trace.lost} gaps: events came faster than they could be kept'
+
+
+def _reordering(answer: Answer) -> str:
+    moved_ms = answer.reordered_ns / 1e6
+    return f' only with a reordering of {moved_ms:.3g} ms' if moved_ms else ''
 
 
 def _divergence(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.conform.trace import Event, Subject, Trace
-from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+from ros2cc_extract.spec.model import Callback, EntityKind, GroupType, Spec
 
 #: Who collects looks at the group just before it is told; so long after its last step, the thread
 #: may have slept in between (89 ms were seen on a machine with eight times its load).
@@ -41,6 +41,7 @@ class Observation:
     :param takes: its data was seen to be taken in the same step.
     :param is_task: it runs outside every group, and goes on as it begins.
     :param has_arrived: that something arrived for it is an observation of its own.
+    :param group: of a begin or an end the exclusive group that is closed or opened.
     """
 
     act: Act
@@ -52,6 +53,7 @@ class Observation:
     takes: bool = False
     is_task: bool = False
     has_arrived: bool = False
+    group: str | None = None
 
 
 _ACTS = {
@@ -201,3 +203,24 @@ def _with_takes(rows: Iterator[Observation]) -> Iterator[Observation]:
             begun[row.thread] = len(kept)
         kept.append(row)
     yield from kept
+
+
+def with_groups(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
+    """
+    Say whose exclusive group a begin closes and an end opens.
+
+    The hook reads the clock after a group let somebody begin, and before it is told of an end
+    (``extract/live/groups.py``): by the clock these never overlap where the group is kept.
+    """
+    exclusive = {group.name for group in spec.groups if group.type is GroupType.EXCLUSIVE}
+    group_of = {
+        place: callback.group
+        for place, callback in enumerate(spec.callbacks)
+        if callback.group in exclusive and not callback.groupless
+    }
+    return tuple(
+        replace(each, group=group_of.get(each.callback))
+        if each.callback is not None and each.act in (Act.BEGIN, Act.END)
+        else each
+        for each in seen
+    )

@@ -3,7 +3,8 @@ Decides whether a sequence of observations is a path of a model.
 
 The model takes steps that nobody sees; and observations of different threads may stand in the
 trace in another order than they happened. So paths are searched, depth first, in the order of
-the clock as long as that will do. What arrives is only made to arrive when it is collected:
+the clock as long as that will do; begins and ends in one exclusive group never stand in another
+order. What arrives is only made to arrive when it is collected:
 more of it would allow nothing more.
 """
 
@@ -43,7 +44,7 @@ class Answer:
     :param path: those, in the order in which the model took them.
     :param states: where the model can be after them, packed.
     :param next: the observation that no path goes on with, by the clock.
-    :param slack_ns: how far observations of different threads had to be moved.
+    :param reordered_ns: how far observations of different threads had to be moved.
     :param seen: how many states were looked at.
     """
 
@@ -52,7 +53,7 @@ class Answer:
     path: tuple[Observation, ...]
     states: tuple[int, ...]
     next: Observation | None
-    slack_ns: int
+    reordered_ns: int
     seen: int
 
 
@@ -152,11 +153,15 @@ class _Search:
         """Whether it may have happened before others that stand before it."""
         if observation.earliest_ns > first_ns + self.slack_ns:
             return False
-        if observation.earliest_ns < observation.clock_ns:
-            return True
-        clocks = zip(self._clocks, positions, strict=True)
-        passed = (bisect_left(each, observation.clock_ns) - at for each, at in clocks)
-        return sum(max(0, number) for number in passed) <= self.passed
+        passed = list(self._passed(observation.clock_ns, positions))
+        if observation.group and any(each.group == observation.group for each in passed):
+            return False
+        return observation.earliest_ns < observation.clock_ns or len(passed) <= self.passed
+
+    def _passed(self, clock_ns: int, positions: Positions) -> Iterator[Observation]:
+        """What stands before a clock and was not followed yet."""
+        for thread, clocks, at in zip(self._threads, self._clocks, positions, strict=True):
+            yield from thread[at : bisect_left(clocks, clock_ns)]
 
     def _note(self, node: _Node, depth: int) -> None:
         if depth > self._depth:
@@ -167,19 +172,29 @@ class _Search:
     def _answer(self, outcome: Outcome, seen: int) -> Answer:
         node: _Node | None = self._deepest[0]
         rest = self._candidates(self._deepest[0].positions)
-        path = []
+        path: list[Observation] = []
         while node is not None and node.observation is not None:
             path.append(node.observation)
             node = node.parent
+        path.reverse()
         return Answer(
             outcome=outcome,
             steps=self._depth,
-            path=tuple(reversed(path)),
+            path=tuple(path),
             states=tuple(dict.fromkeys(node.packed for node in self._deepest)),
             next=rest[0][1] if rest else None,
-            slack_ns=self.slack_ns,
+            reordered_ns=_reordered_ns(path),
             seen=seen,
         )
+
+
+def _reordered_ns(path: Sequence[Observation]) -> int:
+    """How long after others a step was told that a path has before them."""
+    most, first_ns = 0, path[-1].clock_ns if path else 0
+    for each in reversed(path):
+        most = max(most, each.earliest_ns - first_ns)
+        first_ns = min(first_ns, each.clock_ns)
+    return most
 
 
 def _has_arrived(observation: Observation) -> bool:

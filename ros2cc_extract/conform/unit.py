@@ -16,6 +16,7 @@ from ros2cc_extract.conform.observations import (
     Observation,
     match,
     observe,
+    with_groups,
 )
 from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
@@ -83,7 +84,7 @@ def compare(
     ran = {event.subject for event in trace.events if event.name in _RUNS}
     unit = _with_what_ran(trace, executor, spec, ran)
     places = match(trace, executor, unit.spec)
-    seen = observe(trace, executor, places)
+    seen = with_groups(observe(trace, executor, places), unit.spec)
     if arrivals:
         seen = with_arrivals(seen, arrivals, unit.spec)
     if until_ns is not None:

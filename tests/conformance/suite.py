@@ -47,7 +47,7 @@ class Tally:
         answer = comparison.answer
         self.outcomes[answer.outcome] += 1
         self.events += len(comparison.observations)
-        self.reordered += answer.slack_ns > 0
+        self.reordered += answer.reordered_ns > 0
         self.told += bool(ran.arrivals)
         self.delayed += was_delayed
         if answer.outcome is not Outcome.CONFORMS:

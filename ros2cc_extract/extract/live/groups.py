@@ -4,11 +4,16 @@ Reports when a callback's group lets it begin, refuses it, and is told of its en
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. What is here, or its like in C (``journal.py``), is all that stands on the way of a
 callback when no trace is asked for.
+
+The clock is read after a group was asked whether a callback may begin, and before it is told of
+an end: so runs in one exclusive group never overlap by the clock, as they do not in the group.
 """
 
 from __future__ import annotations
 
 import functools
+import time
+from threading import get_ident
 from typing import Any
 
 from .journal import native
@@ -17,6 +22,7 @@ from .record import Recorder
 # Of types whose objects become methods of the instance that they are found on, as functions do:
 # Py_TPFLAGS_METHOD_DESCRIPTOR.
 _BINDS = 1 << 17
+_clock = time.monotonic_ns
 
 
 def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: int) -> Any:
@@ -25,7 +31,7 @@ def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: 
 
     A subclass that calls its base is reported once, by its own wrapper.
 
-    :param what: the event when the method gives true, else it is ``otherwise``.
+    :param what: the event when the method gives true, else it is ``otherwise``; an end is both.
     :raises TypeError: when it is something else than a function, which would be called otherwise.
     """
     original = group.__dict__[name]
@@ -43,19 +49,23 @@ def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: 
 def _plain(recorder: Recorder, group: type, name: str, what: int, otherwise: int) -> Any:
     original = group.__dict__[name]
     entities, find = recorder.entities, recorder.note_entity
-    note, lose = recorder.journal.note, recorder.lose
+    put, lose = recorder.journal.put, recorder.lose
+    is_end = what == otherwise
 
     @functools.wraps(original)
     def method(*args: Any, **named: Any) -> Any:
+        clock = _clock() if is_end else 0
         result = original(*args, **named)
         try:
+            if not is_end:
+                clock = _clock()
             asked, entity = args[0], args[1] if len(args) > 1 else named['entity']
             if type(asked) is group or getattr(type(asked), name) is method:
                 try:
                     record = entities[id(entity)]
                 except KeyError:
                     record = find(asked, entity)
-                note(what if result else otherwise, record.number)
+                put(clock, get_ident(), what if result else otherwise, record.number)
         except Exception as error:
             lose(error)
         return result

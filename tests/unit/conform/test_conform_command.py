@@ -6,6 +6,8 @@ import io
 import json
 from pathlib import Path
 
+import pytest
+
 from ros2cc_extract.cli.main import main
 
 SPEC = """\
@@ -102,7 +104,24 @@ def test_a_divergence_is_told_with_what_the_model_would_have_allowed(tmp_path: P
 def test_steps_of_two_threads_may_stand_in_another_order(tmp_path: Path) -> None:
     late = GOOD.replace('a begin 3, a take 3, b refused 2', 'b refused 2, a begin 3, a take 3')
     assert conform(late, tmp_path)[0] == 1
-    assert conform(late, tmp_path, spacing_ns=100_000)[0] == 0
+    told = (
+        'arm: conforms only with a reordering of 0.1 ms: all 10 events are a path of the model\n'
+    )
+    assert conform(late, tmp_path, spacing_ns=100_000) == (0, told, '')
+
+
+@pytest.mark.parametrize('spacing_ns', [1_000, SPACING_NS])
+def test_runs_in_an_exclusive_group_never_overlap(spacing_ns: int, tmp_path: Path) -> None:
+    """Their order by the clock is that of the group, however near they are."""
+    overlapping = """
+        spin wait> 1, spin wait< 1, spin collect 3, spin collect 2, a begin 3, a take 3,
+        b begin 2, b take 2, a end 3, b end 2
+    """
+    status, told, _ = conform(overlapping, tmp_path, spacing_ns=spacing_ns)
+    assert (status, told.splitlines()[0]) == (1, 'arm: diverges after 4 of 7 events')
+    reentrant = SPEC.replace('type: EXCLUSIVE', 'type: REENTRANT')
+    status, told, _ = conform(overlapping, tmp_path, spec=reentrant, spacing_ns=spacing_ns)
+    assert (status, told) == (0, 'arm: conforms: all 7 events are a path of the model\n')
 
 
 def test_a_limit_leaves_the_question_open(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live.events import END
+from ros2cc_extract.extract.live.events import BEGIN, END, TAKE, rows
 from ros2cc_extract.extract.live.groups import reporting
 from ros2cc_extract.extract.live.hook import Hook
 from ros2cc_extract.extract.live.record import Recorder
@@ -407,3 +407,26 @@ def test_end_of_a_group_is_one_whatever_it_gives(recorder: Recorder, told: Told)
     group = Group()
     group.ending_execution(Entity(group))
     assert [name for name, _ in told()] == ['end']
+
+
+def test_a_group_is_entered_before_a_begin_is_told_and_left_after_an_end(
+    recorder: Recorder,
+) -> None:
+    """Whoever gets the group begins later by the clock, however late the end is written down."""
+
+    class Group:
+        def beginning_execution(self, entity: Any) -> bool:
+            recorder.journal.note(TAKE, 7)
+            return True
+
+        def ending_execution(self, entity: Any) -> None:
+            recorder.journal.note(TAKE, 8)
+
+    wrap(recorder, Group)
+    Group.ending_execution = reporting(recorder, Group, 'ending_execution', END, END)  # type: ignore[method-assign]
+    group = Group()
+    entity = Entity(group)
+    group.beginning_execution(entity)
+    group.ending_execution(entity)
+    told = sorted((clock, what) for (clock, _, what, _), _ in rows(recorder.take_events()))
+    assert [what for _, what in told] == [TAKE, BEGIN, END, TAKE]

@@ -29,7 +29,7 @@ typedef struct {
 _Static_assert(sizeof(Event) == 24, "events.py unpacks it so");
 
 /* REVISION: counted up, also in journal.py, when what Python calls here changes. */
-enum { REVISION = 2, MOST_ARGUMENTS = 16 };
+enum { REVISION = 3, MOST_ARGUMENTS = 16 };
 
 static PyObject *str_number, *str_callback_group, *str_only_executor, *str_handler, *str_record,
     *str_submitted, *str_suspended, *str_qualname;
@@ -54,11 +54,18 @@ static void put(Journal *self, Event event) {
     self->events[(self->first + self->count++) % self->kept] = event;
 }
 
-static void note(Journal *self, uint32_t what, uint32_t number) {
+static int64_t read_clock(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    put(self, (Event){(int64_t)now.tv_sec * 1000000000 + now.tv_nsec,
-                      PyThread_get_thread_ident(), what, number});
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static void put_here(Journal *self, int64_t clock_ns, uint32_t what, uint32_t number) {
+    put(self, (Event){clock_ns, PyThread_get_thread_ident(), what, number});
+}
+
+static void note(Journal *self, uint32_t what, uint32_t number) {
+    put_here(self, read_clock(), what, number);
 }
 
 /* Forget the oldest steps. An empty ring begins anew, and so uses few pages of its memory. */
@@ -386,7 +393,8 @@ static PyObject *asked_about(PyObject *const *args, Py_ssize_t given, PyObject *
     return NULL;
 }
 
-static int report_group(Wrapper *self, PyObject *group, PyObject *entity, PyObject *result) {
+static int report_group(Wrapper *self, int64_t clock_ns, PyObject *group, PyObject *entity,
+                        PyObject *result) {
     int reported = is_reported_by(self, group);
     if (reported < 1) return reported;
     PyObject *record = record_of(self, group, entity);
@@ -395,17 +403,21 @@ static int report_group(Wrapper *self, PyObject *group, PyObject *entity, PyObje
     int truth = PyObject_IsTrue(result);
     int done = truth < 0 ? -1 : number_of(record, &number);
     Py_DECREF(record);
-    if (done == 0) note(self->journal, truth ? self->what : self->otherwise, number);
+    if (done == 0) put_here(self->journal, clock_ns, truth ? self->what : self->otherwise, number);
     return done;
 }
 
+/* As groups.py says: a group is entered before its begin is told, and left after its end. */
 static PyObject *call_group_method(PyObject *wrapper, PyObject *const *args, size_t flags,
                                    PyObject *names) {
     Wrapper *self = (Wrapper *)wrapper;
+    int is_end = self->what == self->otherwise;
+    int64_t clock_ns = is_end ? read_clock() : 0;
     PyObject *result = PyObject_Vectorcall(self->original, args, flags, names);
     if (!result) return NULL;
+    if (!is_end) clock_ns = read_clock();
     PyObject *entity = asked_about(args, PyVectorcall_NARGS(flags), names);
-    if (entity && report_group(self, args[0], entity, result) == 0) return result;
+    if (entity && report_group(self, clock_ns, args[0], entity, result) == 0) return result;
     return after_all(self, result);
 }
 
