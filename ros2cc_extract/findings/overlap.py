@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from ros2cc_extract.findings.capacity import can_overlap_itself
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
+from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.workers import runs_in_parallel
-from ros2cc_extract.spec.model import Callback, exclude_each_other
+from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.rates import demand_of
 from ros2cc_extract.verify.unit import Verdict
 
 
@@ -41,9 +43,28 @@ def overlap(one: Callback, other: Callback, context: Context) -> Overlap | None:
 
 
 def overlaps_itself(callback: Callback, context: Context) -> bool:
-    """True when two runs of one entity may coincide on this executor."""
+    """
+    True when two runs of one entity may coincide on this executor.
+
+    A model in which everything arrives once says that nothing ever overlaps itself, so only its
+    run that shows an overlap counts here, as evidence.
+    """
     parallel = runs_in_parallel(context.unit.executor)
     return parallel and can_overlap_itself(callback, context)
+
+
+def is_quick_timer(callback: Callback) -> bool:
+    """True for a timer that waits for nothing but sleeps, which are shorter than its period."""
+    if callback.entity is not EntityKind.TIMER:
+        return False
+    if not all(kind_of(block) is WaitKind.SLEEP for block in callback.blocking):
+        return False
+    period, demand = callback.period_s, demand_of(callback, ())
+    if not callback.blocking:
+        return True
+    is_known = all(isinstance(block.seconds, float) for block in callback.blocking)
+    slept = demand.duration_s or 0.0
+    return is_known and isinstance(period, float) and slept < period
 
 
 def _is_settled(one: Callback, other: Callback, context: Context) -> bool:

@@ -9,7 +9,7 @@ A plain assignment is atomic in CPython; what breaks is *read, then write*: an u
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
@@ -19,9 +19,16 @@ from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import overlap
 from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.sections import (
+    is_operand,
+    is_other_item,
+    keep_apart,
+    kept_between,
+    read_for,
+)
 from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import SHARED, Access
+from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.evidence import Evidence
 
@@ -30,6 +37,7 @@ class RaceKind(Enum):
     """What goes wrong, the worst first."""
 
     CHANGED_IN_LOOP = 'changed in a loop'
+    CLEARED_IN_USE = 'cleared in use'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -128,6 +136,10 @@ def describe(race: Race) -> str:
     return {
         RaceKind.CHANGED_IN_LOOP: f'{first} goes over {names} in a loop, and {others} may change '
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
+        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
+        f'{it} to None in between: the use then ends in an exception',
+        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
+        f'{it} to None in between: the use then ends in an exception',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one of the changes can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
@@ -141,25 +153,25 @@ def describe(race: Race) -> str:
 
 def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
-    iterated = {use.access.name for use, _ in _loops(one, other)}
-    if not written and not iterated:
+    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
+    others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
+    if not written and not others:
         return
     together = overlap(one, other, context)
     if together is None:
         return
-    for name in sorted(written | iterated):
+    for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
             (Use(one, a), Use(other, b))
             for a in one.writes
             for b in other.writes
             if a.name == b.name == name
-            and not keep_apart(a.locks, b.locks)
+            and not is_other_item(a, b)
             and not comes_before(a, one, other)
             and not comes_before(b, other, one)
         ]
         classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
-        loops = (pair for pair in _loops(one, other) if pair[0].access.name == name)
-        classified += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops]
+        classified += [found for found in others if found[1].access.name == name]
         if classified:
             kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
             yield _Conflict(kind, first, second, together.run)
@@ -186,7 +198,27 @@ def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
                 )
 
 
+def uses_cleared(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
+    """Objects that one tests and then uses, and the other sets to ``None`` in between."""
+    for user, clearer in ((one, other), (other, one)):
+        clears = [write for write in clearer.writes if write.clears]
+        for use in (*user.reads, *(write for write in user.writes if write.in_place)):
+            tested = read_for(use, user) if use.rests and clears else None
+            if tested is not None:
+                kept = kept_between(tested, use, user)
+                yield from (
+                    (Use(user, use), Use(clearer, write))
+                    for write in clears
+                    if write.name == use.name
+                    and not keep_apart(kept, write.locks)
+                    and not comes_before(use, user, clearer)
+                    and not comes_before(write, clearer, user)
+                )
+
+
 def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+    if keep_apart(one.access.locks, other.access.locks):
+        return _classify_locked(one, other)
     for first, second in ((one, other), (other, one)):
         if first.access.update and not first.access.in_place:
             return RaceKind.LOST_UPDATE, first, second
@@ -201,33 +233,30 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     return RaceKind.LAST_WRITE_WINS, one, other
 
 
+def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+    """A lock helps only who keeps it from what was read to what is written because of that."""
+    for first, second in ((one, other), (other, one)):
+        write = first.access
+        read = read_for(write, first.callback) if write.rests and not write.in_place else None
+        if read is not None and not keep_apart(
+            kept_between(read, write, first.callback), second.access.locks
+        ):
+            return RaceKind.CHECK_THEN_ACT, first, second
+    return None
+
+
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
     write = first.access
     changed_at = {steps(other) for other in first.callback.writes if other.in_place}
     return any(
         read.name == write.name
-        and (steps(read) < steps(write) or (write.in_place and _is_operand(read, write)))
+        and not is_other_item(read, second.access)
+        and (steps(read) < steps(write) or (write.in_place and is_operand(read, write)))
         and steps(read) not in changed_at
         and not keep_apart(read.locks, second.access.locks)
         for read in first.callback.reads
     )
-
-
-def keep_apart(one: Sequence[str], other: Sequence[str]) -> bool:
-    """True when a lock is held by both, and by one of them alone."""
-    bare = {lock.removesuffix(SHARED) for lock in one} & {
-        lock.removesuffix(SHARED) for lock in other
-    }
-    return any(lock in one or lock in other for lock in bare)
-
-
-def _is_operand(read: Access, write: Access) -> bool:
-    """True for what is read in the value or the arguments, on the line of the write."""
-    at, to = read.source, write.source
-    if at is None or to is None or read.chain != write.chain:
-        return False
-    return (at.file, at.line) == (to.file, to.line) and (at.column or 0) > (to.column or 0)
 
 
 def _race(name: str, conflicts: list[_Conflict]) -> Race:

@@ -6,6 +6,7 @@ from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.findings.rules import (
     absent_service,
     asyncio_sleep,
+    cleared_in_use,
     events_coroutine,
     execute_holds_thread,
     executor_spun_twice,
@@ -65,6 +66,7 @@ RULES: tuple[Rule, ...] = (
     unordered_write.RULE,
     outside_groups.RULE,
     self_overlap.RULE,
+    cleared_in_use.RULE,
     one_group.RULE,
     groups_on_one_thread.RULE,
     idle_threads.RULE,

@@ -96,6 +96,10 @@ class Access:
         ``d[k] = v``), which CPython does in one piece.
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param iterates: class of the collection, where a loop goes over it.
+    :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
+    :param rests: true for a write that rests on what was read of it before, by its value or by a
+        test, and for the use of an object that was tested before.
+    :param clears: true where ``None`` is stored.
     """
 
     name: str
@@ -105,6 +109,9 @@ class Access:
     in_place: bool = False
     keeps_size: bool = False
     iterates: str | None = None
+    item: str | None = None
+    rests: bool = False
+    clears: bool = False
     chain: tuple[Place, ...] = ()
 
 

@@ -44,7 +44,7 @@ if __name__ == '__main__':
 #   timer tick in a_default every 1
 #     reads A.state @29
 #     reads State.mode @29
-#     reads A.state @30
+#     reads A.state rests @30
 #     reads State.log @30
 #   subscription on_in in a_default key=in
 #     reads A.state @26

@@ -43,5 +43,5 @@ if __name__ == '__main__':
 #     writes A.last @20
 #     changes timer @21
 #   subscription on_y in a_default key=y
-#     writes A.last @24
+#     writes A.last clears @24
 #   ? tick_2 count

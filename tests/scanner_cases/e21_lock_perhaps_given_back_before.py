@@ -48,7 +48,7 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   subscription on_frame in a_default key=frames
 #     reads A.seen under seen_lock @20
-#     writes A.seen update in_place under seen_lock @21
+#     writes A.seen update in_place rests under seen_lock @21
 #     locks seen_lock @19
 #   subscription on_order in a_default key=orders
 #     writes A.seen update in_place under seen_lock @32

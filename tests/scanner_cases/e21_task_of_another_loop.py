@@ -34,13 +34,12 @@ def main():
     threading.Thread(target=loop.run_forever, daemon=True).start()
     rclpy.spin(Bridge(loop))
 
-
 # expect:
 # unit bridge: SingleThreadedExecutor x1 rclpy.spin, main
 #   group bridge_default EXCLUSIVE default
 #   subscription on_text in bridge_default key=text
 #     reads Bridge.loop @21
 #     reads Bridge.loop @22
-#     reads Bridge.loop @24
+#     reads Bridge.loop rests @24
 #     writes Bridge.seen @20
 #   activity thread run_forever daemon loops

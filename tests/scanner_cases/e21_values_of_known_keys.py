@@ -36,11 +36,11 @@ def main():
 #   group gateway_default EXCLUSIVE default
 #   subscription on_msg in gateway_default key=in
 #     reads Gateway.states @25
-#     reads Gateway.heard @26
-#     reads Gateway.heard @27
+#     reads Gateway.heard item 'last' @26
+#     reads Gateway.heard item 'last' @27
 #     writes Gateway.states update in_place @25
-#     writes Gateway.heard update in_place @26
-#     writes Gateway.heard update in_place keeps_size @27
+#     writes Gateway.heard update in_place item 'last' @26
+#     writes Gateway.heard update in_place keeps_size item 'last' @27
 #   service lidar_lambda_switch in gateway_default (Gateway.__init__.<locals>.<lambda>) key=lidar
 #     reads Gateway.states @16>21
 #     writes Gateway.states update in_place keeps_size @16>21

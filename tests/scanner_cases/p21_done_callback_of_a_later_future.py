@@ -56,12 +56,12 @@ if __name__ == '__main__':
 #   group no_group REENTRANT groupless
 #   subscription on_turn in turner_default key=turn
 #     reads Turner.gone @21
-#     reads Turner.gone @22
+#     reads Turner.gone rests @22
 #     changes done_callback @22
 #     changes done_callback @24>27
 #   subscription on_stop in turner_default key=stop
 #     reads Turner.handle @34
-#     reads Turner.handle @35
+#     reads Turner.handle rests @35
 #     reads Turner.gone @36
 #     writes Turner.gone @35
 #     changes done_callback @36

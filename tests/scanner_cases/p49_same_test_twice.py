@@ -75,7 +75,7 @@ if __name__ == '__main__':
 #   timer look_up in free every 0.1 conditional alternative@20.1
 #     reads A.pose @36
 #     reads A.goal @37
-#     writes A.pose @37
+#     writes A.pose rests @37
 #   timer guess in free every 1 conditional
 #   timer ask in free every 2 conditional
 #   timer ask_again in a_default every 3 conditional when=later

@@ -30,8 +30,8 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
-#     reads A.best @16
+#     reads A.best item 'x' @16
 #     writes A.log update in_place @15
-#     writes A.best update in_place @16
-#     writes A.best update @17
+#     writes A.best update in_place item 'x' @16
+#     writes A.best update item 'x' @17
 #     writes A.count update @18

@@ -42,5 +42,5 @@ if __name__ == '__main__':
 #     reads Filter.last @23>12
 #     reads A.right @24
 #     reads Filter#2.last @24>12
-#     writes Filter.last @23>12
-#     writes Filter#2.last @24>12
+#     writes Filter.last rests @23>12
+#     writes Filter#2.last rests @24>12

@@ -101,8 +101,8 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.09 s @70
 #     reads Worker.shared @59
 #     reads Shared.ready @59
-#     reads Worker.modes @61
-#     reads q27_state_of_other_callbacks.SETTINGS @61
+#     reads Worker.modes item 'fast' @61
+#     reads q27_state_of_other_callbacks.SETTINGS item 'loud' @61
 #     reads Worker.names @63
 #     reads q27_state_of_other_callbacks.STOPPED @65
 #     reads Worker.job @67
@@ -112,14 +112,14 @@ if __name__ == '__main__':
 #     writes Worker.job @51
 #   subscription hear in worker_default key=heard
 #   subscription on_order in worker_default key=order
-#     reads q27_state_of_other_callbacks.SETTINGS @75
+#     reads q27_state_of_other_callbacks.SETTINGS item 'loud' @75
 #     reads Worker.shared @76
-#     reads Worker.modes @77
+#     reads Worker.modes item 'fast' @77
 #     writes q27_state_of_other_callbacks.STOPPED @74
-#     writes q27_state_of_other_callbacks.SETTINGS update in_place keeps_size @75
+#     writes q27_state_of_other_callbacks.SETTINGS update in_place keeps_size item 'loud' @75
 #     writes Shared.ready @76
-#     writes Worker.modes update in_place keeps_size @77
+#     writes Worker.modes update in_place keeps_size item 'fast' @77
 #     writes Worker.names update in_place @78
 #   client go_client in worker_default key=go
 #   done_callback done in no_group key=go
-#     writes Worker.job @56
+#     writes Worker.job clears @56

@@ -41,6 +41,7 @@ class Assignments(Machine):
 
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Store ``value`` in a name, attribute, item or pattern of them."""
+        self.world.reading.clears = value == NONE
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):
@@ -98,6 +99,7 @@ class Assignments(Machine):
             self.world.same_unknowns.setdefault(new.unknown, first)
 
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
+        self.world.reading.note_item(target.value, target.slice, frame.place(target.value))
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
         direct = isinstance(target.value, (ast.Attribute, ast.Name))

@@ -107,7 +107,9 @@ class Calls(Machine):
             return self.evaluate(function.node.body, frame)
         flow = self.execute_block(function.node.body, frame)
         if frame.yields:
-            return Sequence(tuple(frame.yields), 'generator', None, dict(frame.many))
+            made = Sequence(tuple(frame.yields), 'generator', None, dict(frame.many))
+            self.world.yielding = made, frame.held
+            return made
         if not flow & (NEXT | RETURN) and flow & DEAD:
             self._note_dead_end(function)
             reason = f'{function.name} only raises, as far as it can be followed'

@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.reading import names_in
 from ros2cc_extract.extract.static.relevance import (
     assignments_of_attributes,
     noted_on,
@@ -40,17 +41,52 @@ def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
     return holds if machine.world.changing == before else None
 
 
+def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -> bool | None:
+    """As ``decide``, for the arms of ``outer``: what they do rests on what is read here."""
+    if machine.world.deeds is None:
+        return decide(machine, node.test, frame)
+    reading, found = machine.world.reading, set[str]()
+    with reading.of(found):
+        holds = decide(machine, node.test, frame)
+    place = frame.place(outer)
+    known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
+    reading.tests[place] = known | found | _computed_from(node.test, frame)
+    return holds
+
+
 def evaluate_copied(
     machine: Machine, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
 ) -> Value:
     """The value of an assignment; a name that gets it is as open as what was read for it."""
     before = machine.world.changing
-    held = machine.evaluate(value, frame)
+    held = _evaluate_for(machine, value, targets, frame)
     is_open = machine.world.changing != before
     if is_open or frame.copies:
         names = {target.id for target in targets if isinstance(target, ast.Name)}
         frame.copies = frame.copies | names if is_open else frame.copies - names
     return held
+
+
+def _evaluate_for(
+    machine: Machine, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
+) -> Value:
+    if machine.world.deeds is None:
+        return machine.evaluate(value, frame)
+    reading, found = machine.world.reading, set[str]()
+    with reading.of(found):
+        held = machine.evaluate(value, frame)
+    flowing = frozenset(found) | _computed_from(value, frame)
+    frame.sources.update(
+        (target.id, flowing) for target in targets if isinstance(target, ast.Name)
+    )
+    reading.flowing = flowing
+    return held
+
+
+def _computed_from(value: ast.expr, frame: Frame) -> frozenset[str]:
+    """The shared data behind the own names that stand in ``value``."""
+    none = frozenset[str]()
+    return none.union(*(frame.sources.get(name, none) for name in names_in(value)))
 
 
 def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.containers import Collection, collection_class
+from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.values import (
     Call,
     Class,
     Const,
+    Coroutine,
     Function,
     Instance,
     Library,
@@ -23,6 +24,7 @@ from ros2cc_extract.extract.static.values import (
     Native,
     Scope,
     Value,
+    choice,
     options_of,
 )
 from ros2cc_extract.extract.static.waits import Waits, touch
@@ -70,7 +72,11 @@ class Effects(Waits):
         deeds = self.world.deeds
         if deeds is None:
             return
-        is_read = kind is AccessKind.READ
+        is_read, reading = kind is AccessKind.READ, self.world.reading
+        if is_read:
+            reading.read.add(name)
+        at = place, name.rpartition('.')[2]
+        rests = reading.governs(name, self.world.path) or name in reading.flowing
         access = Access(
             name=name,
             source=place,
@@ -79,6 +85,9 @@ class Effects(Waits):
             in_place=kind is AccessKind.UPDATE_IN_PLACE,
             keeps_size=self.world.refilling,
             iterates=self.world.iterating,
+            item=reading.items.get(at),
+            rests=rests and (not is_read or at in reading.used),
+            clears=reading.clears and kind is AccessKind.WRITE,
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if is_read else deeds.writes
@@ -108,6 +117,7 @@ class Effects(Waits):
             return
         place = frame.place(target)
         if isinstance(target, ast.Subscript):
+            self.world.reading.note_item(target.value, target.slice, frame.place(target.value))
             self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
             for owner in options_of(self.evaluate(target.value, frame)):
@@ -244,7 +254,21 @@ class Effects(Waits):
                 self.note_lock_method(value, '__enter__')
                 return entered
             return value
-        return value
+        return self._enter_generator(value, place)
+
+    def _enter_generator(self, value: Value, place: Place) -> Value:
+        """
+        A generator under ``contextmanager`` stops at its ``yield`` until the block is left.
+
+        Source: ``contextlib.py``. It is run to its end here, so its locks were given back.
+        """
+        if isinstance(value, Coroutine):
+            value = self.run_if_coroutine(value, place)
+        made, held = self.world.yielding or (None, ())
+        if value is not made or not isinstance(value, Sequence):
+            return value
+        self.world.held = tuple(dict.fromkeys((*self.world.held, *held)))
+        return choice(list(value.items)) if value.items else value
 
 
 _VIEWS = frozenset({'items', 'keys', 'values'})

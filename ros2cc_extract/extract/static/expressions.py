@@ -182,6 +182,7 @@ def _constant(machine: Expressions, node: ast.Constant, frame: Frame) -> Value:
 
 
 def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value:
+    machine.world.reading.note_use(node.value, frame.place(node.value))
     owner = machine.evaluate(node.value, frame)
     place, name = frame.place(node), frame.attribute_name(node.attr)
     if machine.world.deeds is not None:
@@ -199,6 +200,7 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
 def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     if isinstance(node.func, ast.Name) and node.func.id == 'super' and not node.args:
         return machine.zero_argument_super(frame)
+    machine.world.reading.note_use(node.func, frame.place(node.func))
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
     if isinstance(function, Mystery):
@@ -360,6 +362,7 @@ def _await(machine: Expressions, node: ast.Await, frame: Frame) -> Value:
 
 def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame) if node.value else NONE
+    frame.held = frame.held if frame.yields else machine.world.held
     frame.yields.append(value)
     if isinstance(machine.world.count, Unknown):
         frame.many[value] = machine.why_many()

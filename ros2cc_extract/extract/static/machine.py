@@ -52,7 +52,9 @@ class Frame:
     :param path: the undecided branches under which it began.
     :param many: what it yields any number of times, or perhaps not at all.
     :param breaks: what the branches that leave the running loop had written to own names.
+    :param held: locks that were held at the first ``yield``.
     :param copies: own names that hold what other functions may have changed.
+    :param sources: shared data that own names were computed from, while a callback is followed.
     :param continues: the same of the branches that go on with its next round.
     :param tests: undecided ones with the place of the first ``if``, whether that asks the
         opposite, and the options of the values that were asked.
@@ -62,12 +64,14 @@ class Frame:
     function: Function | None = None
     results: list[Value] = field(default_factory=list)
     yields: list[Value] = field(default_factory=list)
+    held: tuple[str, ...] = ()
     many: dict[Value, Value] = field(default_factory=dict)
     qualname: str = ''
     path: Path = ()
     breaks: list[Writes] = field(default_factory=list)
     continues: list[Writes] = field(default_factory=list)
     copies: frozenset[str] = frozenset()
+    sources: dict[str, frozenset[str]] = field(default_factory=dict)
     tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
         default_factory=dict
     )

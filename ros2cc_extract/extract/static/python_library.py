@@ -303,6 +303,15 @@ def _same(machine: Machine, receiver: Value, call: Call) -> Value:
     return Native('decorator', _same)
 
 
+def _enter_on_stack(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``stack.enter_context(c)`` enters ``c`` until the stack's own block is left."""
+    entered = call.argument(0, 'cm')
+    return machine.enter_context(entered, call.place) if entered is not None else NONE
+
+
+_EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stack})
+
+
 def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
     results = [machine.await_value(arg, call.place) for arg in call.args]
     return results[0] if results else NONE
@@ -381,6 +390,7 @@ _FUNCTIONS: dict[str, Handler] = {
     'functools.lru_cache': keep_results,
     'functools.cache': keep_results,
     'contextlib.contextmanager': _same,
+    'contextlib.asynccontextmanager': _same,
     'dataclasses.dataclass': _same,
     'asyncio.run': _run_coroutine,
     'asyncio.gather': _run_coroutine,
@@ -423,6 +433,8 @@ TABLE = Library(
     classes={
         'asyncio.AbstractEventLoop': LibraryClass(methods=_LOOP_METHODS),
         'builtins.object': LibraryClass(init=_print),
+        'contextlib.ExitStack': _EXIT_STACK,
+        'contextlib.AsyncExitStack': _EXIT_STACK,
     },
     functions={
         **_FUNCTIONS,

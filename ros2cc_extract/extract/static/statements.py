@@ -153,6 +153,7 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     value = changing.evaluate_copied(machine, node.value, node.targets, frame)
     for target in node.targets:
         machine.assign(target, value, frame)
+    machine.world.reading.flowing = frozenset()
     return NEXT
 
 
@@ -160,6 +161,7 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
     if node.value is not None:
         value = changing.evaluate_copied(machine, node.value, [node.target], frame)
         machine.assign(node.target, value, frame)
+        machine.world.reading.flowing = frozenset()
     return NEXT
 
 
@@ -202,7 +204,7 @@ def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
 
 
 def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
-    holds = changing.decide(machine, node.test, frame)
+    holds = changing.decide_branch(machine, node, frame, node)
     if holds is not None:
         return machine.execute_block(node.body if holds else node.orelse, frame)
     note_open_test(machine.world, node.test, frame.place(node))
@@ -219,7 +221,7 @@ def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], 
     rest = node.orelse
     while len(rest) == 1 and isinstance(rest[0], ast.If):
         inner = rest[0]
-        holds = changing.decide(machine, inner.test, frame)
+        holds = changing.decide_branch(machine, inner, frame, node)
         if holds is not False:
             arms.append(lambda body=inner.body: machine.execute_block(body, frame))  # type: ignore[misc]
         if holds is True:
@@ -389,7 +391,7 @@ def _delete(machine: Statements, node: ast.Delete, frame: Frame) -> int:
         if isinstance(target, ast.Name):
             machine.store.remove(frame.scope, target.id)
         elif isinstance(target, ast.Subscript):
-            machine.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
+            machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
     return NEXT
 
 

@@ -27,6 +27,9 @@ from ros2cc_extract.places import Unknown
 
 def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     """``owner[key]``, for every owner that is possible."""
+    at = frame.place(node.value)
+    machine.world.reading.note_item(node.value, node.slice, at)
+    machine.world.reading.note_use(node.value, at)
     owner = machine.evaluate(node.value, frame)
     key = machine.evaluate(node.slice, frame)
     place = frame.place(node)

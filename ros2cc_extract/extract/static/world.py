@@ -14,6 +14,7 @@ from enum import Enum
 from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.extract.static.reading import Reading
 from ros2cc_extract.extract.static.values import (
     Call,
     Class,
@@ -298,10 +299,12 @@ class World:
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
     :param without_caller: the objects on which those were followed that nobody in sight calls.
     :param locks: the locks that were taken, by the name they are stored under.
+    :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param outside: what code waits for that is no callback.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
+    :param reading: what the callback that is followed has read.
     :param iterating: class of the collection that a loop begins to go over.
     :param refilling: an item is stored under a key that the dictionary surely has.
     :param assumed: the rule by which the running loop is assumed to go over these items.
@@ -329,6 +332,7 @@ class World:
     stopped: bool = False
     assumed: str | None = None
     deeds: Deeds | None = None
+    reading: Reading = field(default_factory=Reading)
     current: EntityState | None = None
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
@@ -341,6 +345,7 @@ class World:
     retelling: bool = False
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
+    yielding: tuple[Value, tuple[str, ...]] | None = None
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False

@@ -9,21 +9,22 @@ from ros2cc_extract.findings.races import Race, RaceKind, describe, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 
 HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
+OF_OTHER_RULES = (RaceKind.LAST_WRITE_WINS, RaceKind.CLEARED_IN_USE)
 HELP_OUTSIDE_GROUPS = 'hold one lock around both; a callback group cannot help'
 
 
 def find(context: Context) -> Iterator[Hit]:
     for race in races_of(context):
-        if race.kind is not RaceKind.LAST_WRITE_WINS and not race.is_outside_groups:
+        if race.kind not in OF_OTHER_RULES and not race.is_outside_groups:
             yield hit_of(race)
 
 
-def hit_of(race: Race, message: str = '') -> Hit:
+def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
     """The finding of one race; ``message`` is added to what happens."""
     return Hit(
         place=race.first.place,
         message=describe(race) + message,
-        help=HELP_OUTSIDE_GROUPS if race.is_outside_groups else HELP,
+        help=help_text or (HELP_OUTSIDE_GROUPS if race.is_outside_groups else HELP),
         severity=Severity.NOTE if race.kind is RaceKind.CHECK_THEN_CHANGE else None,
         subjects=race.subjects,
         related=race.related(),

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.races import Race, RaceKind, races_of
+from ros2cc_extract.findings.races import Race, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.rules.lost_update import hit_of
+from ros2cc_extract.findings.rules.lost_update import OF_OTHER_RULES, hit_of
 from ros2cc_extract.findings.words import shown
 from ros2cc_extract.spec.model import Callback, EntityKind
 
@@ -20,7 +20,7 @@ _WHAT = {
 
 def find(context: Context) -> Iterator[Hit]:
     for race in races_of(context):
-        if race.is_outside_groups and race.kind is not RaceKind.LAST_WRITE_WINS:
+        if race.is_outside_groups and race.kind not in OF_OTHER_RULES:
             yield hit_of(race, _reminder(race))
 
 

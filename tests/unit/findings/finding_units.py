@@ -28,8 +28,8 @@ NOT_FOUND = Executor(
 )
 
 
-def at(line: int) -> Place:
-    return Place(FILE, line, 9)
+def at(line: int, column: int = 9) -> Place:
+    return Place(FILE, line, column)
 
 
 def threads(number: int, **facts: Any) -> Executor:

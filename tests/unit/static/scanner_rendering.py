@@ -183,6 +183,8 @@ def _access(access: Access) -> str:
     update = (' update' if access.update else '') + (' in_place' if access.in_place else '')
     update += ' keeps_size' if access.keeps_size else ''
     update += f' iterates {access.iterates}' if access.iterates else ''
+    update += f' item {access.item}' if access.item else ''
+    update += (' rests' if access.rests else '') + (' clears' if access.clears else '')
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
 

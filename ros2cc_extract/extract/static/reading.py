@@ -1,0 +1,81 @@
+"""
+What a callback has read so far, and what it does because of that.
+
+Kept while one callback is followed: which reads a test or a value rests on, which item of a
+container is meant, and which objects are used rather than only looked at.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.values import Path
+from ros2cc_extract.places import Place
+
+
+@dataclass
+class Reading:
+    """
+    Notes on the reads of shared data.
+
+    :param read: names that were read since somebody has last asked.
+    :param flowing: names on which the value rests that is being stored.
+    :param tests: names that a branch or an early return rests on, by the place of the test.
+    :param items: the item that is meant, by the place of the container and its attribute.
+    :param used: objects of which more is asked than whether they are there, in the same way.
+    :param clears: ``None`` is being stored.
+    """
+
+    read: set[str] = field(default_factory=set)
+    flowing: frozenset[str] = frozenset()
+    tests: dict[Place, frozenset[str]] = field(default_factory=dict)
+    items: dict[tuple[Place, str], str] = field(default_factory=dict)
+    used: set[tuple[Place, str]] = field(default_factory=set)
+    clears: bool = False
+
+    @contextmanager
+    def of(self, found: set[str]) -> Iterator[None]:
+        """Put into ``found`` what is read inside."""
+        before, self.read = self.read, set()
+        try:
+            yield
+        finally:
+            found |= self.read
+            self.read |= before
+
+    def governs(self, name: str, path: Path) -> bool:
+        """Whether a test of ``name`` has led to where the program is."""
+        return any(name in self.tests.get(place, ()) for place, _ in path)
+
+    def note_item(self, container: ast.expr, key: ast.expr, place: Place) -> None:
+        """``container[key]`` is asked for or stored; ``place`` is that of the container."""
+        name, item = _name_of(container), constant_key(key)
+        if name is not None and item is not None:
+            self.items[place, name] = item
+
+    def note_use(self, used: ast.expr, place: Place) -> None:
+        """An attribute or item of ``used`` is asked for, or it is called."""
+        name = _name_of(used)
+        if name is not None:
+            self.used.add((place, name))
+
+
+def constant_key(key: ast.expr) -> str | None:
+    """The text of a key that is equal to no other one of another text."""
+    if not isinstance(key, ast.Constant) or type(key.value) not in (str, int):
+        return None
+    return repr(key.value)
+
+
+def names_in(value: ast.expr) -> Iterable[str]:
+    """The names that stand in an expression."""
+    return (part.id for part in ast.walk(value) if isinstance(part, ast.Name))
+
+
+def _name_of(node: ast.expr) -> str | None:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else None

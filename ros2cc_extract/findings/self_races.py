@@ -1,0 +1,85 @@
+"""
+What two runs of one callback do to each other's shared data.
+
+Told are three shapes: an update whose old value the other run has read too; a write that rests
+on an earlier read, as a test or a copy; and what a run has written, waits, and reads back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.findings.order import steps
+from ros2cc_extract.findings.races import Use
+from ros2cc_extract.findings.sections import keep_apart, kept_between, read_for
+from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.model import Callback
+
+
+class SelfRaceKind(Enum):
+    """What gets lost, the worst first."""
+
+    LOST_UPDATE = 'lost update'
+    STALE_READ = 'stale read'
+    OVERWRITTEN = 'overwritten'
+
+
+@dataclass(frozen=True)
+class SelfRace:
+    """
+    One attribute that two runs of one callback disturb each other by.
+
+    :param use: where it shows.
+    :param waits: the callback waits between what it read or wrote first and ``use``.
+    """
+
+    kind: SelfRaceKind
+    use: Use
+    waits: bool
+
+
+def self_races_of(callback: Callback) -> Iterator[SelfRace]:
+    """The worst one of each attribute."""
+    for name in dict.fromkeys(access.name for access in callback.writes):
+        writes = [access for access in callback.writes if access.name == name]
+        found = next(_races_on(writes, callback), None)
+        if found is not None:
+            yield found
+
+
+def _races_on(writes: list[Access], callback: Callback) -> Iterator[SelfRace]:
+    plain = [write for write in writes if not write.in_place]
+    for write in plain:
+        if write.update and not keep_apart(write.locks, write.locks):
+            yield SelfRace(SelfRaceKind.LOST_UPDATE, Use(callback, write), waits=False)
+    stale = [found for write in plain if (found := _stale(write, plain, callback)) is not None]
+    yield from sorted(stale, key=lambda race: not race.waits)
+    for read in callback.reads:
+        if _is_overwritten(read, plain, callback):
+            yield SelfRace(SelfRaceKind.OVERWRITTEN, Use(callback, read), waits=True)
+
+
+def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace | None:
+    """A write because of a read that another run may have made wrong."""
+    read = read_for(write, callback) if write.rests and not write.update else None
+    if read is None:
+        return None
+    kept = kept_between(read, write, callback)
+    if all(keep_apart(kept, other.locks) for other in writes):
+        return None
+    return SelfRace(SelfRaceKind.STALE_READ, Use(callback, write), _waits(read, write, callback))
+
+
+def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:
+    """Whether a run reads, after a wait, what it has written before."""
+    own = [w for w in writes if w.name == read.name and steps(w) < steps(read) and not w.update]
+    last = max(own, key=steps, default=None)
+    if last is None or not _waits(last, read, callback):
+        return False
+    return not keep_apart(kept_between(last, read, callback), last.locks)
+
+
+def _waits(first: Access, last: Access, callback: Callback) -> bool:
+    return any(steps(first) < steps(block) < steps(last) for block in callback.blocking)

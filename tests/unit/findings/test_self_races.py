@@ -1,0 +1,148 @@
+"""CC304 and CC305: what two runs of one callback, or a test and a use, lose between them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from finding_units import at, found, only, outside, service, sleeps, threads, timer, unit, updates
+
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+
+
+def access(line: int, *locks: str, **facts: object) -> Access:
+    return Access(name='Arm.goal', source=at(line), locks=locks, **facts)  # type: ignore[arg-type]
+
+
+def takes(*lines: int) -> tuple[Act, ...]:
+    return tuple(Act(name='lock', source=at(line)) for line in lines)
+
+
+def told(*callbacks: Callback, executor: int = 3) -> list[str]:
+    codes = found(unit(threads(executor), *callbacks))
+    return [code for code in codes if code.startswith('CC3')]
+
+
+WAITING = {'blocking': sleeps(0.2, line=25)}
+READ_THEN_WRITTEN = {'reads': (access(20),), 'writes': (access(30, rests=True),)}
+WRITTEN_THEN_READ = {'reads': (access(30),), 'writes': (access(20),)}
+
+
+@pytest.mark.parametrize(
+    ('callback', 'expected'),
+    [
+        (service('on_go', 'free', **READ_THEN_WRITTEN, **WAITING), ['CC304:30 warning']),
+        (service('on_go', 'free', **READ_THEN_WRITTEN), ['CC304:30 note']),
+        (service('on_go', 'other', **READ_THEN_WRITTEN, **WAITING), []),
+        (
+            timer('tick', 'free', period_s=0.1, **READ_THEN_WRITTEN, **WAITING),
+            ['CC304:30 warning'],
+        ),
+        (timer('tick', 'free', period_s=0.5, **READ_THEN_WRITTEN, **WAITING), ['CC304:30 note']),
+        (service('on_go', 'free', **WRITTEN_THEN_READ, **WAITING), ['CC304:30 warning']),
+        (service('on_go', 'free', **WRITTEN_THEN_READ), []),
+        (
+            outside('execute', EntityKind.ACTION_EXECUTE, **WRITTEN_THEN_READ, **WAITING),
+            ['CC304:30 warning'],
+        ),
+    ],
+)
+def test_two_runs_of_one_callback(callback: Callback, expected: list[str]) -> None:
+    assert told(callback) == expected
+    assert told(callback, executor=1) == []
+
+
+def test_what_is_written_whatever_was_read_is_left_alone() -> None:
+    unrelated = replace(READ_THEN_WRITTEN['writes'][0], rests=False)
+    node = service('on_go', 'free', reads=(access(20),), writes=(unrelated,), **WAITING)
+    assert told(node) == []
+
+
+def test_one_lock_from_the_read_to_the_write_protects_and_two_sections_do_not() -> None:
+    reads, writes = (access(20, 'lock'),), (access(30, 'lock', rests=True),)
+    one = service('on_go', 'free', reads=reads, writes=writes, locks=takes(19), **WAITING)
+    assert told(one) == []
+    assert told(replace(one, locks=takes(19, 29))) == ['CC304:30 warning']
+
+
+def test_a_lock_that_is_held_twice_is_no_new_section() -> None:
+    reads, writes = (access(20, 'lock'),), (access(30, 'lock', 'lock', rests=True),)
+    node = service('on_go', 'free', reads=reads, writes=writes, locks=takes(19, 29), **WAITING)
+    assert told(node) == []
+
+
+def test_two_sections_of_one_lock_lose_what_another_callback_writes() -> None:
+    on_go = service(
+        'on_go',
+        reads=(access(20, 'lock'),),
+        writes=(access(30, 'lock', rests=True),),
+        locks=takes(19, 29),
+    )
+    other = timer('tick', 'other', writes=(access(40, 'lock'),), locks=takes(39))
+    assert told(on_go, other) == ['CC301:30 warning']
+    assert told(replace(on_go, locks=takes(19)), other) == []
+
+
+def test_items_of_other_keys_do_not_meet() -> None:
+    def writing(item: str) -> Spec:
+        left = replace(updates('Arm.sides', 20)[0], item="'left'")
+        other = replace(updates('Arm.sides', 30)[0], item=item)
+        return unit(
+            threads(2), timer('tick', writes=(left,)), timer('tock', 'other', writes=(other,))
+        )
+
+    assert found(writing("'right'")) == []
+    assert found(writing("'left'")) == ['CC301:20 warning']
+
+
+def using(*locks: str, **facts: object) -> Callback:
+    reads = (access(20, *locks), access(21, *locks, rests=True))
+    return timer('check', reads=reads, locks=takes(19) if locks else (), **facts)
+
+
+def clearing(*locks: str, group: str = 'other') -> Callback:
+    return service('on_stop', group, writes=(access(40, *locks, clears=True),))
+
+
+def test_an_object_that_is_set_to_none_between_a_test_and_its_use() -> None:
+    assert told(using(), clearing()) == ['CC305:21 warning']
+    assert told(using(), clearing(group='arm_default')) == []
+    assert told(using('lock'), clearing('lock')) == []
+    assert told(using('lock'), clearing()) == ['CC305:21 warning']
+    stored = replace(clearing(), writes=(access(40),))
+    assert told(using(), stored) == []
+
+
+def test_an_object_that_the_callback_stores_itself_is_there() -> None:
+    fresh = replace(using(), writes=(Access(name='Arm.goal', source=at(20, 30)),))
+    codes = told(fresh, clearing())
+    assert codes == ['CC301:20 warning'], 'its own write is what the other one disturbs'
+
+
+def test_message_of_a_use_after_a_test() -> None:
+    finding = only(unit(threads(2), using(), clearing()), 'CC305')
+    assert finding.message == (
+        'check tests Arm.goal and then uses it, and on_stop may set it to None in between: the '
+        'use then ends in an exception'
+    )
+    assert [(remark.place, remark.text) for remark in finding.related] == [
+        (at(40), 'on_stop writes Arm.goal here')
+    ]
+
+
+def test_a_run_may_clear_what_another_run_of_the_same_callback_uses() -> None:
+    node = service(
+        'on_stop',
+        'free',
+        reads=(access(20), access(21, rests=True)),
+        writes=(access(22, clears=True),),
+    )
+    (finding,) = findings_of([unit(threads(2), node)], [], [None])
+    assert (finding.code, finding.place, finding.message) == (
+        'CC305',
+        at(21),
+        'on_stop tests Arm.goal and then uses it, and another run of it may set it to None in '
+        'between: the use then ends in an exception',
+    )
