@@ -31,7 +31,6 @@ class Trucks(Node):
     def __init__(self):
         super().__init__('trucks')
         self.action = ActionClient(self, Fibonacci, 'load')
-        self.count = 0
         self.create_timer(0.4, self.send)
 
     def send(self):

@@ -21,7 +21,9 @@ class Depot(Node):
         self.open.set()
 
     def load(self, goal_handle):
-        self.open.wait()
+        if not self.open.is_set():
+            goal_handle.abort()
+            return Fibonacci.Result()
         goal_handle.succeed()
         print('goes on')
         return Fibonacci.Result()
@@ -31,18 +33,15 @@ class Trucks(Node):
     def __init__(self):
         super().__init__('trucks')
         self.action = ActionClient(self, Fibonacci, 'load')
-        self.count = 0
         self.create_timer(0.4, self.send)
 
     def send(self):
-        self.count += 1
-        if self.count % 2 == 0:
-            self.action.send_goal_async(Fibonacci.Goal())
+        self.action.send_goal_async(Fibonacci.Goal())
 
 
 def main():
     rclpy.init()
-    executor = MultiThreadedExecutor(num_threads=8)
+    executor = MultiThreadedExecutor(num_threads=2)
     executor.add_node(Depot())
     executor.add_node(Trucks())
     executor.spin()
