@@ -32,7 +32,9 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
     if world.retelling:
         return
     saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
-    path, chain = world.path, world.chain
+    path, chain, thread = world.path, world.chain, world.thread
+    world.threads += 1
+    world.thread = world.threads
     world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
     try:
         result = machine.call(target, call)
@@ -40,7 +42,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
     finally:
         world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
         world.stopped = False
-        world.path, world.chain = path, chain
+        world.path, world.chain, world.thread = path, chain, thread
 
 
 def begin(

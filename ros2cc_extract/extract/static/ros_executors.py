@@ -39,6 +39,7 @@ from ros2cc_extract.extract.static.world import (
     EntityState,
     ExecutorState,
     GroupState,
+    InsideSpin,
     NodeState,
     Spin,
 )
@@ -207,7 +208,14 @@ def global_executor(machine: Machine) -> Instance:
     return world.global_executor
 
 
-def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ever: bool) -> None:
+def record_spin(
+    machine: Machine,
+    executor: Instance,
+    how: str,
+    place: Place,
+    ever: bool,
+    timeout: Value | None = None,
+) -> None:
     world = machine.world
     if world.retelling:
         return
@@ -216,6 +224,8 @@ def record_spin(machine: Machine, executor: Instance, how: str, place: Place, ev
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
     spin.repeated = isinstance(world.count, Unknown)
+    spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
+    spin.from_callback, spin.over = world.current is not None, world.spins_over
     if not any(_is_the_same(spin, other) for other in world.spins.values()):
         world.spins.setdefault(spin.key, spin)
     for node in nodes:
@@ -246,14 +256,26 @@ def note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> Non
         node.state.nested = node.state.nested or (how, place)
 
 
+def note_inside(
+    machine: Machine, executor: Instance, how: str, timeout: Value | None, place: Place
+) -> None:
+    """A callback spins ``executor``."""
+    world = machine.world
+    if world.current is not None:
+        given = None if timeout == NONE else timeout
+        spin = InsideSpin(world.current, executor, how, given, place, world.held)
+        world.inside_spins.append(spin)
+
+
 def _method_spin(how: str, ever: bool) -> Handler:
     def spin(machine: Machine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         future = future_of(call, 0, how)
         if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
             note_served_inside(nodes_of(receiver), how, call.place)
+            note_inside(machine, receiver, f'executor.{how}', future[1], call.place)
         else:
-            record_spin(machine, receiver, how, call.place, ever)
+            record_spin(machine, receiver, how, call.place, ever, future[1])
             machine.note_outside_wait(how, *future, call.place, nodes_of(receiver))
         return machine.mystery(f'result of {how}', call.place)
 
@@ -385,6 +407,10 @@ def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Spins that go on in other threads end."""
+    world = machine.world
+    if not world.in_callback and not world.in_thread:
+        world.spins_over = len(world.spins)
     return NONE
 
 
@@ -398,7 +424,7 @@ EXECUTOR_METHODS: dict[str, Handler] = {
     'create_task': _create_task,
     'get_nodes': _get_nodes,
     'shutdown': _shut_down,
-    'wake': _shut_down,
+    'wake': lambda machine, receiver, call: NONE,
 }
 
 node_executor_property = _node_executor
@@ -416,6 +442,8 @@ TABLE = Library(
     },
     functions={
         'rclpy.get_global_executor': lambda machine, receiver, call: global_executor(machine),
+        'rclpy.shutdown': _shut_down,
+        'rclpy.try_shutdown': _shut_down,
     },
     aliases={
         'rclpy.SingleThreadedExecutor': SINGLE,

@@ -76,10 +76,11 @@ def _spin_thread(machine: Machine, node: Instance, call: Call) -> None:
     executor.hint = 'tf_executor'
     machine.world.executors.append(executor)
     add_node(machine, executor, node)
-    before = machine.world.in_thread
-    machine.world.in_thread = True
+    world, before = machine.world, (machine.world.in_thread, machine.world.thread)
+    world.threads += 1
+    world.in_thread, world.thread = True, world.threads
     record_spin(machine, executor, 'spin', call.place, True)
-    machine.world.in_thread = before
+    world.in_thread, world.thread = before
 
 
 def _subscribe(machine: Machine, receiver: Value, call: Call) -> Value:

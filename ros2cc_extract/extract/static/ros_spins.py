@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.ros_executors import (
     future_of,
     global_executor,
     nodes_of,
+    note_inside,
     note_served_inside,
     record_spin,
     remove_node,
@@ -92,6 +93,9 @@ def _spin_node(
     call, moved, change = _nested(machine, node, given, how)
     if machine.note_nested_spin(call, moved, given, future, place, change):
         note_served_inside((node,), f'rclpy.{how}', place)
+        spun = global_executor(machine) if given == NONE else given
+        if isinstance(spun, Instance) and isinstance(spun.state, ExecutorState):
+            note_inside(machine, spun, f'rclpy.{how}', future[1], place)
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
     _warn_of_theft(machine, node, executor, how, place)
@@ -99,9 +103,9 @@ def _spin_node(
     add_node(machine, executor, node)
     # Nested spins tell the global executor by this name.
     called = f'rclpy.{how}' if executor.state.is_global else how
-    record_spin(machine, executor, called, place, ever)
+    record_spin(machine, executor, called, place, ever, future[1])
     machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))
-    if not stays:
+    if not stays and not (ever and machine.world.in_thread):
         remove_node(machine, executor, node)
 
 

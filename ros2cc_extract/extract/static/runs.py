@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.outside_waits import note_unanswered
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import creates_entities
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
+from ros2cc_extract.extract.static.spun_twice import note_spun_twice
 from ros2cc_extract.extract.static.values import (
     NO_CALLER,
     Bound,
@@ -88,6 +89,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     run_rest_of_instances(machine)
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
+    note_spun_twice(machine.world)
     return machine
 
 
@@ -164,7 +166,7 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
         world.path, world.count, world.chain, world.held = (), 1, (), ()
         world.stopped, world.deeds, world.current, world.looking = False, None, None, ()
         world.shutting_down = False
-        world.in_thread, world.when = False, When.START
+        world.in_thread, world.when, world.thread = False, When.START, 0
         world.activity, world.again, world.retelling = None, False, False
         machine.store.reset()
 

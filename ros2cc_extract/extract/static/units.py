@@ -7,6 +7,7 @@ from dataclasses import replace
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.alternatives import Branches, exclusive
 from ros2cc_extract.extract.static.ros_executors import nodes_of
+from ros2cc_extract.extract.static.spun_twice import are_concurrent
 from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
 from ros2cc_extract.extract.static.unit_executor import Unit, is_handed_over
 from ros2cc_extract.extract.static.values import Class, Instance, options_of
@@ -125,7 +126,7 @@ def _spun_units(world: World) -> list[Unit]:
         nodes = [node for node in spin.nodes if _is_final(spin, node, spins)]
         if not nodes:
             continue
-        unit = next((u for u in units if _same_unit(u, spin, nodes)), None)
+        unit = next((u for u in units if _same_unit(world, u, spin, nodes)), None)
         if unit is None:
             units.append(Unit(spin.executor, nodes, spin))
         else:
@@ -134,16 +135,20 @@ def _spun_units(world: World) -> list[Unit]:
     return sorted(units, key=lambda u: order[id(u.spin)])
 
 
-def _same_unit(unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
+def _same_unit(world: World, unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
     if unit.executor is not spin.executor or unit.spin is None:
         return False
     if not spin.executor.state.is_global:
         return True
-    if any(node in unit.nodes for node in nodes):
+    if any(node in unit.nodes for node in nodes) or _at_once(world, unit.spin, spin):
         return True
     if any(is_handed_over(node) for node in (*unit.nodes, *nodes)):
         return False
     return not unit.spin.for_ever and not spin.for_ever
+
+
+def _at_once(world: World, one: Spin, other: Spin) -> bool:
+    return are_concurrent(world, one, other) or are_concurrent(world, other, one)
 
 
 def _is_final(spin: Spin, node: Instance, spins: list[Spin]) -> bool:

@@ -143,7 +143,13 @@ class AccessKind(Enum):
 
 @dataclass(eq=False)
 class Spin:
-    """One spin call: the executor, the nodes it has then, and how it is called."""
+    """
+    One spin call: the executor, the nodes it has then, and how it is called.
+
+    :param thread: which thread does it, 0 for the one of the set-up.
+    :param from_callback: that thread is one that a callback starts.
+    :param over: how many of the spins before it were over then.
+    """
 
     executor: Instance
     nodes: tuple[Instance, ...]
@@ -153,12 +159,32 @@ class Spin:
     for_ever: bool
     in_thread: bool
     repeated: bool = False
+    timeout: Value | None = None
+    thread: int = 0
+    from_callback: bool = False
+    over: int = 0
 
     @property
     def key(self) -> object:
         """Equal for one call that is met again, as in a loop."""
         nodes = tuple(id(node) for node in self.nodes)
         return (id(self.executor), nodes, self.place, self.path, self.in_thread)
+
+
+@dataclass(frozen=True, eq=False)
+class InsideSpin:
+    """
+    A callback spins an executor.
+
+    :param held: the locks that are held meanwhile.
+    """
+
+    entity: EntityState
+    executor: Instance
+    how: str
+    timeout: Value | None
+    place: Place
+    held: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,6 +308,8 @@ class World:
 
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
+    :param spins_over: how many of the spins have ended for sure.
+    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them.
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: objects that the function has been asked of whether a wait would wait.
@@ -353,6 +381,10 @@ class World:
     nodes: list[Instance] = field(default_factory=list)
     entities: list[EntityState] = field(default_factory=list)
     spins: dict[object, Spin] = field(default_factory=dict)
+    spins_over: int = 0
+    inside_spins: list[InsideSpin] = field(default_factory=list)
+    thread: int = 0
+    threads: int = 0
     executors: list[Instance] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: dict[int, Function] = field(default_factory=dict)

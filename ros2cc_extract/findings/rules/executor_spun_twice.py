@@ -51,11 +51,14 @@ RULE = Rule(
     slug='executor-spun-twice',
     severity=Severity.WARNING,
     title='Executor spun while it spins',
-    what='An executor is spun from two threads, or from inside a callback that it runs itself. '
+    what='An executor is spun from two threads, by two callbacks that may run at the same time, '
+    'or from inside a callback that it runs itself. `rclpy.spin` and its kin without `executor=` '
+    'all spin one executor, the global one, whatever node they are given. '
     'Libraries do so too: the methods of `BasicNavigator` spin a node of their own by the global '
     'executor, which under `rclpy.spin` runs the callback that calls them.',
     why='The executor walks through what is ready by one generator. From two threads that ends '
-    'in `ValueError: generator already executing`; nested, other callbacks run inside the one '
+    'in `ValueError: generator already executing` where both ask with the same time-out; nested, '
+    'other callbacks run inside the one '
     'that waits, and members of its group do not. From rclpy 7.1.9 (Jazzy) and 9.1.5 (Kilted) on '
     'both raise `RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, '
     '`executors.py` (`wait_for_ready_callbacks`); ros2/rclpy pull request 1510.',
