@@ -94,7 +94,9 @@ def _spin_node(
     if machine.note_nested_spin(call, moved, given, future, place, change):
         note_served_inside((node,), f'rclpy.{how}', place)
         spun = global_executor(machine) if given == NONE else given
-        if isinstance(spun, Instance) and isinstance(spun.state, ExecutorState):
+        current = machine.world.current
+        is_own = current is not None and current.node is node
+        if _is_executor(spun) and not is_own:
             note_inside(machine, spun, f'rclpy.{how}', future[1], place)
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)

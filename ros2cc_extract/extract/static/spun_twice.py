@@ -12,7 +12,7 @@ then with an ``IndexError``. Newer releases refuse (ros2/rclpy pull request 1510
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.alternatives import exclusive
@@ -67,8 +67,11 @@ def _by_callbacks(world: World) -> Iterator[Diagnostic]:
                 is_same = _asks_the_same((spin.how, spin.timeout), (each.how, each.timeout))
                 other = f'it is spun by {spin.how} as well ({spin.place})'
                 yield _spun_twice(each.executor, each.how, each.place, other, is_same)
-    for one, other in combinations_with_replacement(inside, 2):
-        if one.executor is other.executor and _may_overlap(one, other):
+    told: set[int] = set()
+    for one, other in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
+        is_told = id(one.entity) in told and id(other.entity) in told
+        if one.executor is other.executor and not is_told and _may_overlap(one, other):
+            told |= {id(one.entity), id(other.entity)}
             is_same = _asks_the_same((one.how, one.timeout), (other.how, other.timeout))
             words = f'another callback, which may run at the same time, does too ({other.place})'
             if one is other:

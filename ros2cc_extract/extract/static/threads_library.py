@@ -207,10 +207,19 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
     },
 }
 
+
+def _join(machine: Machine, receiver: Value, call: Call) -> Value:
+    """What the thread spun is spun no more where the program has waited for its end."""
+    world = machine.world
+    if not world.in_callback and not world.in_thread and not call.args and not call.keywords:
+        world.spins_over = len(world.spins)
+    return _blocking('Thread.join', 0, 'timeout')(machine, receiver, call)
+
+
 _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
-    methods={'start': _start, 'join': _blocking('Thread.join', 0, 'timeout')},
+    methods={'start': _start, 'join': _join},
 )
 
 _JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')
