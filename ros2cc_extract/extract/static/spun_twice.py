@@ -68,13 +68,13 @@ def _by_callbacks(world: World) -> Iterator[Diagnostic]:
                 other = f'it is spun by {spin.how} as well ({spin.place})'
                 yield _spun_twice(each.executor, each.how, each.place, other, is_same)
     told: set[int] = set()
-    for one, other in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
-        is_told = id(one.entity) in told and id(other.entity) in told
-        if one.executor is other.executor and not is_told and _may_overlap(one, other):
-            told |= {id(one.entity), id(other.entity)}
-            is_same = _asks_the_same((one.how, one.timeout), (other.how, other.timeout))
-            words = f'another callback, which may run at the same time, does too ({other.place})'
-            if one is other:
+    for one, rival in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
+        is_told = id(one.entity) in told and id(rival.entity) in told
+        if one.executor is rival.executor and not is_told and _may_overlap(one, rival):
+            told |= {id(one.entity), id(rival.entity)}
+            is_same = _asks_the_same((one.how, one.timeout), (rival.how, rival.timeout))
+            words = f'another callback, which may run at the same time, does too ({rival.place})'
+            if one is rival:
                 words = 'another run of the same callback, which may coincide with it, does too'
             yield _spun_twice(one.executor, one.how, one.place, words, is_same)
 
