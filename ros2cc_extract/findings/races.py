@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
+from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
@@ -107,7 +108,7 @@ class _Conflict:
 def races_of(context: Context) -> Iterator[Race]:
     """One race per attributes that the same callbacks change, in the order of first conflicts."""
     by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
-    for one, other in combinations(context.written, 2):
+    for one, other in combinations(shared_by(context), 2):
         if isinstance(one.node, str) and one.node == other.node:
             for conflict in _conflicts(one, other, context):
                 key = (one.node, conflict.first.access.name)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.spec.deeds import SHARED, Access
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.model import Activity, Callback
 
 
 def is_other_item(one: Access, other: Access) -> bool:
@@ -14,7 +14,7 @@ def is_other_item(one: Access, other: Access) -> bool:
     return one.item is not None and other.item is not None and one.item != other.item
 
 
-def kept_between(first: Access, last: Access, callback: Callback) -> tuple[str, ...]:
+def kept_between(first: Access, last: Access, callback: Callback | Activity) -> tuple[str, ...]:
     """
     The locks that are held from the one access to the other.
 
@@ -34,7 +34,7 @@ def kept_between(first: Access, last: Access, callback: Callback) -> tuple[str, 
     )
 
 
-def read_for(deed: Access, doer: Callback) -> Access | None:
+def read_for(deed: Access, doer: Callback | Activity) -> Access | None:
     """The last read before a deed that rests on one; ``None`` if the doer has stored since."""
     reads = [
         read

@@ -81,6 +81,7 @@ class Blocking:
 
 RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
+FLAG = ' (flag)'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,7 +91,8 @@ class Access:
 
     :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
     :param locks: locks held at that place, outermost first; one that others may hold too, as
-        readers do, ends in ``SHARED``.
+        readers do, ends in ``SHARED``. A flag that was found down and put up, by which others are
+        to be kept out, ends in ``FLAG``.
     :param update: true when the old value is read for the new one (``+=``, ``append`` …).
     :param in_place: true for an update by one operation on the object itself (``append``,
         ``d[k] = v``), which CPython does in one piece.

@@ -91,7 +91,7 @@ if __name__ == '__main__':
 #     reads Search.timer @56>18
 #     reads Machine.state @56>36
 #     writes Machine.state rests @56
-#     writes Search.timer rests @56>19
+#     writes Search.timer rests under Search.timer (flag) @56>19
 #     writes Machine.state @56>35
 #     changes timer @56>19
 #     changes subscription @56>34

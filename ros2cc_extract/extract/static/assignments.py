@@ -41,7 +41,7 @@ class Assignments(Machine):
 
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Store ``value`` in a name, attribute, item or pattern of them."""
-        self.world.reading.clears = value == NONE
+        self.world.reading.stored = value
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):

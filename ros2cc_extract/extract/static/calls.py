@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static import memo, subclasses
+from ros2cc_extract.extract.static import flags, memo, subclasses
 from ros2cc_extract.extract.static.arguments import fits
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
@@ -106,6 +106,7 @@ class Calls(Machine):
         if isinstance(function.node, ast.Lambda):
             return self.evaluate(function.node.body, frame)
         flow = self.execute_block(function.node.body, frame)
+        flags.leave(self.world, frame, goes_on=bool(flow & NEXT))
         if frame.yields:
             made = Sequence(tuple(frame.yields), 'generator', None, dict(frame.many))
             self.world.yielding = made, frame.held

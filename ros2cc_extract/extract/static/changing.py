@@ -10,7 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static import flags, loops
 from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
@@ -51,6 +51,8 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     place = frame.place(outer)
     known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
     reading.tests[place] = known | found | _computed_from(node.test, frame)
+    if node is outer:
+        flags.note_test(reading, node, found, place)
     return holds
 
 

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
+from ros2cc_extract.extract.static import flags
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
@@ -36,14 +37,10 @@ from ros2cc_extract.extract.static.world import (
     note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import SHARED, Access, Act
+from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
 
 _CODE = (Module, Library, Class, Function)
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
-
-
-def _shared(lock: str) -> bool:
-    return lock.endswith(SHARED)
 
 
 class Effects(Waits):
@@ -77,6 +74,8 @@ class Effects(Waits):
             reading.read.add(name)
         at = place, name.rpartition('.')[2]
         rests = reading.governs(name, self.world.path) or name in reading.flowing
+        if kind is AccessKind.WRITE:
+            flags.put_up(self.world, name)
         access = Access(
             name=name,
             source=place,
@@ -87,7 +86,7 @@ class Effects(Waits):
             iterates=self.world.iterating,
             item=reading.items.get(at),
             rests=rests and (not is_read or at in reading.used),
-            clears=reading.clears and kind is AccessKind.WRITE,
+            clears=kind is AccessKind.WRITE and reading.stored == NONE,
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if is_read else deeds.writes
@@ -96,6 +95,8 @@ class Effects(Waits):
             if plain in accesses[-RECENT:]:
                 accesses.remove(plain)
         note_once(accesses, access)
+        if kind is AccessKind.WRITE:
+            flags.put_down(self.world, name)
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
@@ -200,7 +201,7 @@ class Effects(Waits):
         Source: ``threading.py``; only ``Lock`` waits for its own holder, and a ``Condition``
         holds an ``RLock``.
         """
-        held = (lock for lock in self.world.held if not _shared(lock))
+        held = (lock for lock in self.world.held if not lock.endswith((SHARED, FLAG)))
         return tuple(dict.fromkeys(lock for lock in held if lock != name or kind == 'lock'))
 
     def note_release(self, lock: Value) -> None:

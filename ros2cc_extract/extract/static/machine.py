@@ -53,6 +53,7 @@ class Frame:
     :param many: what it yields any number of times, or perhaps not at all.
     :param breaks: what the branches that leave the running loop had written to own names.
     :param held: locks that were held at the first ``yield``.
+    :param left: locks that are held at each ``return``, and whether that turns down a goal.
     :param copies: own names that hold what other functions may have changed.
     :param sources: shared data that own names were computed from, while a callback is followed.
     :param continues: the same of the branches that go on with its next round.
@@ -65,6 +66,7 @@ class Frame:
     results: list[Value] = field(default_factory=list)
     yields: list[Value] = field(default_factory=list)
     held: tuple[str, ...] = ()
+    left: list[tuple[tuple[str, ...], bool]] = field(default_factory=list)
     many: dict[Value, Value] = field(default_factory=dict)
     qualname: str = ''
     path: Path = ()

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.values import Path
+from ros2cc_extract.extract.static.values import Path, Value
 from ros2cc_extract.places import Place
 
 
@@ -26,7 +26,8 @@ class Reading:
     :param tests: names that a branch or an early return rests on, by the place of the test.
     :param items: the item that is meant, by the place of the container and its attribute.
     :param used: objects of which more is asked than whether they are there, in the same way.
-    :param clears: ``None`` is being stored.
+    :param stored: the value that is being stored.
+    :param down: flags that were found down, by the step of the path on which they are.
     """
 
     read: set[str] = field(default_factory=set)
@@ -34,7 +35,8 @@ class Reading:
     tests: dict[Place, frozenset[str]] = field(default_factory=dict)
     items: dict[tuple[Place, str], str] = field(default_factory=dict)
     used: set[tuple[Place, str]] = field(default_factory=set)
-    clears: bool = False
+    stored: Value | None = None
+    down: dict[tuple[Place, int], str] = field(default_factory=dict)
 
     @contextmanager
     def of(self, found: set[str]) -> Iterator[None]:

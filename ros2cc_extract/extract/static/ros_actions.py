@@ -47,7 +47,7 @@ def _init_server(machine: Machine, receiver: Value, call: Call) -> Value:
     if _is_made_again(machine, receiver, node, EntityKind.ACTION_SERVER, key, place):
         return NONE
     server = add_entity(machine, node, EntityKind.ACTION_SERVER, group, place)
-    server.key = key
+    server.key, server.goal_callback = key, call.argument(None, 'goal_callback')
     found = (call.argument(None, name) for name in _SERVER_CALLBACKS)
     server.extra_callbacks = tuple(value for value in found if value is not None)
     receiver.state = server

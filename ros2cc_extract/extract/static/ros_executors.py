@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static import activities
+from ros2cc_extract.extract.static import activities, flags
 from ros2cc_extract.extract.static.defaults import assumption
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -340,10 +340,12 @@ def add_task(
         is_here = known.place == place and known.kind is kind
         is_same = is_here and _name_of(known.key) == _name_of(key)
         if is_same and _code_of(known.callback) == _code_of(run):
+            flags.hand_over(world, known)
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
     entity.callback, entity.key = run, key
     entity.count = 1
+    flags.hand_over(world, entity)
     return entity
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static import activities
+from ros2cc_extract.extract.static import activities, flags
 from ros2cc_extract.extract.static.again import both
 from ros2cc_extract.extract.static.alternatives import IN_A_CALLBACK
 from ros2cc_extract.extract.static.call_order import (
@@ -276,8 +276,7 @@ def _run_callback(
         mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
-            result = machine.call(option, call)
-            machine.run_if_coroutine(result, entity.place)
+            machine.run_if_coroutine(flags.call(machine, entity, option, call), entity.place)
         if mark is not None:
             machine.store.join([machine.store.close_branch(mark), {}])
 

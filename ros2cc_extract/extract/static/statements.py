@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, loops, memo, same_tests
+from ros2cc_extract.extract.static import changing, flags, loops, memo, same_tests
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
@@ -194,6 +194,7 @@ def _as_load(target: ast.Name | ast.Attribute | ast.Subscript) -> ast.expr:
 
 def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
     frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    flags.note_return(machine.world, frame, node)
     return RETURN
 
 
@@ -241,7 +242,7 @@ def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> 
                 machine.assign(item.optional_vars, entered, frame)
         return machine.execute_block(node.body, frame)
     finally:
-        machine.world.held = held
+        machine.world.held = flags.after_block(held, machine.world.held)
 
 
 def _match(machine: Statements, node: ast.Match, frame: Frame) -> int:

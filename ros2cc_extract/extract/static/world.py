@@ -103,6 +103,7 @@ class EntityState:
     A ROS entity or a piece of group-less work; one record for each that is made.
 
     :param assumed: the rule by which it is assumed to be there.
+    :param held: flags that its maker has handed over to it, see ``flags.py``.
     :param part_of: the subscription whose event it handles.
     """
 
@@ -124,6 +125,8 @@ class EntityState:
     extra_callbacks: tuple[Value, ...] = ()
     deeds: Deeds | None = None
     argument: Value | None = None
+    goal_callback: Value | None = None
+    held: tuple[str, ...] | None = None
     number: int = 0
     part_of: EntityState | None = None
     assumed: str | None = None
@@ -328,6 +331,8 @@ class World:
     :param without_caller: the objects on which those were followed that nobody in sight calls.
     :param locks: the locks that were taken, by the name they are stored under.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
+    :param accepted: what the last function held wherever it did not turn down a goal.
+    :param admitted: flags that hold for an accepted goal, by node and place of the action server.
     :param outside: what code waits for that is no callback.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
@@ -374,6 +379,8 @@ class World:
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
     yielding: tuple[Value, tuple[str, ...]] | None = None
+    accepted: tuple[str, ...] = ()
+    admitted: dict[tuple[Instance, Place], tuple[str, ...]] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False

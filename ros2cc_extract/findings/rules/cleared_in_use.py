@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.overlap import is_quick_timer, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, Use, races_of, uses_cleared
 from ros2cc_extract.findings.rule import Context, Hit, Rule
@@ -23,7 +24,7 @@ def find(context: Context) -> Iterator[Hit]:
         if race.kind is RaceKind.CLEARED_IN_USE:
             told |= {(race.first.callback.name, name) for name in race.names}
             yield hit_of(race, help_text=HELP)
-    for callback in context.written:
+    for callback in shared_by(context):
         if overlaps_itself(callback, context):
             uses = {
                 use.access.name: use for use, _ in reversed([*uses_cleared(callback, callback)])

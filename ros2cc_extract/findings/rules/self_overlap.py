@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.overlap import is_quick_timer, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
@@ -33,7 +34,7 @@ def find(context: Context) -> Iterator[Hit]:
 
 def _losing(context: Context) -> Iterator[SelfRace]:
     """The worst race of each attribute that two runs of one callback may have."""
-    for callback in context.written:
+    for callback in shared_by(context):
         if overlaps_itself(callback, context):
             yield from self_races_of(callback)
 

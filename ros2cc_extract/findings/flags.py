@@ -1,0 +1,81 @@
+"""
+Flags by which callbacks keep each other out, as far as they do.
+
+The scanner notes who has found a flag down and put it up (``extract/static/flags.py``). That
+keeps others out where nobody else writes the flag, and where no two can find it down at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.sections import kept_between, read_for
+from ros2cc_extract.spec.deeds import FLAG, Access
+from ros2cc_extract.spec.model import Activity, Callback
+
+
+def shared_by(context: Context) -> tuple[Callback, ...]:
+    """
+    The callbacks somebody wrote, with their accesses as flags leave them.
+
+    A flag that keeps others out stands among the locks and is no shared data itself; any other
+    is shared data and no lock.
+    """
+    flags = {lock for c in context.written for access in _accesses(c) for lock in access.locks}
+    flags = {lock for lock in flags if lock.endswith(FLAG)}
+    if not flags:
+        return context.written
+    kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, context)}
+    return tuple(
+        replace(
+            callback, reads=_judged(callback.reads, kept), writes=_judged(callback.writes, kept)
+        )
+        for callback in context.written
+    )
+
+
+def _accesses(callback: Callback) -> tuple[Access, ...]:
+    return (*callback.reads, *callback.writes)
+
+
+def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:
+    return tuple(
+        replace(
+            access,
+            locks=tuple(
+                lock
+                for lock in access.locks
+                if not lock.endswith(FLAG) or lock.removesuffix(FLAG) in kept
+            ),
+        )
+        for access in accesses
+        if access.name not in kept
+    )
+
+
+def _keeps_out(flag: str, context: Context) -> bool:
+    """Whether all who write it hold it, and one by one find it down."""
+    name = flag.removesuffix(FLAG)
+    everybody: tuple[Callback | Activity, ...] = (
+        *context.unit.callbacks,
+        *context.unit.activities,
+    )
+    uses = [(one, write) for one in everybody for write in one.writes if write.name == name]
+    setters = [(one, write) for one, write in uses if write.rests]
+    if not setters or not all(flag in write.locks for _, write in uses):
+        return False
+    groups = {
+        context.exclusive_group(one) if isinstance(one, Callback) else None for one, _ in setters
+    }
+    if len(groups) == 1 and None not in groups:
+        return True
+    return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _locks_of(callback: Callback | Activity, write: Access) -> frozenset[str]:
+    """The locks from the test to the setting."""
+    read = read_for(write, callback)
+    kept = kept_between(read, write, callback) if read is not None else ()
+    return frozenset(lock for lock in kept if not lock.endswith(FLAG))

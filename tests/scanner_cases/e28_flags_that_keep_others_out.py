@@ -1,0 +1,127 @@
+"""Deeds: a flag that is found down and put up is held like a lock until it is put down again."""
+
+import threading
+
+import rclpy
+from rclpy.action import ActionServer, GoalResponse
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+from test_msgs.action import Fibonacci
+
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.lock = threading.Lock()
+        self.busy = False
+        self.asking = False
+        self.handle = None
+        self.steps = 0
+        self.client = self.create_client(Trigger, 'ask')
+        self.create_timer(1.0, self.by_goal)
+        self.create_timer(1.0, self.by_arm)
+        self.create_timer(1.0, self.on_some_ways)
+        self.create_timer(1.0, self.by_object)
+        ActionServer(self, Fibonacci, 'f', self.execute, goal_callback=self.on_goal)
+
+    def by_goal(self):
+        if self.asking:
+            return
+        self.asking = True
+        self.steps = 1
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
+        self.steps = 2
+
+    def on_done(self, future):
+        self.steps = 3
+        self.asking = False
+        self.steps = 4
+
+    def by_arm(self):
+        with self.lock:
+            if not self.busy:
+                self.busy = True
+                self.steps = 5
+            self.steps = 6
+
+    def on_some_ways(self):
+        self.claim()
+        self.steps = 7
+
+    def claim(self):
+        if self.asking:
+            return False
+        self.asking = True
+        return True
+
+    def by_object(self):
+        if self.handle is not None:
+            self.get_logger().info('busy')
+        self.handle = object()
+        self.steps = 8
+
+    def on_goal(self, request):
+        with self.lock:
+            if self.busy:
+                return GoalResponse.REJECT
+            self.busy = True
+        return GoalResponse.ACCEPT
+
+    def execute(self, goal_handle):
+        self.steps = 9
+        goal_handle.succeed()
+        with self.lock:
+            self.busy = False
+        self.steps = 10
+        return Fibonacci.Result()
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=3)
+    executor.add_node(A())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit a: MultiThreadedExecutor x3 spin, main
+#   group a_default EXCLUSIVE default
+#   group no_group REENTRANT groupless
+#   timer by_goal in a_default every 1
+#     reads A.asking @29
+#     writes A.asking rests under A.asking (flag) @31
+#     writes A.steps under A.asking (flag) @32
+#     writes A.steps @34
+#     changes done_callback @33
+#   timer by_arm in a_default every 1
+#     reads A.busy under lock @43
+#     writes A.busy rests under lock, A.busy (flag) @44
+#     writes A.steps under lock, A.busy (flag) @45
+#     writes A.steps under lock @46
+#     locks lock @42
+#   timer on_some_ways in a_default every 1
+#     reads A.asking @49>53
+#     writes A.asking rests under A.asking (flag) @49>55
+#     writes A.steps @50
+#   timer by_object in a_default every 1
+#     reads A.handle @59
+#     writes A.handle @61
+#     writes A.steps @62
+#   client ask_client in a_default key=ask
+#   action_server f_action_server in a_default (A.on_goal) key=f
+#     reads A.busy under lock @66
+#     writes A.busy rests under lock, A.busy (flag) @68
+#     locks lock @65
+#   action_execute execute in no_group key=f
+#     writes A.steps under A.busy (flag) @72
+#     writes A.busy under A.busy (flag), lock @75
+#     writes A.steps @76
+#     locks lock @74
+#   done_callback on_done in no_group key=ask conditional when=callback
+#     writes A.steps under A.asking (flag) @37
+#     writes A.asking under A.asking (flag) @38
+#     writes A.steps @39

@@ -1,0 +1,63 @@
+"""Flags that keep others out, and flags that do not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from finding_units import at, callback, found, outside, service, threads, timer, unit, updates
+
+from ros2cc_extract.spec.deeds import FLAG, Access, Act
+from ros2cc_extract.spec.model import Callback, EntityKind
+
+BUSY = 'Arm.busy' + FLAG
+
+
+def flag(line: int, *locks: str, rests: bool = False) -> Access:
+    return Access(name='Arm.busy', source=at(line), locks=locks, rests=rests)
+
+
+def goal(*locks: str, group: str = 'arm_default') -> Callback:
+    return callback(
+        'on_goal',
+        EntityKind.ACTION_SERVER,
+        group,
+        reads=(flag(20, *locks),),
+        writes=(flag(21, *locks, BUSY, rests=True),),
+        locks=tuple(Act(name=lock, source=at(19)) for lock in locks),
+    )
+
+
+def execute(*, down: bool = True, count: int = 30) -> Callback:
+    given_back = (flag(35, BUSY),) if down else (flag(35),)
+    writes = (*updates('Arm.steps', count, BUSY), *given_back)
+    return outside('execute', EntityKind.ACTION_EXECUTE, writes=writes)
+
+
+def told(*callbacks: Callback) -> list[str]:
+    return [code for code in found(unit(threads(3), *callbacks)) if code.startswith('CC3')]
+
+
+def test_a_goal_that_is_let_in_alone_does_not_overlap_itself() -> None:
+    assert told(goal('lock'), execute()) == []
+    assert told(goal(), execute()) == []
+
+
+def test_a_flag_that_two_may_find_down_at_once_keeps_nobody_out() -> None:
+    assert 'CC304:30 warning' in told(goal(group='free'), execute())
+    assert told(goal('lock', group='free'), execute()) == []
+
+
+def test_a_flag_that_somebody_else_writes_keeps_nobody_out() -> None:
+    other = service('on_cancel', 'other', writes=(flag(50),))
+    assert 'CC304:30 warning' in told(goal('lock'), execute(), other)
+
+
+def test_a_test_and_a_setting_in_two_sections_keep_nobody_out() -> None:
+    loose = goal('lock', group='free')
+    taken = (*loose.locks, Act(name='lock', source=at(20, 30)))
+    assert 'CC304:30 warning' in told(replace(loose, locks=taken), execute())
+
+
+def test_a_flag_protects_against_those_who_hold_it_only() -> None:
+    tick = timer('tick', 'other', writes=updates('Arm.steps', 40))
+    assert told(goal('lock'), execute(), tick) == ['CC303:30 warning']
