@@ -22,7 +22,7 @@ class Lift(Node):
 
     async def ask(self):
         future = self.client.call_async(Trigger.Request())
-        while not future.done():
+        while not future.done():  # waits here
             await asyncio.sleep(0.01)
 
     def on_floor(self, request, response):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from io import StringIO
@@ -14,20 +13,21 @@ from tests.shapes.rows import BREAKS, WAITS, Node, Row, marked_lines
 
 # What says no more than what a set-up is good for.
 ADVICE = ('CC401', 'CC402', 'CC403', 'CC404', 'CC5', 'CC6')
-UNDECIDED = 'undecided'
+# Notes on waits: nobody knows who ends it, or only another program can.
+OPEN = {'CC120': 'undecided', 'CC121': 'assumed to end'}
 
 
 @dataclass(frozen=True)
 class Told:
     """
-    What a check says of one node.
+    What a check says of one node, each with the line where it says so.
 
-    :param findings: code and line of what it found, advice on the set-up left out.
-    :param undecided: lines of the waits that it could not decide.
+    :param findings: codes of what it found, advice on the set-up left out.
+    :param open_waits: in which way waits were left open.
     """
 
     findings: tuple[tuple[str, int], ...]
-    undecided: tuple[int, ...]
+    open_waits: tuple[tuple[str, int], ...]
 
 
 @cache
@@ -35,52 +35,42 @@ def told(path: Path) -> Told:
     """The check of one node, as a user runs it."""
     out, err = StringIO(), StringIO()
     main(['check', '--no-cache', '--output-format', 'json', str(path)], out, err)
-    said = json.loads(out.getvalue())
-    findings = [(finding['code'], finding['line']) for finding in said['findings']]
+    said = [(found['code'], found['line']) for found in json.loads(out.getvalue())['findings']]
     return Told(
-        findings=tuple(f for f in findings if not f[0].startswith(ADVICE)),
-        undecided=tuple(sorted(map(_line, said['summary'].get('undecided_waits', ())))),
+        findings=tuple(f for f in said if f[0] not in OPEN and not f[0].startswith(ADVICE)),
+        open_waits=tuple((OPEN[code], line) for code, line in said if code in OPEN),
     )
-
-
-def _line(wait: Mapping[str, object]) -> int:
-    """The line of a wait: told as a number, or within its place."""
-    if 'line' in wait:
-        return int(str(wait['line']))
-    return int(str(wait['place']).split(':')[1])
 
 
 def verdict(node: Node) -> str:
     """
     In one word what the tool says.
 
-    Of a bad node: the codes at a marked line, else *undecided* there, else *silent*. Of a good
-    node: the codes of all that it found, else *undecided*, else *clean*.
+    Of a bad node: the codes at a marked line, else how a wait there was left open, else *silent*.
+    Of a good node: the codes of all that it found, else how a wait was left open, else *clean*.
     """
     said = told(node.path)
+    findings, open_waits = said.findings, said.open_waits
     if node.word == 'bad':
         marked = {line for lines in marked_lines(node.path, WAITS, BREAKS) for line in lines}
-        codes = {code for code, line in said.findings if line in marked}
-        undecided = marked & set(said.undecided)
-    else:
-        codes, undecided = {code for code, _ in said.findings}, set(said.undecided)
-    if codes:
-        return ', '.join(sorted(codes))
-    if undecided:
-        return UNDECIDED
-    return 'silent' if node.word == 'bad' else 'clean'
+        findings = tuple(found for found in findings if found[1] in marked)
+        open_waits = tuple(wait for wait in open_waits if wait[1] in marked)
+    words = {word for word, _ in findings or open_waits}
+    return ', '.join(sorted(words)) or ('silent' if node.word == 'bad' else 'clean')
 
 
 def is_right(node: Node, said: str) -> bool:
-    """Whether the row is content with that: what was observed, or honestly undecided."""
-    if said == UNDECIDED:
-        return True
+    """Whether that is what was observed, or says honestly that it is open."""
+    words = set(said.split(', '))
     if node.word == 'good':
-        return said == 'clean'
-    return said != 'silent' and _is_asked_for(node.row, said)
+        return said == 'clean' or words <= set(OPEN.values())
+    return OPEN['CC120'] in words or _is_asked_for(node.row, words)
 
 
-def _is_asked_for(row: Row, said: str) -> bool:
-    """Codes that the row names; ``finding`` is content with any."""
+def _is_asked_for(row: Row, said: set[str]) -> bool:
+    """One of the codes of the row; ``finding`` asks for any, ``undecided`` with less."""
     asked = {word.strip() for word in row.finds.split(',')}
-    return 'finding' in asked or bool(asked & set(said.split(', ')))
+    if 'undecided' in asked and OPEN['CC121'] in said:
+        return True
+    codes = {word for word in said if word.startswith('CC')}
+    return bool(codes if 'finding' in asked else asked & codes)
