@@ -12,7 +12,6 @@ import concurrent.futures
 import contextlib
 import json
 import os
-import queue
 import signal
 import subprocess
 import sys
@@ -24,6 +23,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from tests.shapes.rows import DISTRIBUTIONS, WAITS, Node, marked_lines, nodes
+from tests.support.domains import free_domain
 
 WATCHED = Path(__file__).with_name('watched.py')
 PATIENCE_S = 9.0
@@ -126,7 +126,6 @@ def main() -> None:
     parser.add_argument('--python', type=Path, required=True, help='with rclpy')
     parser.add_argument('--as', dest='distribution', choices=DISTRIBUTIONS, required=True)
     parser.add_argument('--jobs', type=int, default=3)
-    parser.add_argument('--first-domain', type=int, default=60)
     parser.add_argument('--record', type=Path, help='what was seen, one JSON line a node')
     args = parser.parse_args()
     chosen = [
@@ -135,16 +134,10 @@ def main() -> None:
         if node.observed[args.distribution] != NOT_RUN
         if not args.shapes or any(node.name.startswith(name) for name in args.shapes)
     ]
-    domains: queue.Queue[int] = queue.Queue()
-    for job in range(args.jobs):
-        domains.put(args.first_domain + job)
 
     def run(node: Node) -> Seen:
-        domain = domains.get()
-        try:
+        with free_domain() as domain:
             return observe(node, str(args.python.absolute()), domain)
-        finally:
-            domains.put(domain)
 
     wrong = 0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
