@@ -6,12 +6,12 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static import flags, memo, subclasses
+from ros2cc_extract.extract.static import flags, memo, plain_data, subclasses
 from ros2cc_extract.extract.static.arguments import fits
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.flow import DEAD, NEXT, RETURN
-from ros2cc_extract.extract.static.machine import CannotCallError, Frame, Machine
+from ros2cc_extract.extract.static.machine import BudgetError, CannotCallError, Frame, Machine
 from ros2cc_extract.extract.static.relevance import mangled
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -41,7 +41,13 @@ _SAME_FUNCTION = 2
 
 
 class Calls(Machine):
-    """How values are called."""
+    """
+    How values are called.
+
+    :ivar in_plain: a call that works on plain data alone is running.
+    """
+
+    in_plain = False
 
     def call(self, function: Value, call: Call) -> Value:
         """The result of a call, after its effects."""
@@ -67,7 +73,7 @@ class Calls(Machine):
         """Run a scanned function; a coroutine function only makes its coroutine."""
         if function.is_coroutine:
             return Coroutine(function, call)
-        run = partial(self.run_function, function)
+        run = partial(self.run_shortly, function)
         if memo.is_kept(function):
             return memo.recall(self, function, call, run)
         return memo.doubted(self, function, call, run)
@@ -94,6 +100,28 @@ class Calls(Machine):
         finally:
             self.stack.pop()
             self.world.chain, self.world.count, self.world.path = chain, count, path
+
+    def run_shortly(self, function: Function, call: Call) -> Value:
+        """Run a function; one that works on plain data alone is left after some steps."""
+        world = self.world
+        is_short = self.steps < plain_data.LONG or self.in_plain or world.deeds is not None
+        if is_short or not plain_data.is_plain(world, function):
+            return self.run_function(function, call)
+        limit, began, depth = self.step_limit, self.steps, self.store.depth
+        held, trying = world.held, world.trying
+        self.in_plain = True
+        self.step_limit = min(limit, began + plain_data.allowance(world, function))
+        try:
+            return self.run_function(function, call)
+        except BudgetError:
+            if self.steps > limit:
+                raise
+            self.store.unwind(depth)
+            world.held, world.trying, world.stopped = held, trying, False
+            return plain_data.leave(self, function, call)
+        finally:
+            self.in_plain, self.step_limit = False, limit
+            plain_data.note_spent(world, function, self.steps - began)
 
     def _surely_fails(self, function: Function, call: Call) -> bool:
         return function not in self.world.doubted and not fits(function, call)

@@ -12,18 +12,18 @@ from ros2cc_extract.extract.static.call_order import (
 )
 from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
+from ros2cc_extract.extract.static.programs_of_tests import is_test
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.reached import names_from_scanned
 from ros2cc_extract.extract.static.relevance import creates_entities, walk
 from ros2cc_extract.extract.static.runs import (
     UNCALLED,
     guarded,
-    is_test,
     run_callbacks,
     run_rest_of_instances,
-    unknown_arguments,
 )
 from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.values import (
     Call,
     Class,

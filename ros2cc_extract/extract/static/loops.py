@@ -145,7 +145,7 @@ def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place
     machine.world.assumed = items.assumed or assumed
     try:
         if len(items.known) > UNROLL_LIMIT:
-            return _run_many(machine, items.known, once, place)
+            return _run_many(machine, items, once, place)
         for item in items.known:
             why = items.why_many(item)
             if why is not None:
@@ -185,11 +185,12 @@ def _run_item(machine: Machine, item: Value, once: Callable[[Value], int], place
     return once(item)
 
 
-def _run_many(
-    machine: Machine, items: tuple[Value, ...], once: Callable[[Value], int], place: Place
-) -> int:
-    reason = f'one of {len(items)} items of a loop'
-    with counted(machine, len(items)):
+def _run_many(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
+    number = len(items.known)
+    reason = f'one of {number} items of a loop'
+    more = items.others
+    why = Unknown(f'made in a loop: {more.reason}', more.at or place) if more else None
+    with counted(machine, why or number):
         flow = once(Mystery(Unknown(reason, place), 'item'))
     return flow & _OUT | _NEXT if flow & (_NEXT | _BREAK | _CONTINUE) else flow
 

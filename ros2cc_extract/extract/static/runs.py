@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -18,12 +19,14 @@ from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
 from ros2cc_extract.extract.static.machine import BudgetError
 from ros2cc_extract.extract.static.outside_waits import note_unanswered
+from ros2cc_extract.extract.static.plain_data import leads_nowhere
+from ros2cc_extract.extract.static.programs_of_tests import PREPARING, begin_test, is_test
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.relevance import creates_entities
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.spun_twice import note_spun_twice
+from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.values import (
-    NO_CALLER,
     Bound,
     Call,
     Class,
@@ -60,7 +63,6 @@ _DESTROYING = 'on_deactivate'
 UNCALLED = -3
 """Step of a path that somebody who is not in sight takes."""
 
-_PREPARING = ('setUp', 'asyncSetUp', 'setup_method')
 _CLOSING = ('destroy', 'shutdown', 'cleanup', 'close', 'stop', '__del__', '__exit__', 'on_error')
 TOO_LONG = 'set-up is too long to be followed to its end'
 _CALLBACK_LIMIT = 2_000
@@ -83,7 +85,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
                 result = machine.call(function, Call(place))
                 machine.run_if_coroutine(result, place)
 
-    guarded(machine, follow, place)
+    guarded(machine, follow, place, entry.source.tree)
     _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
@@ -120,33 +122,14 @@ def _run_escaped_one(machine: Interpreter, value: Value, function: Function, pla
     guarded(machine, follow, place)
 
 
-def unknown_arguments(function: Function, place: Place, skip: int) -> Call:
-    """A call of ``function`` by somebody who is not in sight."""
-    arguments = function.node.args
-    names = [parameter.arg for parameter in (*arguments.posonlyargs, *arguments.args)]
-    defaults = dict(
-        zip(names[len(names) - len(function.defaults) :], function.defaults, strict=False)
-    )
-    defaults.update(function.keyword_defaults)
-    call = Call(place)
-    for name in names[skip:]:
-        call.args.append(_unknown_argument(function, name, defaults.get(name)))
-    for parameter in arguments.kwonlyargs:
-        name = parameter.arg
-        call.keywords[name] = _unknown_argument(function, name, defaults.get(name))
-    if arguments.vararg or arguments.kwarg:
-        reason = f'further arguments of {function.qualname}; {NO_CALLER}'
-        call.more = Unknown(reason, function.place)
-    return call
+def guarded(
+    machine: Interpreter, act: object, place: Place, text: ast.Module | None = None
+) -> None:
+    """
+    Do ``act``; a program too large to be followed ends in a diagnostic.
 
-
-def _unknown_argument(function: Function, name: str, default: Value | None) -> Mystery:
-    reason = f'parameter {name!r} of {function.qualname}; {NO_CALLER}'
-    return Mystery(Unknown(reason, function.place), name, default)
-
-
-def guarded(machine: Interpreter, act: object, place: Place) -> None:
-    """Do ``act``; a program too large to be followed ends in a diagnostic."""
+    :param text: the file that is run; where it leads to nothing of ROS, nothing is missing.
+    """
     world = machine.world
     if not machine.steps_left:
         if not any(cut.reason == TOO_LONG for cut in world.cut):
@@ -156,7 +139,8 @@ def guarded(machine: Interpreter, act: object, place: Place) -> None:
     try:
         act()  # type: ignore[operator]
     except BudgetError:
-        _complain(world, place, TOO_LONG)
+        if world.nodes or text is None or not leads_nowhere(world, text):
+            _complain(world, place, TOO_LONG)
     except RecursionError:
         _complain(world, place, 'set-up is nested too deeply to be followed')
     finally:
@@ -409,41 +393,7 @@ def _methods_of(machine: Interpreter, instance: Instance) -> list[_Method]:
 def _turn(name: str, lifecycle: bool) -> int:
     """What others build on comes first, what each test calls for itself last."""
     is_first = name in (TRANSITIONS if lifecycle else ('setUpClass', 'setup_class'))
-    return 0 if is_first else 2 if name in _PREPARING else 1
-
-
-def is_test(name: str) -> bool:
-    """Whether test runners take a function of this name for a test."""
-    return name.startswith('test')
-
-
-def _begin_test(machine: Interpreter, instance: Instance) -> Instance:
-    """
-    Start a program of its own, on an object of its own.
-
-    Each test begins with ``rclpy.init`` and ends with ``rclpy.shutdown``, which leaves no global
-    executor behind (rclpy 7.1.6, ``__init__.py``).
-    """
-    machine.world.global_executor = None
-    return _set_up_for_test(machine, instance)
-
-
-def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:
-    """The object of its own that each test has, prepared (``unittest/case.py``)."""
-    found = (
-        cls.slots[name]
-        for name in _PREPARING
-        for cls in instance.mro
-        if isinstance(cls, Class) and name in cls.slots
-    )
-    prepare = next((each for each in found if isinstance(each, Function)), None)
-    if prepare is None:
-        return instance
-    fresh = Instance(instance.cls, instance.place)
-    machine.prepare(fresh)
-    call = unknown_arguments(prepare, prepare.place, skip=1)
-    machine.run_if_coroutine(machine.call(Bound(fresh, prepare), call), prepare.place)
-    return fresh
+    return 0 if is_first else 2 if name in PREPARING else 1
 
 
 def _run_later(machine: Interpreter, instance: Instance, name: str, method: Function) -> None:
@@ -459,7 +409,7 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
             world.path = (*instance.path, (place, UNCALLED))
         static = method.binding == 'static'
         call = unknown_arguments(method, place, skip=0 if static else 1)
-        owner = _begin_test(machine, instance) if is_test(name) else instance
+        owner = begin_test(machine, instance) if is_test(name) else instance
         receiver = owner.cls if method.binding == 'class' else owner
         target: Value = method if static else Bound(receiver, method)
         result = machine.call(target, call)

@@ -35,6 +35,7 @@ class Store:
         self._trail: list[tuple[Heaped, Any, Any]] = []
         self._depth = 0
         self._opened: list[int] = []
+        self._marks: list[int] = []
 
     @property
     def depth(self) -> int:
@@ -45,6 +46,7 @@ class Store:
         """Forget every open branch after a run that was cut off; writes stay as they are."""
         self._trail.clear()
         self._opened.clear()
+        self._marks.clear()
         self._depth = 0
 
     def write(self, owner: Heaped, slot: Any, value: Any) -> None:
@@ -63,23 +65,25 @@ class Store:
     @contextmanager
     def outside_branches(self) -> Iterator[None]:
         """What is written inside stays, on whatever branch it happens first."""
-        branches = self._trail, self._opened, self._depth
-        self._trail, self._opened, self._depth = [], [], 0
+        branches = self._trail, self._opened, self._marks, self._depth
+        self._trail, self._opened, self._marks, self._depth = [], [], [], 0
         try:
             yield
         finally:
-            self._trail, self._opened, self._depth = branches
+            self._trail, self._opened, self._marks, self._depth = branches
 
     def open_branch(self) -> int:
         """Start a branch; returns the mark that ``close_branch`` wants."""
         self._depth += 1
         self._opened.append(next(SERIALS))
+        self._marks.append(len(self._trail))
         return len(self._trail)
 
     def close_branch(self, mark: int) -> Writes:
         """Undo every write since ``mark`` and return what the branch had written."""
         written: Writes = {}
         opened = self._opened.pop()
+        self._marks.pop()
         while len(self._trail) > mark:
             owner, slot, old = self._trail.pop()
             key = (id(owner), slot)
@@ -92,6 +96,11 @@ class Store:
                 owner.slots[slot] = old
         self._depth -= 1
         return written
+
+    def unwind(self, depth: int) -> None:
+        """Undo the branches beyond ``depth``, which a run that was cut off has left open."""
+        while self._depth > depth:
+            self.close_branch(self._marks[-1])
 
     def join(self, branches: list[Writes], leaving: Sequence[Writes] = ()) -> None:
         """

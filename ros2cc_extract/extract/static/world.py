@@ -353,6 +353,9 @@ class World:
     :param met: the objects that the running callback found in what others assign.
     :param met_by: the same of each callback that was followed, by the identity of its entity.
     :param rounds: how often it was followed again for others.
+    :param plain: whether a function works on plain data alone, by the identity of its statement.
+    :param plain_of: how many modules that was asked of.
+    :param spent: the steps that such calls have taken, by the same, and under 0 of all.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.
     """
@@ -435,6 +438,9 @@ class World:
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
     met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
     rounds: Counter[int] = field(default_factory=Counter)
+    plain: dict[int, bool] = field(default_factory=dict)
+    plain_of: int = 0
+    spent: Counter[int] = field(default_factory=Counter)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
 

@@ -1,0 +1,44 @@
+"""Tests: each is a program of its own, with what is prepared for it."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.interpreter import Interpreter
+from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
+from ros2cc_extract.extract.static.values import Bound, Class, Function, Instance
+
+PREPARING = ('setUp', 'asyncSetUp', 'setup_method')
+"""Methods that are called before each test."""
+
+
+def is_test(name: str) -> bool:
+    """Whether test runners take a function of this name for a test."""
+    return name.startswith('test')
+
+
+def begin_test(machine: Interpreter, instance: Instance) -> Instance:
+    """
+    Start a program of its own, on an object of its own.
+
+    Each test begins with ``rclpy.init`` and ends with ``rclpy.shutdown``, which leaves no global
+    executor behind (rclpy 7.1.6, ``__init__.py``).
+    """
+    machine.world.global_executor = None
+    return _set_up_for_test(machine, instance)
+
+
+def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:
+    """The object of its own that each test has, prepared (``unittest/case.py``)."""
+    found = (
+        cls.slots[name]
+        for name in PREPARING
+        for cls in instance.mro
+        if isinstance(cls, Class) and name in cls.slots
+    )
+    prepare = next((each for each in found if isinstance(each, Function)), None)
+    if prepare is None:
+        return instance
+    fresh = Instance(instance.cls, instance.place)
+    machine.prepare(fresh)
+    call = unknown_arguments(prepare, prepare.place, skip=1)
+    machine.run_if_coroutine(machine.call(Bound(fresh, prepare), call), prepare.place)
+    return fresh
