@@ -60,6 +60,11 @@ shapes: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 waits: $(VENV)/developed
 	$(BIN)/python -m tests.shapes.page
 
+# Random programs that wait, on both distributions: who hangs is never said to end.
+waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(BIN)/python -m tests.random_waits.suite --python $(JAZZY)/bin/python --programs $(PROGRAMS)
+	$(BIN)/python -m tests.random_waits.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
+
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)
 rclpy-tests: $(VENV)/developed $(ROS)/installed

@@ -1,0 +1,105 @@
+"""
+Run programs with an interpreter that has rclpy, and write down who stands still.
+
+``watch.py OUT FILE…``: each program in a forked child; one JSON line for each with the names of
+the functions that have stood at one place for ``STILL_S``. Standard library and rclpy only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import os
+import runpy
+import signal
+import sys
+import threading
+import time
+import types
+from pathlib import Path
+
+STILL_S = 3.0
+LOOKS_S = 0.25
+LONGEST_S = 7.0
+AT_ONCE = 5
+_OUTSIDE = ('<module>', 'main')
+
+
+def standing(file: str) -> dict[int, tuple[object, int, str]]:
+    """Every function of the program that is active: its frame, where it stands, its name."""
+    found: dict[int, tuple[object, int, str]] = {}
+    for frame in sys._current_frames().values():
+        outermost: types.FrameType | None = None
+        at: types.FrameType | None = frame
+        while at is not None:
+            is_ours = at.f_code.co_filename == file and at.f_code.co_name not in _OUTSIDE
+            outermost = at if is_ours else outermost
+            at = at.f_back
+        if outermost is not None:
+            found[id(outermost)] = (outermost, outermost.f_lasti, outermost.f_code.co_name)
+    for thing in gc.get_objects():
+        is_coroutine = isinstance(thing, types.CoroutineType)
+        if is_coroutine and thing.cr_code.co_filename == file and thing.cr_frame is not None:
+            found[id(thing)] = (thing, thing.cr_frame.f_lasti, thing.cr_code.co_name)
+    return found
+
+
+def watch(file: str, out: str) -> None:
+    """Look again and again; end the process when the time is up."""
+    since: dict[int, tuple[tuple[object, int, str], float]] = {}
+    begun = time.monotonic()
+    while time.monotonic() - begun < LONGEST_S:
+        time.sleep(LOOKS_S)
+        now = time.monotonic()
+        seen = standing(file)
+        since = {
+            key: since[key] if key in since and since[key][0] == one else (one, now)
+            for key, one in seen.items()
+        }
+    now = time.monotonic()
+    stuck = sorted({one[2] for one, start in since.values() if now - start >= STILL_S})
+    with Path(out).open('a', encoding='utf-8') as stream:
+        stream.write(json.dumps({'file': file, 'stuck': stuck}) + '\n')
+    os._exit(0)
+
+
+def run(file: str, out: str) -> None:
+    """Be the child: the program in the main thread, the watch in another."""
+    threading.Thread(target=watch, args=(file, out), daemon=True).start()
+    with contextlib.suppress(BaseException), Path(os.devnull).open('w') as nothing:
+        os.dup2(nothing.fileno(), 2)
+        runpy.run_path(file, run_name='__main__')
+    time.sleep(LONGEST_S * 2)  # the program has ended, with an exception or without
+
+
+def main() -> None:
+    out, files = sys.argv[1], sys.argv[2:]
+    import rclpy.executors  # noqa: F401  before the fork, so that it is loaded once
+    import std_msgs.msg  # noqa: F401
+    import std_srvs.srv  # noqa: F401
+
+    children: dict[int, float] = {}
+    for file in files:
+        while len(children) >= AT_ONCE:
+            _reap(children)
+        child = os.fork()
+        if child == 0:
+            run(file, out)
+            os._exit(0)
+        children[child] = time.monotonic()
+    while children:
+        _reap(children)
+
+
+def _reap(children: dict[int, float]) -> None:
+    time.sleep(0.1)
+    for child, begun in list(children.items()):
+        if time.monotonic() - begun > 4 * LONGEST_S:
+            os.kill(child, signal.SIGKILL)
+        if os.waitpid(child, os.WNOHANG)[0]:
+            del children[child]
+
+
+if __name__ == '__main__':
+    main()
