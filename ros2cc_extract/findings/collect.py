@@ -19,6 +19,7 @@ from ros2cc_extract.verify.unit import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
 """Told of a wait of which no other rule says more."""
+_WEIGHTS = tuple(Severity)
 _OF_WAITS = ('CC1', 'CC2')
 
 
@@ -28,7 +29,7 @@ def findings_of(
     verifications: Sequence[Verification | None] = (),
 ) -> tuple[Finding, ...]:
     """
-    All findings, by place and then by code; the order of the units does not matter.
+    All findings, the worst first, then by place and code; the order of the units does not matter.
 
     :param verifications: of the units, in their order; empty when none was verified.
     """
@@ -44,7 +45,7 @@ def all_findings(
     releases: Collection[str | None] = (),
 ) -> tuple[Finding, ...]:
     """
-    The findings of several units and of the scan as one list, each once.
+    The findings of several units and of the scan as one list, each once, the worst first.
 
     :param releases: of rclpy, which the units name.
     """
@@ -64,7 +65,15 @@ def all_findings(
         key = (finding.place, finding.code, finding.cause) if finding.cause else identity[:3]
         alike.setdefault(key, []).append(finding)
     merged = [_as_one(findings) for findings in alike.values()]
-    return tuple(sorted(merged, key=_identity))
+    return tuple(sorted(_without_what_is_decided(merged), key=_worst_first))
+
+
+def _without_what_is_decided(findings: Sequence[Finding]) -> Iterator[Finding]:
+    """A wait is open only where no other rule, and no other unit, says more of its line."""
+    told = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
+    for finding in findings:
+        if finding.code not in OPEN_WAITS or _line(finding) not in told:
+            yield finding
 
 
 def _is_told(finding: Finding, told: Collection[tuple[Place, str]]) -> bool:
@@ -83,6 +92,10 @@ def _as_one(findings: Sequence[Finding]) -> Finding:
     return replace(first, message=f'{first.message}; the same in {others}')
 
 
+def _worst_first(finding: Finding) -> tuple[object, ...]:
+    return _WEIGHTS.index(finding.severity), *_identity(finding)
+
+
 def _identity(finding: Finding) -> tuple[object, ...]:
     """Of one finding in several programs the one with the fewest places around it is first."""
     related = tuple((remark.place, remark.text) for remark in finding.related)
@@ -91,9 +104,7 @@ def _identity(finding: Finding) -> tuple[object, ...]:
 
 def findings_of_unit(unit: Spec, verification: Verification | None) -> tuple[Finding, ...]:
     """What the rules find in one unit."""
-    found = tuple(_of_unit(Context(unit, verification)))
-    decided = {_line(f) for f in found if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
-    return tuple(f for f in found if f.code not in OPEN_WAITS or _line(f) not in decided)
+    return tuple(_of_unit(Context(unit, verification)))
 
 
 def _line(finding: Finding) -> tuple[str, int | None]:

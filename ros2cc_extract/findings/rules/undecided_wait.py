@@ -112,6 +112,7 @@ def _hit(waits: Sequence[Wait], reason: str, *, is_outside: bool) -> Hit:
         subjects=callers_of(waits),
         chain=wait.chain,
         related=tuple(ways_of_others(waits)),
+        cause=waits_in(wait),
     )
 
 

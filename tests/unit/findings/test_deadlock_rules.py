@@ -205,7 +205,7 @@ def test_a_done_callback_needs_the_client_of_its_answer() -> None:
             outside('on_answer', EntityKind.DONE_CALLBACK, key='plan'),
         )
 
-    assert found(spec(ONE_THREAD, 'other'))[-1] == 'CC102:40'
+    assert found(spec(ONE_THREAD, 'other'))[0] == 'CC102:40'
     assert found(spec(threads(2), 'other')) == []
     finding = only(spec(threads(2), 'arm_default'), 'CC101')
     assert finding.message == (
