@@ -49,8 +49,8 @@ class Freedom:
 
     :param queued: how many runs of one guard condition or task may be queued at a time.
     :param suspended: how many runs of one callback may be suspended at a time.
-    :param waiting: how much of what arrives by itself may wait for one callback at a time;
-        ``None`` for all that arrives.
+    :param made: how many runs of one task may be made at a time and not have begun; ``None`` for
+        all that arrive.
     :param nested: how many callbacks may spin on one thread at a time, one inside the other;
         ``None`` for all that there can be.
     :param observed: for comparison with executions. Answers of a service to somebody else wake
@@ -62,7 +62,7 @@ class Freedom:
 
     queued: int = 1
     suspended: int = 1
-    waiting: int | None = None
+    made: int | None = None
     nested: int | None = None
     observed: bool = False
 
@@ -203,8 +203,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         if has_guards or pool_spins
         else freedom.queued,
         'suspended_runs': freedom.suspended,
-        'is_full_at_times': unit.num_waits > 0 or freedom.waiting is not None,
-        'queue_depth': unit.queue_depth(freedom.waiting) + (freedom.suspended - 1) * len(ranks),
+        'made_runs': freedom.made,
     }
 
 

@@ -236,16 +236,15 @@ class Unit:
         """Write a truth value for each callback: whether its place is among ``places``."""
         return ', '.join(str(c.index in places).lower() for c in self.callbacks)
 
-    def queue_depth(self, at_a_time: int | None) -> int:
+    @property
+    def queue_depth(self) -> int:
         """
         How much can wait for one callback.
 
-        That is what arrives by itself, of which no more than ``at_a_time``, and one request or
-        answer for each callback that can wait at the same time: on a thread, or suspended.
+        That is what arrives by itself, and one request or answer for each callback that can wait
+        at the same time: on a thread, or suspended.
         """
         by_itself = self.max_cycle or 1
-        if at_a_time is not None:
-            by_itself = min(by_itself, at_a_time)
         if not self.num_waits:
             return by_itself
         return by_itself + len(self.threads) + len(self.callbacks)

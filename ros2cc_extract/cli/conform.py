@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 EVENTS_SHOWN = 12
 STATES_SHOWN = 4
 ALLOWED_SHOWN = 12
-_MEND_AWAIT = 'a live run cannot see it, so give the source, or what merge makes of both'
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -81,7 +80,7 @@ def _status(comparison: Comparison) -> int:
 
 def _is_gap(comparison: Comparison) -> bool:
     """Whether it is the specification that does not tell enough."""
-    return bool(comparison.lacking or comparison.untold)
+    return bool(comparison.lacking or comparison.gaps)
 
 
 def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
@@ -98,8 +97,7 @@ def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
         verdict = 'undecided' if _is_gap(comparison) else 'diverges'
         yield f'{spec.name}: {verdict} after {answer.steps} of {events} events'
         yield from _divergence(comparison, trace, shown)
-        for untold in comparison.untold:
-            yield f'  the specification does not tell what it awaits: {untold}; {_MEND_AWAIT}'
+        yield from (f'  {gap}' for gap in comparison.gaps)
     for lacking in comparison.lacking:
         yield f'  not in the specification, but it ran: {lacking}'
     if trace.lost:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.conform.trace import Event, Subject, Trace
-from ros2cc_extract.spec.model import Callback, EntityKind, GroupType, Spec
+from ros2cc_extract.spec.model import EntityKind, GroupType, Spec
 
 #: Who collects looks at the group just before it is told; so long after its last step, the thread
 #: may have slept in between (89 ms were seen on a machine with eight times its load).
@@ -72,41 +72,6 @@ _ACTS_OF_TASKS = {
 }
 TASKS = (EntityKind.TASK, EntityKind.DONE_CALLBACK, EntityKind.ACTION_EXECUTE)
 _TASK_KINDS = {kind.value for kind in TASKS}
-
-
-def match(trace: Trace, executor: int, spec: Spec) -> dict[int, int]:
-    """
-    Find for each subject of an executor the place of its callback in ``spec``.
-
-    By kind, node and name: function, topic or service. Subjects without one are left out.
-    """
-    found: dict[int, int] = {}
-    for subject in trace.subjects.values():
-        if subject.executor == executor:
-            fitting = [p for p, c in enumerate(spec.callbacks) if _is_same(subject, c)]
-            if len(fitting) > 1:
-                fitting = [p for p in fitting if p not in found.values()]
-            if fitting:
-                found[subject.number] = fitting[0]
-    return found
-
-
-def _is_same(subject: Subject, callback: Callback) -> bool:
-    kind = callback.entity
-    if kind is None or kind.value != subject.kind:
-        return False
-    if subject.node and isinstance(callback.node, str) and subject.node != callback.node:
-        return False
-    if subject.key is not None and isinstance(callback.key, str) and subject.key != callback.key:
-        return False
-    if callback.function is None or subject.name == subject.key:
-        return True
-    return _last_parts(subject.name) == _last_parts(callback.function)
-
-
-def _last_parts(name: str) -> str:
-    """Source knows the module that a function is in, a live run does not."""
-    return name.rpartition('.')[2]
 
 
 def observe(trace: Trace, executor: int, places: Mapping[int, int]) -> tuple[Observation, ...]:

@@ -26,6 +26,7 @@ class Subject:
     :param group: number of its callback group.
     :param executor: number of the executor that serves it.
     :param name: qualified name of its function, else its topic or service.
+    :param threads: of an executor with a pool.
     """
 
     number: int
@@ -35,6 +36,7 @@ class Subject:
     executor: int | None
     name: str
     key: str | None
+    threads: int | None = None
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,7 @@ def _subject(line: Mapping[str, Any]) -> Subject:
         _value(line, 'executor', int, NoneType),
         _value(line, 'name', str),
         _value(line, 'key', str, NoneType),
+        _value({'threads': None, **line}, 'threads', int, NoneType),
     )
 
 

@@ -9,12 +9,13 @@ from operator import attrgetter
 
 from ros2cc_extract.checker.api import read_model
 from ros2cc_extract.conform.arrivals import Arrival, with_arrivals
+from ros2cc_extract.conform.gaps import Gap, gaps
+from ros2cc_extract.conform.matching import match, with_copies
 from ros2cc_extract.conform.model import ObservedModel
 from ros2cc_extract.conform.observations import (
     TASKS,
     Act,
     Observation,
-    match,
     observe,
     with_groups,
 )
@@ -23,6 +24,7 @@ from ros2cc_extract.conform.trace import Trace
 from ros2cc_extract.generator.build import Freedom, Profile, render
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
+from ros2cc_extract.spec.confidence import DEFAULT_COUNT
 from ros2cc_extract.spec.model import Spec
 
 #: More than a trace shows, because what it shows may be a little out of order.
@@ -31,7 +33,7 @@ _RUNS = ('collect', 'begin', 'run')
 _QUEUES = {Act.COLLECT: 1, Act.ARRIVE: 1, Act.BEGIN: -1, Act.REFUSED: -1}
 _RUNS_OPEN = {Act.BEGIN: 1, Act.RESUME: 1, Act.END: -1, Act.SUSPEND: -1, Act.PAUSE: -1}
 _SUSPENDS = {Act.SUSPEND: 1, Act.RESUME: -1}
-_WAITS = {Act.ARRIVE: 1, Act.BEGIN: -1}
+_MADE = {Act.ARRIVE: 1, Act.BEGIN: -1}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,13 +43,13 @@ class Comparison:
 
     :param unit: with those of rclpy's own entities that ran.
     :param lacking: names of what the executor ran and the specification lacks.
-    :param untold: names of what was seen to await, where the specification tells of no await.
+    :param gaps: what else the specification does not tell, as far as the trace shows.
     """
 
     unit: ClosedSpec
     observations: tuple[Observation, ...] = field(repr=False)
     lacking: tuple[str, ...]
-    untold: tuple[str, ...]
+    gaps: tuple[Gap, ...]
     answer: Answer
     model: ObservedModel = field(repr=False)
 
@@ -82,7 +84,8 @@ def compare(
         a trace does not tell: it serves them in this order.
     """
     ran = {event.subject for event in trace.events if event.name in _RUNS}
-    unit = _with_what_ran(trace, executor, spec, ran)
+    whole, several = with_copies(trace, executor, spec)
+    unit = _with_what_ran(trace, executor, whole, ran)
     places = match(trace, executor, unit.spec)
     seen = with_groups(observe(trace, executor, places), unit.spec)
     if arrivals:
@@ -100,7 +103,7 @@ def compare(
         unit=unit,
         observations=seen,
         lacking=tuple(s.name for s in own if s.number not in places),
-        untold=tuple(_untold(seen, unit.spec)),
+        gaps=gaps(trace, places, seen, unit.spec, several),
         answer=conform(model, seen, states=states),
         model=model,
     )
@@ -117,7 +120,14 @@ def _with_what_ran(trace: Trace, executor: int, spec: Spec, ran: Container[int])
     places = match(trace, executor, spec)
     running = {place for number, place in places.items() if number in ran}
     kept = tuple(c for p, c in enumerate(spec.callbacks) if not c.builtin or p in running)
-    return close(replace(spec, callbacks=kept), Policy(builtin=True, rclpy=trace.rclpy))
+    threads = trace.subjects[executor].threads if _is_by_cpus(spec) else None
+    policy = Policy(builtin=True, rclpy=trace.rclpy, threads=threads)
+    return close(replace(spec, callbacks=kept), policy)
+
+
+def _is_by_cpus(spec: Spec) -> bool:
+    """Whether it has as many threads as there are CPUs, wherever it runs."""
+    return spec.executor.threads_source == DEFAULT_COUNT
 
 
 def text_of(unit: ClosedSpec, seen: Sequence[Observation]) -> str:
@@ -130,7 +140,7 @@ def text_of(unit: ClosedSpec, seen: Sequence[Observation]) -> str:
         freedom=Freedom(
             queued=_most_at_a_time(seen, _QUEUES) + SPARE,
             suspended=_most_suspended(unit.spec, seen) + SPARE,
-            waiting=_most_waiting(seen) + SPARE,
+            made=_most_made(seen) + SPARE,
             nested=_most_on_a_thread(seen),
             observed=True,
         ),
@@ -164,11 +174,10 @@ def _most_suspended(spec: Spec, seen: Sequence[Observation]) -> int:
     return max((_most_at_a_time(seen, _SUSPENDS), *tasks))
 
 
-def _most_waiting(seen: Sequence[Observation]) -> int:
-    """How much waited for one callback: what arrived as soon as it can have, less what began."""
-    if any(each.has_arrived for each in seen):
-        return sum(each.act is Act.ARRIVE for each in seen)
-    return PASSED + _most_at_a_time(sorted(seen, key=attrgetter('earliest_ns')), _WAITS)
+def _most_made(seen: Sequence[Observation]) -> int:
+    """How many runs of one task were made and had not begun, each made as soon as it can be."""
+    tasks = sorted((each for each in seen if each.is_task), key=attrgetter('earliest_ns'))
+    return PASSED + _most_at_a_time(tasks, _MADE)
 
 
 def _most_on_a_thread(seen: Sequence[Observation]) -> int:
@@ -179,17 +188,6 @@ def _most_on_a_thread(seen: Sequence[Observation]) -> int:
         now[each.thread] += _RUNS_OPEN.get(each.act, 0)
         most = max(most, now[each.thread])
     return most
-
-
-def _untold(seen: Sequence[Observation], spec: Spec) -> Iterator[str]:
-    """A live run does not see what a coroutine waits for, so that its model never awaits."""
-    paused = {each.callback for each in seen if each.act is Act.SUSPEND}
-    times = Counter((each.callback, each.act) for each in seen if each.is_task)
-    for place, callback in enumerate(spec.callbacks):
-        went_on = times[place, Act.BEGIN] > times[place, Act.ARRIVE] > 0
-        is_told = any(wait.frees_thread for wait in waits_of(callback, spec))
-        if (place in paused or went_on) and not is_told:
-            yield callback.name
 
 
 def _tasks(unit: ClosedSpec) -> frozenset[int]:

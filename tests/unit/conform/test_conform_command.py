@@ -23,8 +23,9 @@ node:
     - {name: g, type: EXCLUSIVE}
   executor: {name: executor, kind: MultiThreadedExecutor, threads: [{name: t0}, {name: t1}]}
 """
+NOWHERE = {'node': None, 'executor': None, 'group': None, 'key': None}
 SUBJECTS = {
-    1: {'kind': 'executor', 'node': None, 'executor': None, 'group': None, 'key': None},
+    1: {'kind': 'executor', **NOWHERE, 'threads': 2},
     2: {'kind': 'subscription', 'node': 'arm', 'executor': 1, 'group': 9, 'key': 'joints'},
     3: {'kind': 'timer', 'node': 'arm', 'executor': 1, 'group': 9, 'key': None},
     4: {'kind': 'timer', 'node': 'arm', 'executor': 1, 'group': 9, 'key': None},
@@ -173,3 +174,56 @@ def test_a_coroutine_whose_await_is_told_is_judged(tmp_path: Path) -> None:
     spec = COROUTINE.replace('coroutine: true,', told_await)
     status, told, _ = conform(AWAITING, tmp_path, spec=spec)
     assert (status, told.splitlines()[0]) == (1, 'arm: diverges after 4 of 6 events')
+
+
+#: A timer's callback spins its executor, which serves a subscription inside it.
+SPINNING = """
+    spin wait> 1, spin wait< 1, spin collect 3, spin begin 3, spin take 3,
+    spin wait> 1, spin wait< 1, spin collect 2, spin begin 2, spin take 2, spin end 2, spin end 3
+"""
+ONE_THREAD = SPEC.replace('MultiThreadedExecutor', 'SingleThreadedExecutor').replace(
+    ', {name: t1}', ''
+)
+
+
+def test_that_a_callback_spins_is_asked_for_where_nobody_tells(tmp_path: Path) -> None:
+    status, told, _ = conform(SPINNING, tmp_path, spec=ONE_THREAD)
+    lines = told.splitlines()
+    assert (status, lines[0]) == (3, 'arm: undecided after 3 of 8 events')
+    assert lines[-1] == (
+        '  the specification does not tell that it spins: on_tick; a live run cannot see it, so '
+        'give the source, or what merge makes of both'
+    )
+
+
+def test_a_nested_spin_that_is_told_is_judged(tmp_path: Path) -> None:
+    spin = "blocking: [{call: executor.spin_once, waits_for: executor, source: 'arm.py:71:9'}],"
+    spec = ONE_THREAD.replace('callback: Arm.on_tick,', f'callback: Arm.on_tick, {spin}')
+    status, told, _ = conform(SPINNING, tmp_path, spec=spec)
+    assert (status, told.splitlines()[0]) == (1, 'arm: diverges after 3 of 8 events')
+    reentrant = spec.replace('EXCLUSIVE', 'REENTRANT')
+    status, told, _ = conform(SPINNING, tmp_path, spec=reentrant)
+    assert (status, told) == (0, 'arm: conforms: all 8 events are a path of the model\n')
+
+
+def test_a_group_that_nobody_knows_leaves_the_question_open(tmp_path: Path) -> None:
+    unknown = SPEC.replace(
+        'type: EXCLUSIVE}', "type: EXCLUSIVE, resolved: false, reason: 'a parameter'}"
+    )
+    status, told, _ = conform(GOOD.replace('b refused 2', 'b begin 2'), tmp_path, spec=unknown)
+    lines = told.splitlines()
+    assert (status, lines[0]) == (3, 'arm: undecided after 4 of 10 events')
+    assert lines[-1] == '  the specification does not tell of which type it is: g'
+
+
+def test_as_many_threads_as_cpus_are_as_many_as_the_trace_says(tmp_path: Path) -> None:
+    of_cpus = ONE_THREAD.replace('Single', 'Multi').replace(
+        '{name: t0}]', '{name: t0}], threads_source: default_cpu_count'
+    )
+    both = """
+        spin wait> 1, spin wait< 1, spin collect 3, spin collect 2, a begin 3, a take 3,
+        b begin 2, b take 2, b end 2, a end 3
+    """
+    spec = of_cpus.replace('EXCLUSIVE', 'REENTRANT')
+    assert conform(both, tmp_path, spec=spec)[0] == 0
+    assert conform(both, tmp_path, spec=spec.replace('default_cpu_count', 'given'))[0] == 1

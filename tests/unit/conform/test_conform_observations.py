@@ -2,53 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import pytest
-
-from ros2cc_extract.conform.observations import ASLEEP_NS, Act, Observation, match, observe
+from ros2cc_extract.conform.observations import ASLEEP_NS, Act, Observation, observe
 from ros2cc_extract.conform.trace import Event, Subject, Trace
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import (
-    Callback,
-    CallbackGroup,
     EntityKind,
-    Executor,
-    GroupType,
-    Spec,
 )
 
 EXECUTOR = 1
-
-
-@dataclass(frozen=True)
-class Known:
-    """What a specification says of a callback."""
-
-    kind: EntityKind
-    function: str | None = None
-    node: str | Unknown = 'arm'
-    key: str | Unknown | None = None
-
-
-def spec_of(*known: Known) -> Spec:
-    return Spec(
-        name='unit',
-        callbacks=tuple(
-            Callback(
-                name=f'c{place}',
-                type=each.kind.published_type,
-                entity=each.kind,
-                group='g',
-                node=each.node,
-                function=each.function,
-                key=each.key,
-            )
-            for place, each in enumerate(known)
-        ),
-        groups=(CallbackGroup(name='g', type=GroupType.REENTRANT),),
-        executor=Executor(name='executor', threads=('t0',)),
-    )
 
 
 def subject(
@@ -67,36 +27,6 @@ def trace_of(*subjects: Subject, events: tuple[Event, ...] = ()) -> Trace:
 
 
 SUBSCRIPTION, TIMER, CLIENT = EntityKind.SUBSCRIPTION, EntityKind.TIMER, EntityKind.CLIENT
-
-
-@pytest.mark.parametrize(
-    ('of_trace', 'of_spec', 'fits'),
-    [
-        (subject(2, TIMER, 'arm.Arm.tick'), Known(TIMER, 'Arm.tick'), True),
-        (subject(2, TIMER, 'arm.Arm.tick'), Known(TIMER, 'Arm.tock'), False),
-        (subject(2, TIMER, 'arm.Arm.tick'), Known(SUBSCRIPTION, 'Arm.tick'), False),
-        (subject(2, TIMER, 'arm.Arm.tick'), Known(TIMER, 'Arm.tick', node='leg'), False),
-        (subject(2, TIMER, 'tick', node=None), Known(TIMER, 'tick', node='leg'), True),
-        (subject(2, TIMER, 'tick'), Known(TIMER, 'tick', node=Unknown('a parameter')), True),
-        (subject(2, TIMER, 'tick', executor=5), Known(TIMER, 'tick'), False),
-        (subject(2, SUBSCRIPTION, 'on', 'a'), Known(SUBSCRIPTION, 'on', key='a'), True),
-        (subject(2, SUBSCRIPTION, 'on', 'a'), Known(SUBSCRIPTION, 'on', key='b'), False),
-        (subject(2, SUBSCRIPTION, 'on', 'a'), Known(SUBSCRIPTION, 'on', key=Unknown('?')), True),
-        (subject(2, CLIENT, 'plan', 'plan'), Known(CLIENT, key='plan'), True),
-        (subject(2, CLIENT, 'plan', 'plan'), Known(CLIENT, 'done', key='plan'), True),
-        (subject(2, SUBSCRIPTION, 'other', 'a'), Known(SUBSCRIPTION, key='a'), True),
-    ],
-)
-def test_a_subject_is_known_by_kind_node_name_and_key(
-    of_trace: Subject, of_spec: Known, fits: bool
-) -> None:
-    assert match(trace_of(of_trace), EXECUTOR, spec_of(of_spec)) == ({2: 0} if fits else {})
-
-
-def test_two_of_one_name_are_two_callbacks() -> None:
-    subjects = [subject(number, TIMER, 'tick') for number in (2, 3, 4)]
-    found = match(trace_of(*subjects), EXECUTOR, spec_of(*[Known(TIMER, 'tick')] * 2))
-    assert found == {2: 0, 3: 1}
 
 
 TICK, ON, GUARD, TASK, PLAN = 2, 3, 4, 5, 6
