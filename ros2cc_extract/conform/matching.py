@@ -141,7 +141,7 @@ class _Copies:
 
     def __init__(self, trace: Trace, spec: Spec, places: Mapping[int, int]) -> None:
         self._trace, self._spec = trace, spec
-        self._numbers = {place: number for number, place in reversed(places.items())}
+        self._numbers = {place: number for number, place in reversed([*places.items()])}
         self._taken = set(spec.names())
         self._copies: list[_Copy] = []
         self._groups = {group.name: group for group in spec.groups}
