@@ -306,6 +306,10 @@ class CallbackGroup:
     source: Place | None = None
 
 
+NO_EXECUTOR = 'no executor or spin found for this node'
+"""The reason why an executor is unknown where none is in sight."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Executor:
     """

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.naming import (
 from ros2cc_extract.extract.static.unit_activities import activities_of, activity, facts_of
 from ros2cc_extract.extract.static.unit_executor import Unit, executor_of
 from ros2cc_extract.extract.static.unit_waits import UnitWaits
+from ros2cc_extract.extract.static.unused_groups import unused_groups
 from ros2cc_extract.extract.static.values import (
     Class,
     Const,
@@ -197,7 +198,7 @@ class UnitBuilder:
         return Wanted(facts.label, self._key_text(entity), node)
 
     def _groups(self, entities: Sequence[EntityState], labels: list[str]) -> list[CallbackGroup]:
-        """The groups in use, in order of first use by creation."""
+        """The groups in use, in order of first use by creation; then those that nobody uses."""
         unwritten = {id(entity) for entity in self._world.builtins}
         pairs = sorted(
             zip(entities, labels, strict=True),
@@ -210,6 +211,8 @@ class UnitBuilder:
             name = self._taken.take(self._group_label(entity, label))
             self._group_names[id(entity.group)] = name
             groups.append(self._group(entity.group, name))
+        for group in unused_groups(self._nodes, self._world):
+            groups.append(self._group(group, self._taken.take(group.hint or 'unused_group')))
         return groups
 
     def _group_label(self, entity: EntityState, label: str) -> str:

@@ -8,9 +8,8 @@ from ros2cc_extract.extract.static.alternatives import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.values import Class, Instance
 from ros2cc_extract.extract.static.world import ExecutorState, Spin
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Executor
+from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
 
-NO_EXECUTOR = 'no executor or spin found for this node'
 ASSUMED_THREADS = 2
 
 

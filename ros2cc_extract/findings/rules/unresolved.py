@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.not_served import EXECUTOR, is_not_served
 from ros2cc_extract.findings.words import listing
 from ros2cc_extract.places import Place
 
@@ -18,9 +19,15 @@ def find(context: Context) -> Iterator[Hit]:
     unit = context.unit
     unnamed = Place(unit.sources[0] if unit.sources else unit.name)
     subjects: dict[tuple[Place, str, str], list[str]] = {}
+    not_served = is_not_served(context)
     for fact in unit.unresolved:
+        is_of_executor = fact.fact == EXECUTOR and fact.subject == unit.executor.name
+        if is_of_executor and not_served:
+            continue  # that is CC407
         alike = (fact.source or unnamed, fact.fact, fact.reason)
-        subjects.setdefault(alike, []).append(fact.subject)
+        subjects.setdefault(alike, []).extend(
+            unit.nodes if is_of_executor and unit.nodes else (fact.subject,)
+        )
     for (place, what, reason), names in subjects.items():
         yield Hit(
             place=place,

@@ -8,10 +8,13 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.groups_on_one_thread import is_made
 
+_HIDING = frozenset({'entities', 'group', 'function', 'node'})
+"""Facts that may hide an entity, or which group one is in, where they are missing."""
+
 
 def find(context: Context) -> Iterator[Hit]:
     """Where something could not be followed, the group may well be used there."""
-    if context.unit.unresolved:
+    if any(fact.fact in _HIDING for fact in context.unit.unresolved):
         return
     used = {callback.group for callback in context.unit.callbacks}
     for group in context.unit.groups:
