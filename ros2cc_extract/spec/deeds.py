@@ -63,6 +63,7 @@ class Blocking:
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
     :param escapes: why somebody else might end it too, or who ends it is not known.
     :param conditional: true where a branch may skip the wait.
+    :param times: how often a run waits here, as far as the rounds of loops around it are known.
     """
 
     call: str
@@ -77,6 +78,7 @@ class Blocking:
     needs: Needs = Needs.ONCE
     escapes: Unknown | None = None
     conditional: bool = False
+    times: int = 1
 
 
 RE_ENTRANT = ' (re-entrant)'

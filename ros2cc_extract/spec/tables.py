@@ -93,6 +93,7 @@ BLOCKING = record(
                 ('needs', 'needs', member(Needs)),
                 ('wakers', 'wakers', listing(WAKER)),
                 ('conditional', 'conditional', FLAG),
+                ('times', 'times', COUNT),
                 ('held', 'held', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

@@ -6,10 +6,11 @@ Stated by hand, measured in a live run, or read from the source: the first that 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
 
 _PAUSES = ('time.sleep', 'asyncio.sleep')
@@ -101,8 +102,13 @@ def _duration_s(callback: Callback) -> tuple[float | None, bool]:
         return callback.duration_s, False
     if callback.measured is not None and callback.measured.duration is not None:
         return callback.measured.duration.median_s, False
-    slept = [b.seconds for b in callback.blocking if b.call in _PAUSES]
-    return sum(s for s in slept if s is not None and not isinstance(s, Unknown)), True
+    return least_slept_s(callback.blocking), True
+
+
+def least_slept_s(blocking: Iterable[Blocking]) -> float:
+    """Seconds that a run sleeps whatever branches it takes."""
+    slept = [b for b in blocking if b.call in _PAUSES and not b.conditional]
+    return sum(b.seconds * b.times for b in slept if isinstance(b.seconds, (int, float)))
 
 
 def _slow_s(callback: Callback) -> float | None:

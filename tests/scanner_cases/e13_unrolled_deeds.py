@@ -43,7 +43,7 @@ if __name__ == '__main__':
 #   group group REENTRANT
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
-#     blocks time.sleep 0.1 s @25
+#     blocks time.sleep 0.1 s 4 times @25
 #     blocks client.call on arm_client @30
 #     blocks client.call on base_client @30
 #     locks lock @26

@@ -33,9 +33,11 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         return
     saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
+    loops = world.times, world.round
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
+    world.times, world.round = 1, ()
     try:
         result = machine.call(target, call)
         machine.run_if_coroutine(result, call.place)
@@ -43,6 +45,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
+        world.times, world.round = loops
 
 
 def begin(

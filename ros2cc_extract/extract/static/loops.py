@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -32,6 +33,7 @@ UNROLL_LIMIT = 64
 
 _NEXT, _RETURN, _BREAK, _CONTINUE = 1, 2, 4, 8
 _OUT = _RETURN | _BREAK
+_LEAVING = (ast.Return, ast.Raise, ast.Break, ast.Continue)
 
 
 @dataclass(frozen=True)
@@ -136,6 +138,37 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
         yield
     finally:
         machine.world.count = before
+
+
+@contextmanager
+def repeated(
+    machine: Machine, items: Items, body: list[ast.stmt]
+) -> Iterator[Callable[[Value], None]]:
+    """
+    What is done inside is done once for each item, if nothing leaves a round of the loop.
+
+    Gives a function that is told of the item with which a round begins.
+    """
+    world = machine.world
+    before = world.round, world.times
+    is_known = items.others is None and not any(
+        items.why_many(item) is not None or ABSENT in options_of(item) for item in items.known
+    )
+    leaves = any(isinstance(part, _LEAVING) for statement in body for part in ast.walk(statement))
+    is_counted = is_known and not leaves
+    if is_counted and len(items.known) > UNROLL_LIMIT:
+        world.times *= len(items.known)
+    rounds = 0
+
+    def begin(_item: Value) -> None:
+        nonlocal rounds
+        rounds += 1
+        world.round = (*before[0], rounds) if is_counted else before[0]
+
+    try:
+        yield begin
+    finally:
+        world.round, world.times = before
 
 
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:

@@ -276,12 +276,15 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     machine.note_iteration(node.iter, frame)
     items = loops.items_to_run(machine, values, place)
 
-    def once(item: Value) -> int:
-        machine.assign(node.target, item, frame)
-        return _round(machine, node.body, frame)
-
     with _loop(machine, frame):
-        flow = loops.run_loop(machine, items, once, place)
+        with loops.repeated(machine, items, node.body) as begin:
+
+            def once(item: Value) -> int:
+                begin(item)
+                machine.assign(node.target, item, frame)
+                return _round(machine, node.body, frame)
+
+            flow = loops.run_loop(machine, items, once, place)
         return _or_else(machine, node, flow, frame)
 
 

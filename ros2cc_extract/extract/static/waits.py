@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.held_locks import held_over
@@ -21,6 +22,7 @@ from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, Settab
 from ros2cc_extract.extract.static.world import (
     RECENT,
     ActivityState,
+    Deeds,
     EntityState,
     ExecutorState,
     NodeState,
@@ -92,11 +94,11 @@ class Waits(Machine):
             needs=row.needs,
             escapes=why if row is not NO_ROW else None,
             conditional=world.path != world.callback_path,
+            times=world.times,
         )
         touch(world.activity, thing)
         deeds.behind = way_of(block)
-        if not any(_is_same_wait(block, other) for other in deeds.blocking[-RECENT:]):
-            deeds.blocking.append(block)
+        _note_round(deeds, block, world.round)
 
     def _resource(self, thing: Instance | None, row: WaitRow) -> ResourceRef | None:
         if thing is None or not row.ended_by or _is_of_entity(thing):
@@ -243,6 +245,20 @@ def _is_same_waking(one: Waking, other: Waking) -> bool:
         and one.place == other.place
         and one.uncalled == other.uncalled
     )
+
+
+def _note_round(deeds: Deeds, block: Blocking, current: tuple[int, ...]) -> None:
+    """A wait that is met again in another round of a loop is waited once more."""
+    number = len(deeds.blocking)
+    for known in range(number - 1, max(0, number - RECENT) - 1, -1):
+        other = deeds.blocking[known]
+        if _is_same_wait(block, replace(other, times=block.times)):
+            rounds = deeds.rounds.setdefault(known, set())
+            rounds.add(current)
+            deeds.blocking[known] = replace(other, times=len(rounds) * block.times)
+            return
+    deeds.rounds[number] = {current}
+    deeds.blocking.append(block)
 
 
 def _is_same_wait(one: Blocking, other: Blocking) -> bool:

@@ -239,6 +239,7 @@ class Deeds:
     locks: list[Act] = field(default_factory=list)
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
+    rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
     behind: object = None
 
 
@@ -338,6 +339,8 @@ class World:
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     :param reading: what the callback that is followed has read.
+    :param times: how often a loop does what is followed once, where that is known.
+    :param round: which rounds of the loops around it are followed, where that tells them apart.
     :param iterating: class of the collection that a loop begins to go over.
     :param refilling: an item is stored under a key that the dictionary surely has.
     :param assumed: the rule by which the running loop is assumed to go over these items.
@@ -408,6 +411,8 @@ class World:
     followed_later: Counter[Value] = field(default_factory=Counter)
     settled: dict[int, int] = field(default_factory=dict)
     ghosts: dict[str, Instance] = field(default_factory=dict)
+    times: int = 1
+    round: tuple[int, ...] = ()
     iterating: str | None = None
     refilling: bool = False
     looking: tuple[tuple[int, str], ...] = ()

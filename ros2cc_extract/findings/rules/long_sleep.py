@@ -1,4 +1,4 @@
-"""CC201: a long ``time.sleep`` in a callback that keeps others waiting."""
+"""CC201: a long sleep, or a wait with a long time-out, in a callback that others wait for."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import group_words, made_at, plural, served_at, shown
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.verify.rates import least_slept_s
 
 LONG_SLEEP_S = 1.0
 """From here on a sleep counts as long: our choice."""
@@ -20,23 +21,46 @@ LISTED = 5
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """One finding per callback, at its longest sleep; execute callbacks are CC203's."""
-    long_sleeps = (wait for wait in waits_of(context) if _is_long(wait))
-    for _name, sleeps in groupby(long_sleeps, key=lambda wait: wait.caller.name):
-        yield from _hits(tuple({wait.place: wait for wait in sleeps}.values()), context)
+    """One finding per callback, at its longest pause; execute callbacks are CC203's."""
+    pauses = (wait for wait in waits_of(context) if _is_pause(wait))
+    for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
+        own = list(waits)
+        long = [wait for wait in own if seconds_of(wait) >= LONG_SLEEP_S]
+        if not long and least_slept_s(own[0].caller.blocking) >= LONG_SLEEP_S:
+            long = [wait for wait in own if not wait.block.conditional]
+        if long:
+            yield from _hits(tuple({wait.place: wait for wait in long}.values()), context)
 
 
-def _is_long(wait: Wait) -> bool:
-    is_execute = wait.caller.entity is EntityKind.ACTION_EXECUTE
-    return wait.kind is WaitKind.SLEEP and not is_execute and _seconds(wait) >= LONG_SLEEP_S
+def _is_pause(wait: Wait) -> bool:
+    """Whether it is a sleep, or ends after a time in any case, as one does if nothing comes."""
+    if wait.caller.entity is EntityKind.ACTION_EXECUTE:
+        return False
+    return wait.kind is WaitKind.SLEEP or (wait.block.call in _TIMED and not wait.needs)
 
 
-def _seconds(wait: Wait) -> float:
-    return wait.block.seconds if isinstance(wait.block.seconds, float) else 0.0
+_TIMED = frozenset(
+    {
+        'Event.wait',
+        'Condition.wait',
+        'Condition.wait_for',
+        'Queue.get',
+        'Queue.put',
+        'Thread.join',
+        'Process.join',
+        'Barrier.wait',
+    }
+)
+
+
+def seconds_of(wait: Wait) -> float:
+    """How long it lasts in all, or may last; none where that is not known."""
+    seconds = wait.block.seconds
+    return seconds * wait.block.times if isinstance(seconds, (int, float)) else 0.0
 
 
 def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
-    wait = max(sleeps, key=_seconds)
+    wait = max(sleeps, key=seconds_of)
     executor = context.unit.executor
     if is_one_thread(executor):
         others = tuple(c for c in context.written if c != wait.caller)
@@ -51,7 +75,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     more = sorted((s for s in sleeps if s is not wait), key=lambda sleep: sleep.place)
     yield Hit(
         place=wait.place,
-        message=f'{wait.caller.display_name} sleeps {_seconds(wait):g} s{_how_often(more)} and '
+        message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
         f'holds {held}: {" and ".join(stopped)} of the node wait that long',
         help='let a timer go on after the pause'
         + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
@@ -61,16 +85,29 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     )
 
 
-def _how_often(more: Sequence[Wait]) -> str:
-    """A run may take one branch of several: what it sleeps in all is not known."""
+def _how_long(wait: Wait) -> str:
+    seconds = wait.block.seconds
+    assert isinstance(seconds, (int, float))
+    often = f' {wait.block.times} times' if wait.block.times > 1 else ''
+    if wait.kind is WaitKind.SLEEP:
+        return f'sleeps {seconds:g} s{often}'
+    return f'waits up to {seconds:g} s{often} in {wait.block.call}'
+
+
+def _how_often(more: Sequence[Wait], longest: Wait) -> str:
+    """A run may take one branch of several: what it waits in all is not known then."""
     if not more:
         return ''
-    return f' here, {LONG_SLEEP_S:g} s or longer at {plural(len(more), "more place")},'
+    places = plural(len(more), 'more place')
+    if seconds_of(longest) >= LONG_SLEEP_S:
+        return f' here, {LONG_SLEEP_S:g} s or longer at {places},'
+    total = least_slept_s(longest.caller.blocking)
+    return f' here, with {places} {total:g} s in all,'
 
 
 def _listed(more: Sequence[Wait]) -> Iterator[Remark]:
     for wait in more[:LISTED]:
-        yield Remark(wait.place, f'{wait.caller.display_name} sleeps {_seconds(wait):g} s here')
+        yield Remark(wait.place, f'{wait.caller.display_name} {_how_long(wait)} here')
 
 
 RULE = Rule(
@@ -80,7 +117,9 @@ RULE = Rule(
     title='Long sleep in a callback that others wait for',
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
     'default group of its node. Everything else there waits, also the parameter services: '
-    '`ros2 param` hangs. A callback has one finding, at the longest of its sleeps.',
+    '`ros2 param` hangs. A wait with a time-out counts too: it lasts that long where nothing '
+    'comes. Rounds of a loop are counted where their number is known, and short sleeps are added '
+    'up where no branch skips them. A callback has one finding, at the longest of them.',
     why='Every node has six parameter services and a type-description service in its default '
     'group, which is mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and '
     '9.1.2, `node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second, '

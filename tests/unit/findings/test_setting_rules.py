@@ -32,8 +32,16 @@ from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Unresolved, When
+from ros2cc_extract.spec.model import (
+    NO_EXECUTOR,
+    Callback,
+    EntityKind,
+    Executor,
+    Unresolved,
+    When,
+)
 
+LOST = Unresolved(subject='executor', fact='executor', reason='no executor in sight', source=at(9))
 HOLE = Unresolved(subject='tick', fact='topic', reason='a parameter', source=at(3))
 
 
@@ -70,6 +78,69 @@ def test_a_callback_with_many_sleeps_is_one_finding_at_the_longest() -> None:
         'SingleThreadedExecutor: b and the parameter services of the node wait that long'
     )
     assert finding.related == tuple(Remark(at(n), 'a sleeps 2 s here') for n in range(50, 55))
+
+
+def test_rounds_of_a_loop_and_short_sleeps_add_up() -> None:
+    nap = sleeps(0.25, 40)[0]
+    spec = unit(ONE_THREAD, timer('a', blocking=(replace(nap, times=5),)), timer('b'))
+    assert only(spec, 'CC201').message.startswith('a sleeps 0.25 s 5 times and holds the only')
+    naps = (replace(nap, times=2), *sleeps(0.6, 50))
+    finding = only(unit(ONE_THREAD, timer('a', blocking=naps), timer('b')), 'CC201')
+    assert finding.place == at(50)
+    assert finding.message.startswith('a sleeps 0.6 s here, with 1 more place 1.1 s in all, and')
+    either = tuple(replace(nap, conditional=True) for nap in naps)
+    assert found(unit(ONE_THREAD, timer('a', blocking=either), timer('b'))) == []
+
+
+@pytest.mark.parametrize('call', ['Condition.wait', 'Event.wait', 'Queue.get', 'Thread.join'])
+def test_a_wait_with_a_long_time_out_delays_like_a_sleep(call: str) -> None:
+    def waiting(seconds: float, group: str = 'arm_default') -> list[str]:
+        wait = calls(None, call=call, seconds=seconds)
+        spec = unit(threads(2), timer('a', group, blocking=wait), timer('b'), timer('c', 'other'))
+        return [code for code in found(spec) if code.startswith('CC2')]
+
+    assert waiting(1.5) == ['CC201:40 warning']
+    assert waiting(0.5) == []
+    assert waiting(1.5, 'other') == []
+
+
+def test_message_of_a_wait_with_a_long_time_out() -> None:
+    wait = calls(None, call='Condition.wait', seconds=1.5)
+    spec = unit(ONE_THREAD, timer('a', blocking=wait), timer('b'))
+    assert only(spec, 'CC201').message == (
+        'a waits up to 1.5 s in Condition.wait and holds the only thread of the '
+        'SingleThreadedExecutor: b and the parameter services of the node wait that long'
+    )
+
+
+NOWHERE = replace(NOT_FOUND, kind=Unknown(NO_EXECUTOR, at(9)))
+
+
+def test_a_node_that_no_executor_serves_is_named() -> None:
+    spec = replace(unit(NOWHERE, timer('a')), entry='arm.py:main', unresolved=(LOST,))
+    finding = only(spec, 'CC407')
+    assert found(spec) == ['CC407:9 warning']
+    assert finding.message == 'no executor serves arm, and nothing spins it: a never runs'
+
+
+@pytest.mark.parametrize(
+    'facts',
+    [
+        {'entry': None},
+        {'entry': 'test_arm.py:main'},
+        {'entry': 'arm/test/arm.py:main'},
+        {'entry': 'arm.py:main', 'unresolved': (replace(HOLE, fact='entities'),)},
+        {'entry': 'arm.py:main', 'executor': NOT_FOUND},
+    ],
+)
+def test_a_node_that_somebody_else_may_serve_is_no_finding(facts: dict[str, object]) -> None:
+    spec = replace(unit(NOWHERE, timer('a')), **facts)  # type: ignore[arg-type]
+    assert [code for code in found(spec) if code.startswith('CC4')] == []
+
+
+def test_an_executor_that_was_not_found_is_told_by_the_name_of_the_node() -> None:
+    spec = replace(unit(NOT_FOUND, timer('a')), unresolved=(LOST,))
+    assert only(spec, 'CC501').message == 'executor of arm not resolved: no executor in sight'
 
 
 def test_two_callers_of_one_sleep_are_two_findings() -> None:
@@ -297,7 +368,9 @@ def test_a_group_in_which_nothing_is() -> None:
     empty = exclusive('forgotten', source=at(7))
     with_empty = type(spec)(**{**vars(spec), 'groups': (DEFAULT, OTHER, empty)})
     assert found(with_empty) == ['CC404:7 warning']
-    assert found(type(spec)(**{**vars(with_empty), 'unresolved': (HOLE,)})) == ['CC501:3 note']
+    hole = replace(HOLE, fact='entities')
+    assert found(replace(with_empty, unresolved=(hole,))) == ['CC501:3 note']
+    assert 'CC404:7 warning' in found(replace(with_empty, unresolved=(HOLE,)))
     assert FREE.name not in {group.name for group in with_empty.groups}
 
 

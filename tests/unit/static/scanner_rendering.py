@@ -158,6 +158,8 @@ def _blocking(block: Blocking) -> str:
     words += ['conditional'] if block.conditional else []
     if block.seconds is not None:
         words.append(f'{_known(block.seconds)} s')
+    if block.times != 1:
+        words.append(f'{block.times} times')
     if block.held:
         words.append(f'holding {", ".join(block.held)}')
     return ' '.join(words) + _trail(block.source, block.chain)
