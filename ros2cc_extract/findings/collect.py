@@ -119,10 +119,11 @@ def _of_unit(context: Context) -> Iterator[Finding]:
 def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool | None:
     """Whether it does in the releases that are named; ``None`` where that is open."""
     rule = BY_SLUG.get(diagnostic.slug)
-    if rule is None or rule.since is None:
+    if rule is None or (rule.since is None and rule.until is None):
         return None
-    known = {has_change(release, rule.since) for release in releases}
-    return known.pop() if len(known) == 1 else None
+    known = {has_change(release, rule.since or rule.until or {}) for release in releases}
+    has_changed = known.pop() if len(known) == 1 else None
+    return has_changed if rule.since is not None or has_changed is None else not has_changed
 
 
 def is_unread(finding: Finding) -> bool:

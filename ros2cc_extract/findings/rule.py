@@ -100,6 +100,7 @@ class Rule:
     :param bad: a node, or the part that matters, that gets the finding.
     :param good: the same, mended.
     :param mend: what to do, in a sentence or two.
+    :param until: the first releases in which it matters no more, by line; none for all.
     :param since: the releases of rclpy from which on it matters, by line; none for all.
     :param language: of the bad example.
     :param find: the check; without one the rule speaks for the extractor's diagnostics.
@@ -115,6 +116,7 @@ class Rule:
     good: str
     mend: str
     since: Mapping[int, Release] | None = None
+    until: Mapping[int, Release] | None = None
     language: str = 'python'
     find: Check = field(default=_nothing, repr=False)
 

@@ -53,6 +53,12 @@ NODE_STAYS = {3: (3, 3, 15), 7: (7, 1, 2)}
 TIMEOUT_KEEPS_HARVEST = {3: (3, 3, 11), 7: (7, 0, 0)}
 """Spinning with a time-out walks through all that is ready (1165)."""
 
+DESTROYED_SPIN_GOES_ON = {9: (9, 1, 2)}
+"""A wait survives that an entity is destroyed meanwhile (measured; 8.0 was not tried)."""
+
+SHUTDOWN_WAITS_NOT = {4: (4, 0, 0)}
+"""A callback that shuts its executor down goes on (measured on 3.3.21, 7.1.6 and 9.1.2)."""
+
 FUTURE_YIELDS_ITSELF = {3: (3, 3, 21), 7: (7, 1, 9), 9: (9, 1, 4), 10: (10, 0, 3)}
 """
 ``Future.__await__`` yields the future, which asyncio refuses (1469, 1560).

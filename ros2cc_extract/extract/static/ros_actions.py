@@ -121,7 +121,7 @@ def _wait_for_server(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
-        mark_destroyed(machine, receiver.state)
+        mark_destroyed(machine, receiver.state, call.place)
     return NONE
 
 

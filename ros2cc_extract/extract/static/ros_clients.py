@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.ending import note_use
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_executors import (
@@ -81,12 +82,13 @@ def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
-        mark_destroyed(machine, receiver.state)
+        mark_destroyed(machine, receiver.state, call.place)
     return NONE
 
 
 def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_publish(receiver, call.place)
+    note_use(machine, 'a message is published', call.place)
     return NONE
 
 

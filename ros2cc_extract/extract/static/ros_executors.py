@@ -12,6 +12,12 @@ from collections.abc import Sequence
 
 from ros2cc_extract.extract.static import activities, flags
 from ros2cc_extract.extract.static.defaults import assumption
+from ros2cc_extract.extract.static.ending import (
+    REMOVE_NODE,
+    SHUTDOWN_EXECUTOR,
+    note_end,
+    note_shutdown,
+)
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
@@ -305,6 +311,7 @@ def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
     ):
         remove_node(machine, receiver, node)
         machine.note_change('remove_node', node, call.place)
+        note_end(machine, REMOVE_NODE, node, call.place)
     return NONE
 
 
@@ -411,6 +418,10 @@ def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
 def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
     """Spins that go on in other threads end."""
     world = machine.world
+    if isinstance(receiver, Instance) and isinstance(receiver.state, ExecutorState):
+        note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place)
+    else:
+        note_shutdown(machine, call.place)
     if not world.in_callback and not world.in_thread:
         world.spins_over = len(world.spins)
     return NONE

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.containers import Sequence
 from ros2cc_extract.extract.static.defaults import default_of
+from ros2cc_extract.extract.static.ending import DESTROY, DESTROY_NODE, note_end
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_builtins import (
@@ -273,12 +274,19 @@ def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
 def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
     target = call.args[0] if call.args else None
     if isinstance(target, Instance) and isinstance(target.state, EntityState):
-        mark_destroyed(machine, target.state)
+        mark_destroyed(machine, target.state, call.place)
     return Const(True)
 
 
-def mark_destroyed(machine: Machine, entity: EntityState) -> None:
+def _destroy_node(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        note_end(machine, DESTROY_NODE, receiver, call.place)
+    return NONE
+
+
+def mark_destroyed(machine: Machine, entity: EntityState, place: Place) -> None:
     """Note that the program destroys ``entity`` while its node is alive."""
+    note_end(machine, DESTROY, entity, place)
     if not machine.world.after_spin and not machine.world.shutting_down:
         entity.destroyed = True
 
@@ -415,7 +423,7 @@ NODE_METHODS: dict[str, Handler] = {
     'get_name': _unfollowed('name of the node at run time'),
     'get_logger': _unfollowed('the logger'),
     'get_namespace': _unfollowed('namespace of the node at run time'),
-    'destroy_node': lambda machine, receiver, call: NONE,
+    'destroy_node': _destroy_node,
 }
 
 TABLE = Library(

@@ -13,6 +13,7 @@ from ros2cc_extract.extract.static.call_order import (
     callers_first,
     leading_to_entities,
 )
+from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.handed_on import next_round
 from ros2cc_extract.extract.static.interpreter import Interpreter
@@ -92,6 +93,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
     note_spun_twice(machine.world)
+    note_ends(machine.world)
     return machine
 
 

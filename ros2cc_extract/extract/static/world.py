@@ -191,6 +191,22 @@ class InsideSpin:
 
 
 @dataclass(frozen=True, eq=False)
+class End:
+    """
+    A callback, or a thread of the program's own, ends something that is served.
+
+    :param what: the node, executor or entity.
+    :param text: what is done, where that is no end but comes after one.
+    """
+
+    kind: str
+    what: Instance | EntityState | None
+    doer: EntityState | ActivityState
+    place: Place
+    text: str = ''
+
+
+@dataclass(frozen=True, eq=False)
 class OutsideWait:
     """
     Code that is no callback waits for the answer that ``client`` takes.
@@ -396,6 +412,7 @@ class World:
     spins: dict[object, Spin] = field(default_factory=dict)
     spins_over: int = 0
     inside_spins: list[InsideSpin] = field(default_factory=list)
+    ends: list[End] = field(default_factory=list)
     thread: int = 0
     threads: int = 0
     executors: list[Instance] = field(default_factory=list)
