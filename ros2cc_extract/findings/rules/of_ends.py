@@ -73,7 +73,7 @@ SHUT_DOWN_IN_CALLBACK = Rule(
     what='A callback calls `rclpy.shutdown()` under `rclpy.spin`, or `shutdown()` of the '
     'single-threaded executor that runs it.',
     why='On Humble (rclpy 3.3) the shutdown waits until all callbacks have ended, that one too. '
-    'Later releases go on. Measured: 3.3.21 hangs, rclpy 7.1.6 and 9.1.2 end. Sources: rclpy 3.3.21, '
+    'Later releases go on. Measured: 3.3.21 hangs, rclpy 7.1.6 and 9.1.2 end. Sources: 3.3.21, '
     '`executors.py` (`shutdown`); ros2/rclpy issue 944.',
     bad="""\
 class Job(Node):
