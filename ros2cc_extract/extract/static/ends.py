@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.wakings import EntityRef
 from ros2cc_extract.extract.static.world import (
+    ActivityState,
     Deeds,
     End,
     EntityState,
@@ -139,7 +140,7 @@ def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnost
 
 def _waits_on(entity: EntityState, end: End, world: World) -> Iterator[Blocking]:
     """Calls of others that wait for the answer which ``entity`` takes."""
-    doers = (*world.entities, *world.activities)
+    doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
     for doer in doers:
         if doer is end.doer or doer.deeds is None:
             continue
