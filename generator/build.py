@@ -20,6 +20,7 @@ from ros2cc_extract.generator.queries import (
     Query,
     paper_queries,
     rclpy_queries,
+    with_doubts,
     write_query_file,
 )
 from ros2cc_extract.generator.serving import (
@@ -154,7 +155,7 @@ def _write_xml(
     return _fill(
         'shared/model.xml.j2',
         **values,
-        queries=queries,
+        queries=tuple(with_doubts(queries)),
         automata=sources.automata,
         declarations=_fill(sources.declarations, **values),
         system=_fill(sources.system, **values),

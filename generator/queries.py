@@ -46,6 +46,8 @@ class Query:
     :param callbacks: names of the callbacks it is about, in the unit's order.
     :param groups: names of the groups it is about.
     :param left_out: what the node does that is not in the model and could refute the claim.
+    :param whatever: the claim however it is with what is not known; ``formula`` then counts only
+        runs in which that does not matter. A claim is refuted by the one, proven by the other.
     """
 
     family: Family
@@ -54,6 +56,7 @@ class Query:
     callbacks: tuple[str, ...] = ()
     groups: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
+    whatever: str | None = None
 
 
 def paper_queries(unit: Unit) -> tuple[Query, ...]:
@@ -97,7 +100,19 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         *(_answered_spin(callback, unit) for callback in unit.callbacks if _spun_for(callback)),
         *(_node_kept(callback) for callback in unit.callbacks if _moved_nodes(callback)),
     )
-    return tuple(replace(query, left_out=_left_out(query, unit)) for query in asked)
+    asked = tuple(replace(query, left_out=_left_out(query, unit)) for query in asked)
+    return tuple(map(_without_doubt, asked)) if unit.has_doubts else asked
+
+
+def _without_doubt(query: Query) -> Query:
+    """Count runs only in which nothing is in doubt, and keep the claim about all runs."""
+    if query.family not in _OF_ENDS:
+        return query
+    if query.family is Family.STARVATION:
+        formula = f'{query.formula} or in_doubt'
+    else:
+        formula = query.formula.replace('deadlock', 'deadlock and !in_doubt', 1)
+    return replace(query, formula=formula, whatever=query.formula)
 
 
 def waits(callback: UnitCallback) -> bool:
@@ -128,7 +143,16 @@ def _left_out(query: Query, unit: Unit) -> tuple[str, ...]:
 
 def write_query_file(queries: tuple[Query, ...]) -> str:
     """Write ``queries`` as a ``.q`` file: each a comment and a formula."""
-    return '\n'.join(_file_entry(query) for query in queries)
+    return '\n'.join(_file_entry(query) for query in with_doubts(queries))
+
+
+def with_doubts(queries: tuple[Query, ...]) -> Iterator[Query]:
+    """Queries as a file has them: one after the other, each about all runs behind it."""
+    for query in queries:
+        yield query
+        if query.whatever is not None:
+            words = f'{query.words}; whatever is not known'
+            yield replace(query, formula=query.whatever, words=words)
 
 
 def _file_entry(query: Query) -> str:
@@ -224,8 +248,12 @@ def _self_overlap(callback: UnitCallback) -> Query:
 
 def _progress(callback: UnitCallback, unit: Unit) -> Query:
     """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
-    ending = (wait.place for wait in callback.waits if wait.is_for_callback)
-    needs = ' and '.join(dict.fromkeys(unit.callbacks[place].name for place in ending))
+    ending = [
+        ' or '.join(unit.callbacks[place].name for place in places)
+        for wait in callback.waits
+        if (places := (wait.place,) if wait.is_for_callback else wait.wakers)
+    ]
+    needs = ' and '.join(dict.fromkeys(ending))
     words = f': {needs} can run while it waits' if needs else ''
     return Query(
         family=Family.PROGRESS,
@@ -237,7 +265,11 @@ def _progress(callback: UnitCallback, unit: Unit) -> Query:
 
 def _pool_exhaustion(unit: Unit) -> Iterator[Query]:
     """Every thread waits, and whoever could end a wait would need one."""
-    waiting = [c for c in unit.callbacks if any(not wait.frees_thread for wait in c.waits)]
+    waiting = [
+        c
+        for c in unit.callbacks
+        if any(not wait.frees_thread and not wait.is_signal for wait in c.waits)
+    ]
     if not waiting:
         return
     held = '({0}.blocked or {0}.spinning)' if unit.has_spins else '{}.blocked'

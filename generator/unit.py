@@ -12,7 +12,8 @@ from ros2cc_extract.generator.left_out import (
 )
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
-from ros2cc_extract.generator.waits import Lock, NamedWait, WaitKind, foreign_wakes, waits_of
+from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
+from ros2cc_extract.generator.waits import foreign_wakes, waits_of
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
@@ -22,7 +23,7 @@ from ros2cc_extract.spec.partners import server_of
 @dataclass(frozen=True, kw_only=True)
 class UnitWait:
     """
-    A wait of the model.
+    A step of a callback in the model: a wait, or a signal that ends waits of others.
 
     :param place: of the callback that it is for; of its own where it is for none.
     :param frees_thread: an ``await``.
@@ -30,6 +31,9 @@ class UnitWait:
     :param node: place of the node that a nested spin gives to the global executor.
     :param lock: place of the lock that is waited for; ``None`` for none.
     :param held: places of the locks that are held meanwhile.
+    :param resource: place of what is waited for, or gets a signal.
+    :param is_signal: it is no wait.
+    :param wakers: places of the callbacks that give signals to the resource.
     """
 
     place: int
@@ -40,6 +44,16 @@ class UnitWait:
     node: int = 0
     lock: int | None = None
     held: frozenset[int] = frozenset()
+    resource: int | None = None
+    is_signal: bool = False
+    may_skip: bool = False
+    is_open: bool = False
+    wakers: tuple[int, ...] = ()
+
+    @property
+    def needs_signal(self) -> bool:
+        """A wait for a signal."""
+        return self.resource is not None and not self.is_signal
 
     @property
     def is_absent(self) -> bool:
@@ -99,6 +113,7 @@ class UnitCallback:
     :param left_out: what may hold it for ever and is not in the model, in words.
     :param unexplained: that of ``left_out`` which a run has shown, and no published model has.
     :param is_entered: others may run inside it where the model does not show it.
+    :param is_one_shot: it arrives no more than once.
     """
 
     index: int
@@ -113,11 +128,12 @@ class UnitCallback:
     left_out: tuple[str, ...] = ()
     unexplained: tuple[str, ...] = ()
     is_entered: bool = False
+    is_one_shot: bool = False
 
     @property
     def needs(self) -> tuple[int, ...]:
         """Places of the callbacks it waits for."""
-        return tuple(wait.place for wait in self.waits)
+        return tuple(wait.place for wait in self.waits if not wait.is_signal)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,6 +143,20 @@ class UnitGroup:
     index: int
     name: str
     type: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitResource:
+    """
+    What callbacks wait for and give signals to.
+
+    :param most: how many signals are kept; more would end no more waits.
+    """
+
+    name: str
+    is_each: bool
+    initial: int
+    most: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,11 +179,32 @@ class Unit:
     max_cycle: int | None
     locks: tuple[str, ...] = ()
     foreign_wakes: bool = False
+    resources: tuple[UnitResource, ...] = ()
 
     @property
     def num_waits(self) -> int:
-        """The largest number of waits in one callback."""
-        return max(len(callback.needs) for callback in self.callbacks)
+        """The largest number of steps of one callback."""
+        return max(len(callback.waits) for callback in self.callbacks)
+
+    @property
+    def has_resources(self) -> bool:
+        """True when callbacks wait for signals of others."""
+        return bool(self.resources)
+
+    @property
+    def has_tokens(self) -> bool:
+        """True when each signal ends one wait."""
+        return any(resource.is_each for resource in self.resources)
+
+    @property
+    def has_skips(self) -> bool:
+        """True when a branch may skip a step."""
+        return any(wait.may_skip for wait in self.waits)
+
+    @property
+    def has_doubts(self) -> bool:
+        """True when it is not known of a wait whether it ends, or of a signal whether it comes."""
+        return any(w.is_open or (w.is_signal and w.may_skip) for w in self.waits)
 
     @property
     def has_awaits(self) -> bool:
@@ -162,7 +213,7 @@ class Unit:
 
     @property
     def waits(self) -> tuple[UnitWait, ...]:
-        """All waits of all callbacks."""
+        """All steps of all callbacks."""
         return tuple(wait for callback in self.callbacks for wait in callback.waits)
 
     @property
@@ -229,8 +280,18 @@ class Unit:
     @property
     def related(self) -> frozenset[int]:
         """Places of the callbacks that wait for another one or are waited for."""
-        waiting = {callback.index for callback in self.callbacks if callback.needs}
+        waiting = {callback.index for callback in self.callbacks if callback.waits}
         return frozenset(waiting.union(*(callback.needs for callback in self.callbacks)))
+
+    @property
+    def once(self) -> bool:
+        """True when something arrives no more than once."""
+        return any(callback.is_one_shot for callback in self.callbacks)
+
+    @property
+    def recurring(self) -> frozenset[int]:
+        """Places of the callbacks for which something arrives again and again."""
+        return frozenset(c.index for c in self.callbacks if not c.is_one_shot)
 
     def flags(self, places: Collection[int]) -> str:
         """Write a truth value for each callback: whether its place is among ``places``."""
@@ -273,6 +334,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     nodes = {node: index for index, node in enumerate(nodes)}
     waits = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
     locks = tuple(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
+    resources = resources_of(waits)
     return Unit(
         name=spec.name,
         kind=executor_kind(spec),
@@ -286,13 +348,15 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 node=nodes[callback.node],
                 rank=rank_of(callback),
                 waits=tuple(
-                    _number_wait(wait, places, nodes, locks) for wait in waits[callback.name]
+                    _number_wait(wait, places, nodes, locks, resources)
+                    for wait in waits[callback.name]
                 ),
                 server=_place_of(server_of(callback, spec.callbacks), places),
                 is_groupless=callback.groupless,
                 left_out=left_out_of_models(callback, spec),
                 unexplained=unexplained_runs(callback),
                 is_entered=is_entered_unseen(callback, spec),
+                is_one_shot=callback.one_shot,
             )
             for index, callback in enumerate(spec.callbacks)
         ),
@@ -305,6 +369,15 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         max_cycle=max_cycle,
         locks=tuple(lock.name for lock in locks),
         foreign_wakes=foreign_wakes(spec),
+        resources=tuple(
+            UnitResource(
+                name=resource.name,
+                is_each=resource.is_each,
+                initial=resource.initial,
+                most=_most_signals(resource, waits, max_cycle),
+            )
+            for resource in resources
+        ),
     )
 
 
@@ -313,8 +386,10 @@ def _number_wait(
     places: Mapping[str, int],
     nodes: Mapping[str | Unknown | None, int],
     locks: Sequence[Lock],
+    resources: Sequence[Resource],
 ) -> UnitWait:
     spun_node = wait.spin.node if wait.spin else None
+    resource = None if wait.resource is None else resources.index(wait.resource)
     return UnitWait(
         place=places[wait.needed],
         kind=wait.kind,
@@ -324,7 +399,28 @@ def _number_wait(
         node=nodes.get(spun_node, 0),
         lock=locks.index(wait.lock) if wait.lock else None,
         held=frozenset(map(locks.index, wait.held)),
+        resource=resource,
+        is_signal=wait.is_signal,
+        may_skip=wait.may_skip,
+        is_open=wait.is_open,
+        wakers=tuple(places[name] for name in wait.wakers),
     )
+
+
+def resources_of(steps: Mapping[str, Sequence[NamedWait]]) -> tuple[Resource, ...]:
+    """What callbacks wait for and signal, in the order in which the model numbers it."""
+    found = (step.resource for own in steps.values() for step in own)
+    return tuple(dict.fromkeys(resource for resource in found if resource is not None))
+
+
+def _most_signals(
+    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], max_cycle: int | None
+) -> int:
+    """One for each arrival of whoever gives it; one for good where the first ends all waits."""
+    if not resource.is_each:
+        return 1
+    given = [s for own in steps.values() for s in own if s.is_signal and s.resource == resource]
+    return max(1, resource.initial + (max_cycle or 1) * len(given))
 
 
 def _place_of(callback: Callback | None, places: Mapping[str, int]) -> int | None:

@@ -9,17 +9,12 @@ run the client), ``action/client.py``, ``timer.py`` (``Rate``); ``threading.Even
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
-from enum import Enum
+from dataclasses import replace
 
+from ros2cc_extract.generator.resources import goes_by_wakers, resource_waits, signals_of
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.spins import (
-    NestedSpin,
-    SpinEnd,
-    is_open,
-    is_part_of_spin,
-    nested_spins,
-)
+from ros2cc_extract.generator.spins import is_open, is_part_of_spin, nested_spins
+from ros2cc_extract.generator.steps import Lock, NamedWait, WaitKind
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Blocking
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
@@ -30,89 +25,69 @@ _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
 _PAUSES = ('time.sleep', 'asyncio.sleep')
 
 
-class WaitKind(Enum):
-    """What a callback keeps while it waits, and who ends the wait."""
-
-    HELD = 'the thread is held until another callback has run'
-    AWAITED = 'the thread is freed, the group is held'
-    FOREIGN = 'as awaited, for what a thread of the user makes done'
-    ABSENT = 'the thread is held until somebody outside offers a service'
-    SPUN = 'the thread spins an executor'
-    LOCKED = 'the thread is held until another callback gives back a lock'
-
-
-@dataclass(frozen=True)
-class Lock:
-    """A lock of a node, by the name that it is stored under."""
-
-    node: str
-    name: str
-
-
-@dataclass(frozen=True)
-class NamedWait:
-    """
-    One wait of a callback.
-
-    :param needed: name of the callback of the unit that must run before it ends; its own where
-        none must.
-    :param lock: what it waits for, to keep it over the next wait if that holds it.
-    :param held: locks that are held meanwhile, outermost first.
-    """
-
-    needed: str
-    kind: WaitKind
-    spin: NestedSpin | None = None
-    lock: Lock | None = None
-    held: tuple[Lock, ...] = ()
-
-    @property
-    def frees_thread(self) -> bool:
-        """An ``await``, which holds the group alone."""
-        return self.kind in (WaitKind.AWAITED, WaitKind.FOREIGN)
-
-    @property
-    def is_for_callback(self) -> bool:
-        """True when another callback of the unit ends it."""
-        if self.spin is not None:
-            return self.spin.end is SpinEnd.ANSWER
-        return self.kind in (WaitKind.HELD, WaitKind.AWAITED)
-
-
 def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     """
     List the waits that others end; one with a time-out ends by itself, unless it spins.
 
-    Whoever waits for a service that nobody offers does so last: what else may hold the callback
-    is then seen without it.
+    Whoever waits for a service that nobody offers does so last, as long as nobody waits for
+    what it does afterwards: what else may hold the callback is then seen without it. Signals for
+    waits of others stand among the waits.
     """
     others, absent = tuple(_for_others(callback, spec)), tuple(_for_absent(callback, spec))
+    signals = tuple(signals_of(callback, spec))
+    if signals:
+        others, absent = _with_signals((*others, *absent), signals, spec, callback), ()
     locks = _contended_locks(spec)
-    yield from _with_locks(others, callback, locks)
     kept = {lock for wait in (*others, *absent) for lock in wait.held}
-    for lock in _taken_locks(callback):
-        if lock in locks - kept:
-            yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock)
+    looked_into = [lock for lock in _taken_locks(callback) if lock in locks - kept]
+    if signals:
+        # Whether it takes them before its signals is not known.
+        for lock in looked_into:
+            yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock, may_skip=True, is_open=True)
+    yield from _with_locks(others, callback, locks)
+    for lock in looked_into:
+        yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock)
     yield from _with_locks(absent, callback, locks)
+
+
+def _with_signals(
+    waits: Iterable[NamedWait], signals: Iterable[NamedWait], spec: Spec, callback: Callback
+) -> tuple[NamedWait, ...]:
+    """Put each signal behind the waits that the callback has behind it then."""
+    has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
+    placed = [
+        replace(signal, held=tuple(_locks_of(signal.waker.held, callback, has_pool)))
+        for signal in signals
+        if signal.waker is not None
+    ]
+    return tuple(sorted((*placed, *waits), key=lambda step: (step.origin, not step.is_signal)))
 
 
 def _for_others(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
     spins = tuple(nested_spins(callback, spec))
-    for block in callback.blocking:
+    for place, block in enumerate(callback.blocking):
         held = _held_locks(block, callback, spec)
+        of_block: list[NamedWait] = []
         if not is_part_of_spin(block, callback):
-            for wait in _waits_for_callbacks(block, callback, spec):
-                yield replace(wait, held=held)
+            of_block.extend(_waits_for_callbacks(block, callback, spec))
         for spun, spin in spins:
             if spun is block and spin is not None:
-                yield NamedWait(spin.needed or callback.name, WaitKind.SPUN, spin, held=held)
+                of_block.append(NamedWait(spin.needed or callback.name, WaitKind.SPUN, spin))
+        for wait in of_block:
+            yield replace(
+                wait,
+                held=held,
+                origin=place,
+                block=block,
+                may_skip=wait.may_skip or block.conditional,
+            )
 
 
 def _for_absent(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
-    for block in callback.blocking:
+    for place, block in enumerate(callback.blocking):
         if is_absent(block, spec) and isinstance(block.on, str):
             held = _held_locks(block, callback, spec)
-            yield NamedWait(block.on, WaitKind.ABSENT, held=held)
+            yield NamedWait(block.on, WaitKind.ABSENT, held=held, origin=place, block=block)
 
 
 def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
@@ -120,6 +95,9 @@ def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Ite
     needed = others.get(block.on) if isinstance(block.on, str) else None
     if is_foreign(block, spec):
         yield NamedWait(callback.name, WaitKind.FOREIGN)
+    elif goes_by_wakers(block, spec):
+        yield from resource_waits(block, callback, spec)
+        return
     if needed is None or block.seconds is not None or asks_the_graph(block):
         return
     kind = WaitKind.AWAITED if block.call == 'await' else WaitKind.HELD
@@ -156,7 +134,9 @@ def _contended_locks(spec: Spec) -> frozenset[Lock]:
         held = {lock for wait in waits for lock in wait.held}
         for lock in held:
             holders.setdefault(lock, set()).add(callback.name)
-        for lock in held.union(_taken_locks(callback)):
+        signals = _with_signals((), signals_of(callback, spec), spec, callback)
+        held_to_signal = {lock for signal in signals for lock in signal.held}
+        for lock in held.union(_taken_locks(callback), held_to_signal):
             takers.setdefault(lock, set()).add(callback.name)
     overlapping = {
         c.name for c in spec.callbacks if spec.group_of(c).type is not GroupType.EXCLUSIVE
@@ -187,11 +167,13 @@ def _held_locks(block: Blocking, callback: Callback, spec: Spec) -> tuple[Lock, 
     """
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
     keeps_out = has_pool and block.call != 'await' and not is_part_of_spin(block, callback)
-    return tuple(
-        Lock(callback.node, name.removesuffix(RE_ENTRANT))
-        for name in block.held
-        if isinstance(callback.node, str) and (keeps_out or not name.endswith(RE_ENTRANT))
-    )
+    return tuple(_locks_of(block.held, callback, keeps_out))
+
+
+def _locks_of(held: Iterable[str], callback: Callback, keeps_out: bool) -> Iterator[Lock]:
+    for name in held:
+        if isinstance(callback.node, str) and (keeps_out or not name.endswith(RE_ENTRANT)):
+            yield Lock(callback.node, name.removesuffix(RE_ENTRANT))
 
 
 def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
@@ -202,7 +184,7 @@ def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
         partner = others.get(block.on) if isinstance(block.on, str) else None
         if is_part_of_spin(block, callback) or block.call in _PAUSES or block.seconds is not None:
             continue
-        if is_foreign(block, spec) or is_absent(block, spec):
+        if is_foreign(block, spec) or is_absent(block, spec) or goes_by_wakers(block, spec):
             continue
         is_there = partner is not None and server_of(partner, spec.callbacks) is not None
         if not is_there if asks_the_graph(block) else partner is None:

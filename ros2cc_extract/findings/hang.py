@@ -16,7 +16,7 @@ from ros2cc_extract.verify.evidence import Evidence, Moment
 _AWAIT, _GO_ON, _WAKE, _END = 'await', 'go_on', 'wake', 'end'
 _ARRIVALS = ('due', 'arrival')
 #: What others do for a wait while it lasts.
-_PARTS = (*_ARRIVALS, 'start', _END)
+_PARTS = (*_ARRIVALS, 'start', 'signal', 'silence', _END)
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,7 @@ class Standstill:
     A wait that has not ended at the end of a run.
 
     :param since: index of the moment in which it began.
+    :param needed: who ends it, in words; ``enders`` are their names.
     :param thread: that it holds; ``None`` for an ``await``.
     :param spins: true where it serves others on that thread meanwhile.
     :param is_for_lock: ``needed`` holds the lock that is waited for.
@@ -36,6 +37,7 @@ class Standstill:
     since: int
     spins: bool = False
     is_for_lock: bool = False
+    enders: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
@@ -64,7 +66,9 @@ def show_hang(
     waits = open_waits if is_full else _concerned(open_waits, about, groups)
     if not waits:
         return run
-    told = sorted(_told(run.moments, waits, {*about, *(wait.needed for wait in waits)}))
+    told = sorted(
+        _told(run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)})
+    )
     return replace(
         run,
         moments=tuple(_renumbered(run.moments, told)),
@@ -76,7 +80,7 @@ def show_hang(
 def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
     waits: list[Standstill] = []
     for index, event in _events(moments):
-        if event.is_wait and event.who is not None and event.needed is not None:
+        if event.is_wait and event.who is not None and event.awaited is not None:
             waits.append(_standstill(event, index))
         elif event.kind == _GO_ON:
             over = next((wait for wait in waits if wait.who == event.who), None)
@@ -85,9 +89,17 @@ def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
 
 
 def _standstill(event: Event, since: int) -> Standstill:
-    assert event.who is not None and event.needed is not None, 'a wait of one for another'
+    assert event.who is not None and event.awaited is not None, 'a wait of one for another'
     thread = None if event.kind == _AWAIT else event.thread
-    return Standstill(event.who, event.needed, thread, since, event.is_spin, event.is_for_lock)
+    return Standstill(
+        event.who,
+        event.awaited,
+        thread,
+        since,
+        event.is_spin,
+        event.is_for_lock,
+        event.enders,
+    )
 
 
 def _concerned(
@@ -98,7 +110,7 @@ def _concerned(
     while True:
         closed = {groups[name] for name in names if name in groups}
         found = [w for w in waits if w.who in names or groups.get(w.who) in closed]
-        wider = names | {name for wait in found for name in (wait.who, wait.needed)}
+        wider = names | {name for wait in found for name in (wait.who, *wait.enders)}
         if wider == names:
             return found
         names = wider
@@ -154,7 +166,7 @@ def _closing(waits: Sequence[Standstill], groups: Mapping[str, str], *, is_full:
 
 def _state_of(wait: Standstill, groups: Mapping[str, str]) -> str:
     group = groups.get(wait.who)
-    if group is None or group != groups.get(wait.needed):
+    if group is None or group not in map(groups.get, wait.enders):
         return wait.words
     return f'{wait.words}, and keeps group {group} closed'
 

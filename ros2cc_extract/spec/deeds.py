@@ -35,12 +35,14 @@ class Waker:
     :param after: how many of its own waits (entries of ``blocking``) the waker has behind it
         then; ``None`` where its end, or what happens at its end, ends the wait.
     :param conditional: true where a branch may skip the operation.
+    :param held: locks held at that operation, as of a ``Blocking``.
     """
 
     by: str
     source: Place | None = None
     after: int | None = None
     conditional: bool = False
+    held: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +63,8 @@ class Blocking:
     :param wakers: who can end it, as far as is known.
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
+    :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
+        room in a queue.
     :param escapes: why somebody else might end it too, or who ends it is not known.
     :param conditional: true where a branch may skip the wait.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
@@ -76,6 +80,7 @@ class Blocking:
     resource: str | None = None
     wakers: tuple[Waker, ...] = ()
     needs: Needs = Needs.ONCE
+    initial: int = 0
     escapes: Unknown | None = None
     conditional: bool = False
     times: int = 1

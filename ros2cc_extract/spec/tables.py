@@ -73,7 +73,12 @@ WAKER = record(
         Plain('by', 'by', TEXT),
         *plain_rows(
             Waker,
-            (('after', 'after', optional(COUNT)), ('conditional', 'conditional', FLAG), _SOURCE),
+            (
+                ('after', 'after', optional(COUNT)),
+                ('conditional', 'conditional', FLAG),
+                ('held', 'held', listing(TEXT)),
+                _SOURCE,
+            ),
         ),
     ),
     required=('by',),
@@ -91,6 +96,7 @@ BLOCKING = record(
                 ('foreign', 'foreign', FLAG),
                 ('resource', 'resource', optional(TEXT)),
                 ('needs', 'needs', member(Needs)),
+                ('initial', 'initial', COUNT),
                 ('wakers', 'wakers', listing(WAKER)),
                 ('conditional', 'conditional', FLAG),
                 ('times', 'times', COUNT),

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.generator.resources import ends_outside, is_left_open
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
+from ros2cc_extract.generator.spins import is_part_of_spin
 from ros2cc_extract.generator.waits import unknown_ends, waits_of
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.model import Callback, Spec
 
 
 def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
@@ -48,9 +50,23 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
 
 
 def open_ends(unit: Spec) -> dict[str, tuple[Blocking, ...]]:
-    """Give for each callback that somebody wrote the waits whose end is in no model, by name."""
+    """
+    Give for each callback that somebody wrote the waits of which no model knows how they end.
+
+    Those that somebody outside the unit ends are among them: models take it that he does.
+    """
     return {
-        callback.name: tuple(unknown_ends(callback, unit))
+        callback.name: tuple(
+            block for block in callback.blocking if _is_open(block, callback, unit)
+        )
         for callback in unit.callbacks
         if not callback.builtin
     }
+
+
+def _is_open(block: Blocking, callback: Callback, unit: Spec) -> bool:
+    if any(block is unknown for unknown in unknown_ends(callback, unit)):
+        return True
+    if is_part_of_spin(block, callback):
+        return False
+    return is_left_open(block, unit) or ends_outside(block, unit)

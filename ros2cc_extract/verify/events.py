@@ -16,6 +16,7 @@ WORDS = {
     # Callbacks and groups.
     'due': 'timer {who} is due',
     'arrival': 'data arrives for {who}',
+    'arrival again': 'data arrives for {who}',
     'done outside': 'a thread outside {executor} makes done what {who} awaits',
     'done unseen': 'a thread outside {executor} makes done what {who} awaits, which wakes nobody',
     'close': 'group {group} closes',
@@ -35,12 +36,15 @@ WORDS = {
     'wait lock': '{who} waits on {thread} for the lock of {needed}',
     'wait service': '{who} waits on {thread} for the service of {needed}, which nobody here '
     'offers',
-    'await': '{who} awaits {needed} and leaves {thread}',
+    'wait signal': '{who} waits on {thread} for {awaited}',
+    'await': '{who} awaits {awaited} and leaves {thread}',
     'await outside': '{who} awaits what a thread outside {executor} makes done, and leaves '
     '{thread}',
     'spin': '{who} spins {executor} on {thread}[ for {needed}]',
     'spin taken': '{who} takes its node out of {executor} and spins it on {thread}[ for {needed}]',
     'found': '{who} finds that {needed} has run',
+    'signal': '{who} signals {resource}',
+    'silence': '{who} does not signal {resource}',
     'go_on': '{who} goes on',
     'go_on resumed': '{who} goes on, on {thread}',
     'go_on served': '{who} has served one callback and goes on',
@@ -76,6 +80,8 @@ class Event:
     :param by: who hands it to the pool.
     :param group: that opens or closes.
     :param needed: name of the callback that must run before a wait ends, or that has the lock.
+    :param resource: that is waited for, or gets a signal.
+    :param wakers: names of those that end a wait for ``resource``.
     :param inside: the callback in whose nested spin ``who`` runs.
     :param wait: which of the waits of ``who`` in the model, from 0.
     """
@@ -88,6 +94,8 @@ class Event:
     group: str | None = None
     executor: str | None = None
     needed: str | None = None
+    resource: str | None = None
+    wakers: tuple[str, ...] = ()
     inside: str | None = None
     wait: int | None = None
 
@@ -112,6 +120,16 @@ class Event:
         return (self.kind, self.form) == ('wait', 'service')
 
     @property
+    def awaited(self) -> str | None:
+        """For whom or what a wait is, in words."""
+        return ' or '.join(self.wakers) or self.resource or self.needed
+
+    @property
+    def enders(self) -> tuple[str, ...]:
+        """Names of those that can end a wait."""
+        return self.wakers or (() if self.needed is None else (self.needed,))
+
+    @property
     def words(self) -> str:
         """Say it in a sentence."""
         return _FIELD.sub(lambda match: self._field(match[1]), self._pattern)
@@ -119,7 +137,11 @@ class Event:
     @property
     def mentions(self) -> tuple[str, ...]:
         """Names in the order of the sentence."""
-        return tuple(self._field(name) for name in _FIELD.findall(self._pattern))
+        named: list[str] = []
+        for name in _FIELD.findall(self._pattern):
+            is_of_many = name == 'awaited' and self.wakers
+            named.extend(self.wakers if is_of_many else (self._field(name),))
+        return tuple(named)
 
     @property
     def _pattern(self) -> str:

@@ -14,6 +14,9 @@ from typing import Any
 
 from ros2cc_extract.checker.api import EdgeRef, Run, StateView
 from ros2cc_extract.generator.events import Annotation, FieldText, read_annotation
+from ros2cc_extract.generator.steps import gives
+from ros2cc_extract.generator.unit import resources_of
+from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.events import WORDS, Event
@@ -89,17 +92,23 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Names:
-    """What stands for the n-th callback, thread and group of a model."""
+    """
+    What stands for the n-th callback, thread and group of a model.
+
+    :param resources: what is waited for, each with the names of those who end waits for it.
+    """
 
     callbacks: tuple[str, ...] = ()
     threads: tuple[str, ...] = ()
     groups: tuple[str, ...] = ()
     executor: str = 'executor'
     places: Mapping[str, Place] = field(default_factory=dict)
+    resources: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     @staticmethod
     def of(spec: Spec) -> Names:
         """Names and places of a unit, in the order in which the model numbers them."""
+        steps = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
         places = {c.name: c.defined or c.source for c in spec.callbacks}
         return Names(
             tuple(callback.name for callback in spec.callbacks),
@@ -107,12 +116,23 @@ class Names:
             tuple(group.name for group in spec.groups),
             spec.executor.name,
             {name: place for name, place in places.items() if place is not None},
+            tuple(
+                (resource.name, tuple(n for n, own in steps.items() if gives(own, resource)))
+                for resource in resources_of(steps)
+            ),
         )
 
     def lookup(self, kind: str, index: int) -> str:
         """Name of the ``index``-th callback, thread or group."""
         names = {'callback': self.callbacks, 'thread': self.threads, 'group': self.groups}[kind]
         return names[index] if 0 <= index < len(names) else f'{kind} {index}'
+
+    def resource(self, index: int) -> dict[str, object]:
+        """Fields of an event about a resource; a number behind the last is none."""
+        if index >= len(self.resources):
+            return {'resource': None}
+        name, wakers = self.resources[index]
+        return {'resource': name, 'wakers': wakers, 'needed': None}
 
 
 def tell(run: Run, names: Names) -> Evidence:
@@ -179,9 +199,12 @@ def _evaluated(
             return names.executor
         state = before if field.is_before else after
         number = state.evaluate(field.expression, process)
-        return number if field.noun == 'number' else names.lookup(field.noun, number)
+        is_name = field.noun in ('callback', 'thread', 'group')
+        return names.lookup(field.noun, number) if is_name else number
 
     values: dict[str, Any] = {field.name: value(field) for field in annotation.fields}
+    if 'resource' in values:
+        values |= names.resource(values['resource'])
     return Event(kind=annotation.kind, form=annotation.form, **values)
 
 

@@ -182,7 +182,8 @@ def _key_in(part: Spec, role: Role) -> Key:
 
 
 def _is_open(result: QueryResult) -> bool:
-    return result.verdict is Verdict.UNDECIDED
+    """True where asking more may decide it; what is not known stays so."""
+    return result.verdict is Verdict.UNDECIDED and not result.in_doubt
 
 
 def _weighs_more(new: QueryResult, old: QueryResult) -> bool:
@@ -243,13 +244,15 @@ def _all_end(found: Found, names: Names) -> QueryResult | None:
     for result in ends:
         if result is not None and result.verdict is Verdict.NOT_SATISFIED:
             return result
-    all_hold = all(r is not None and r.verdict is Verdict.SATISFIED for r in ends)
-    return _satisfied(found) if all_hold else None
+    if any(result is None or _is_open(result) for result in ends):
+        return None
+    doubted = next((result for result in ends if result is not None and result.in_doubt), None)
+    return doubted or _satisfied(found)
 
 
 def _satisfied(found: Found) -> QueryResult:
     some = next(iter(found.results.values()))
-    return replace(some, verdict=Verdict.SATISFIED, reason=None, run=None)
+    return replace(some, verdict=Verdict.SATISFIED, reason=None, run=None, in_doubt=False)
 
 
 def _never_together(found: Found, spec: Spec) -> QueryResult | None:

@@ -22,6 +22,7 @@ class QueryResult:
     :param seconds: when it was decided, counted from the start of the exploration.
     :param load: what the rates say, beside a verdict of profile rclpy on starvation.
     :param run: the run behind the verdict, or what gives it; use ``evidence``.
+    :param in_doubt: undecided because of what is not known, and not of a limit.
     """
 
     family: str | None
@@ -33,6 +34,7 @@ class QueryResult:
     seconds: float
     run: Evidence | Callable[[], Evidence] | None
     load: Load | None = None
+    in_doubt: bool = False
 
     @cached_property
     def evidence(self) -> Evidence | None:

@@ -24,14 +24,9 @@ from ros2cc_extract.generator.serving import (
     runs_of_an_arrival,
 )
 from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
-from ros2cc_extract.generator.waits import (
-    Lock,
-    NamedWait,
-    WaitKind,
-    asks_the_graph,
-    is_absent,
-    waits_of,
-)
+from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
+from ros2cc_extract.generator.unit import resources_of
+from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
 from ros2cc_extract.spec.partners import (
@@ -106,7 +101,7 @@ class Slicer:
         What the model of a unit leaves out because of others may be in that of a part without
         them, and then they say different things.
         """
-        return all(tuple(waits_of(c, part)) == self._waits[c.name] for c in part.callbacks)
+        return all(_waits(waits_of(c, part)) == self._waits[c.name] for c in part.callbacks)
 
     @property
     def _threads(self) -> int:
@@ -124,7 +119,9 @@ class Slicer:
         A message or a timer that would set an event may also never come.
         """
         return all(
-            self._by_name[wait.needed].type is CallbackType.CLT and wait.lock is None
+            self._by_name[wait.needed].type is CallbackType.CLT
+            and wait.lock is None
+            and wait.resource is None
             for name in self._cone(names, Rests.ON_END)
             for wait in self._waits[name]
         )
@@ -236,7 +233,17 @@ class Slicer:
     @cached_property
     def _waits(self) -> dict[str, tuple[NamedWait, ...]]:
         spec = self._spec
-        return {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
+        return {callback.name: _waits(waits_of(callback, spec)) for callback in spec.callbacks}
+
+    @cached_property
+    def _sharers(self) -> dict[Resource | None, Names]:
+        """Who gives signals to a resource; and who takes them away from others that wait."""
+        found: dict[Resource | None, set[str]] = {}
+        for callback in self._spec.callbacks:
+            for step in waits_of(callback, self._spec):
+                if step.resource is not None and (step.is_signal or step.resource.is_each):
+                    found.setdefault(step.resource, set()).add(callback.name)
+        return {resource: frozenset(names) for resource, names in found.items()}
 
     @cached_property
     def _callers(self) -> dict[str, Names]:
@@ -244,7 +251,8 @@ class Slicer:
         found: dict[str, set[str]] = {name: set() for name in self._by_name}
         for callback in self._spec.callbacks:
             for wait in self._waits[callback.name]:
-                if self._by_name[wait.needed].type is CallbackType.CLT:
+                is_asked = wait.resource is None
+                if is_asked and self._by_name[wait.needed].type is CallbackType.CLT:
                     found[wait.needed].add(callback.name)
             server = server_of(callback, self._spec.callbacks)
             if server is not None:
@@ -292,6 +300,7 @@ class Slicer:
         for wait in self._waits[callback.name]:
             yield wait.needed
             yield from self._lock_holders.get(wait.lock, ())
+            yield from self._sharers.get(wait.resource, ())
         server = server_of(callback, self._spec.callbacks)
         if server is not None:
             yield server.name
@@ -302,6 +311,15 @@ class Slicer:
             for other in self._spec.callbacks:
                 if other.group == callback.group and self._waits[other.name]:
                     yield other.name
+
+
+def _waits(steps: Iterable[NamedWait]) -> tuple[NamedWait, ...]:
+    """
+    Leave out signals.
+
+    A slice without whoever waits for a signal does not have it.
+    """
+    return tuple(step for step in steps if not step.is_signal)
 
 
 def shape_of(part: Spec) -> Shape:
@@ -319,8 +337,18 @@ def shape_of(part: Spec) -> Shape:
     waits = {callback.name: tuple(waits_of(callback, part)) for callback in callbacks}
     locks = list(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
 
+    resources = resources_of(waits)
+
     def locked(wait: NamedWait) -> Shape:
         return wait.lock and locks.index(wait.lock), tuple(map(locks.index, wait.held))
+
+    def signalled(step: NamedWait) -> Shape:
+        in_doubt = step.is_open or (step.is_signal and step.may_skip)
+        words = (step.origin, step.block, step.waker) if in_doubt else None  # of the reason
+        if step.resource is None:
+            return step.may_skip, words
+        place, resource = resources.index(step.resource), step.resource
+        return place, resource.is_each, resource.initial, step.may_skip, words
 
     def serving(callback: Callback) -> tuple[bool, int]:
         rank = rank_of(callback)
@@ -339,7 +367,11 @@ def shape_of(part: Spec) -> Shape:
             serving(callback),
             nodes.index(callback.node),
             numbers[callback.group],
-            tuple((places[w.needed], w.kind, spun(w), locked(w)) for w in waits[callback.name]),
+            tuple(
+                (places[w.needed], w.kind, spun(w), locked(w), signalled(w))
+                for w in waits[callback.name]
+            ),
+            callback.one_shot,
             None if server is None else places[server.name],
             bool(left_out_of_models(callback, part)),  # then it is asked for its end
         )

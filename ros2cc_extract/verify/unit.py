@@ -31,7 +31,9 @@ from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
+from ros2cc_extract.verify.doubts import doubts_in
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.load import load_of
 from ros2cc_extract.verify.narrowing import Found, Key, key_of, narrow
@@ -146,16 +148,33 @@ def _search(
     asked = [query for query in rendered.queries if key_of(query) in wanted]
     model = read_model(rendered.xml, f'{rendered.name}.xml')
     xml = rendered.xml.encode()
-    queries = [Query(query.formula, query.words, None) for query in asked]
-    result = _check(model, xml, queries, replace(options, limits=limits), progress)
+    claims = [Query(query.formula, query.words, None) for query in asked]
+    whatever = [Query(q.whatever, q.words, None) for q in asked if q.whatever is not None]
+    result = _check(model, xml, [*claims, *whatever], replace(options, limits=limits), progress)
     if any(answer.is_interrupted for answer in result.answers):
         raise KeyboardInterrupt  # findings need verdicts, and other units may be waiting
     teller = _Teller(model, xml, Names.of(closed.spec))
     results = {
         key_of(query): _result(answer, teller, query.family.value, query.words, query.callbacks)
-        for answer, query in zip(result.answers, asked, strict=True)
+        for answer, query in zip(result.answers[: len(asked)], asked, strict=True)
     }
+    doubted = (query for query in asked if query.whatever is not None)
+    for query, answer in zip(doubted, result.answers[len(asked) :], strict=True):
+        key = key_of(query)
+        results[key] = _in_spite_of_doubts(results[key], answer, teller, closed.spec)
     return Found(results, result)
+
+
+def _in_spite_of_doubts(
+    result: QueryResult, whatever: Answer, teller: _Teller, spec: Spec
+) -> QueryResult:
+    """A claim is proven only if it holds whatever is not known."""
+    if result.verdict is not Verdict.SATISFIED or whatever.verdict is Verdict.SATISFIED:
+        return result
+    if whatever.verdict is Verdict.UNDECIDED:
+        return replace(result, verdict=Verdict.UNDECIDED, reason=whatever.reason, run=None)
+    reason = doubts_in(teller.tell(whatever), spec)
+    return replace(result, verdict=Verdict.UNDECIDED, reason=reason, run=None, in_doubt=True)
 
 
 def _structural(closed: ClosedSpec, options: Options) -> Iterator[QueryResult]:

@@ -7,9 +7,9 @@ from random import Random
 
 from hypothesis import strategies
 
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,
@@ -170,4 +170,44 @@ def _as_some_entity(callback: Callback, random: Random) -> Callback:
         entity=entity,
         type=entity.published_type,
         key=random.choice(('plan', 'home')) if entity.key_name else None,
+    )
+
+
+def random_waking_unit(random: Random, *, callbacks: int, groups: int, threads: int) -> ClosedSpec:
+    """Draw a unit in which callbacks wait for what others signal, with locks and doubts."""
+    draw = random.choice((random_rclpy_unit, random_rclpy_unit, random_locking_unit))
+    unit = draw(random, callbacks=callbacks, groups=groups, threads=threads)
+    names = [callback.name for callback in unit.spec.callbacks]
+    served = tuple(_with_signals(callback, names, random) for callback in unit.spec.callbacks)
+    return replace(unit, spec=replace(unit.spec, callbacks=served))
+
+
+def _with_signals(callback: Callback, names: list[str], random: Random) -> Callback:
+    waits = tuple(_signalled(callback, names, random) for _ in range(random.choice((0, 0, 1, 2))))
+    blocking = [*callback.blocking, *waits]
+    random.shuffle(blocking)
+    return replace(callback, blocking=tuple(blocking[:2]), one_shot=random.random() < 0.2)
+
+
+def _signalled(callback: Callback, names: list[str], random: Random) -> Blocking:
+    resource = random.choice(('done', 'queue'))
+    needs = Needs.EACH if resource == 'queue' else random.choice((Needs.ONCE, Needs.ALL))
+    wakers = tuple(
+        Waker(
+            by=random.choice(names),
+            after=random.choice((None, 0, 1)),
+            conditional=random.random() < 0.15,
+            held=random.choice(((), (), ('other',))),
+        )
+        for _ in range(random.choice((1, 1, 2)))
+    )
+    return Blocking(
+        call=random.choice(('Event.wait', 'Event.wait', 'await')),
+        resource=resource,
+        needs=needs,
+        wakers=wakers,
+        initial=random.choice((0, 0, 1)),
+        escapes=Unknown('given away') if random.random() < 0.15 else None,
+        conditional=random.random() < 0.15,
+        held=random.choice(((), (), ('other',))),
     )

@@ -43,7 +43,8 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
     for caller in context.written:
         for block, reason in _open(caller.blocking, ends[caller.name]):
             wait = Wait(caller, block, kind_of(block))
-            if _ends_outside(block) is is_outside and not surely_ends(wait, context):
+            is_settled = not is_outside and surely_ends(wait, context)
+            if _ends_outside(block) is is_outside and not is_settled:
                 waits.append(wait)
                 reasons[id(wait)] = reason
     if not is_outside:
@@ -72,16 +73,22 @@ def _reason(block: Blocking) -> str:
 
 def _ends_outside(block: Blocking) -> bool:
     wakers = {waker.by for waker in block.wakers}
-    return block.escapes is None and wakers == {OUTSIDE}
+    return block.escapes is None and OUTSIDE in wakers
 
 
 def _cut_short(context: Context, told: Sequence[Wait]) -> Iterator[Wait]:
-    """Waits of callbacks about whose end a limit of the checker has left the question open."""
-    if told:
-        return  # claims about ends are open for the reason that is told
+    """
+    Waits of callbacks about whose end a limit of the checker has left the question open.
+
+    Or that end only by what nobody knows to come; where a wait is told already, claims about
+    ends may be open for its reason.
+    """
+    callers = {wait.caller.name for wait in told}
     for caller in context.written:
         result = verdict_on(PROGRESS, context, caller)
-        if result is not None and result.verdict is Verdict.UNDECIDED:
+        if result is None or result.verdict is not Verdict.UNDECIDED or caller.name in callers:
+            continue
+        if result.in_doubt or not told:
             yield from (
                 Wait(caller, block, kind_of(block))
                 for block in caller.blocking

@@ -1,0 +1,133 @@
+"""
+Waits whose wakers the specification names: what they are for, and who ends them.
+
+A wait that time or somebody outside ends is none in the model, which has no clock: the callback
+that waits runs on. One that somebody unknown may end is open: it may be left at any moment, and
+it may stay until a waker that is known ends it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.generator.spins import is_part_of_spin
+from ros2cc_extract.generator.steps import NamedWait, Resource, WaitKind
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs, Waker
+from ros2cc_extract.spec.model import Callback, CallbackType, Spec
+from ros2cc_extract.spec.partners import client_before
+
+#: Whose names stand for nobody of the unit.
+_BY_ITSELF = (OUTSIDE, TIME)
+
+
+def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
+    """
+    Tell whether a specification says who ends a wait.
+
+    An answer comes from the client that is asked, whoever else is named.
+    """
+    if block.resource is None and not block.wakers and block.escapes is None:
+        return False
+    asked = next((c for c in spec.callbacks if c.name == block.on), None)
+    is_client = asked is not None and asked.type is CallbackType.CLT
+    return not is_client or asked is None or client_before(asked, spec.callbacks) is not None
+
+
+def resource_waits(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+    """Give the waits that stand for one; several where every waker is needed."""
+    if block.seconds is not None or any(waker.by in _BY_ITSELF for waker in block.wakers):
+        return
+    kind = WaitKind.AWAITED if block.call == 'await' else WaitKind.HELD
+    known = {c.name for c in spec.callbacks}
+    is_open = _is_open(block, spec)
+    client = None if is_open else _asked_before(block, callback, spec)
+    if client is not None:
+        yield NamedWait(client.name, kind)
+    for resource, wakers in _resources_of(block, callback):
+        by = tuple(dict.fromkeys(waker.by for waker in wakers if waker.by in known))
+        yield NamedWait(
+            by[0] if by else callback.name,
+            kind,
+            resource=resource,
+            may_skip=is_open,
+            is_open=is_open,
+            wakers=by,
+        )
+
+
+def ends_outside(block: Blocking, spec: Spec) -> bool:
+    """Tell whether a wait is taken to end because somebody outside may end it."""
+    is_outside = any(waker.by == OUTSIDE for waker in block.wakers)
+    return goes_by_wakers(block, spec) and block.seconds is None and is_outside
+
+
+def is_left_open(block: Blocking, spec: Spec) -> bool:
+    """Tell whether it is not known of a wait who may end it."""
+    by = {waker.by for waker in block.wakers}
+    is_timed = block.seconds is not None or not by.isdisjoint(_BY_ITSELF)
+    return goes_by_wakers(block, spec) and not is_timed and _is_open(block, spec)
+
+
+def _is_open(block: Blocking, spec: Spec) -> bool:
+    known = {callback.name for callback in spec.callbacks}
+    return block.escapes is not None or any(w.by not in known for w in block.wakers)
+
+
+def signals_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+    """Give the signals by which a callback ends waits, each at its place among its own waits."""
+    seen: set[object] = set()
+    for waiting in spec.callbacks:
+        for block in waiting.blocking:
+            is_wait = goes_by_wakers(block, spec) and not is_part_of_spin(block, waiting)
+            if not is_wait or not any(resource_waits(block, waiting, spec)):
+                continue
+            for resource, wakers in _resources_of(block, waiting):
+                for waker in wakers:
+                    key = (resource, waker.after, waker.source, waker.held)
+                    if waker.by == callback.name and key not in seen:
+                        seen.add(key)
+                        yield _signal(resource, waker, callback)
+
+
+def _signal(resource: Resource, waker: Waker, callback: Callback) -> NamedWait:
+    waits = len(callback.blocking)
+    return NamedWait(
+        callback.name,
+        WaitKind.SIGNAL,
+        resource=resource,
+        may_skip=waker.conditional,
+        origin=waits if waker.after is None else min(waker.after, waits),
+        waker=waker,
+    )
+
+
+def _resources_of(
+    block: Blocking, callback: Callback
+) -> Iterator[tuple[Resource, tuple[Waker, ...]]]:
+    """What a wait is for; a resource of its own for each waker where all of them are needed."""
+    name = block.resource
+    if name is None:
+        name = f'{callback.name} {callback.blocking.index(block)}'
+    if block.needs is Needs.ALL:
+        for waker in block.wakers:
+            after = 'end' if waker.after is None else waker.after
+            yield Resource(f'{name} by {waker.by} {after}', is_each=False), (waker,)
+        if block.wakers:
+            return
+    is_each = block.needs is Needs.EACH
+    yield Resource(name, is_each, block.initial if is_each else 0), block.wakers
+
+
+def _asked_before(block: Blocking, callback: Callback, spec: Spec) -> Callback | None:
+    """
+    Give the client that must have its answer first.
+
+    Done-callbacks run after it: where all wakers are done-callbacks of one client, it is asked.
+    """
+    by_name = {c.name: c for c in spec.callbacks}
+    wakers = [by_name[waker.by] for waker in block.wakers if waker.by in by_name]
+    clients = [client_before(waker, spec.callbacks) for waker in wakers]
+    first = clients[0] if clients else None
+    if first is None or first == callback or any(client != first for client in clients):
+        return None
+    return first

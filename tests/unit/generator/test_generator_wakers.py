@@ -1,0 +1,252 @@
+"""
+Waits of which the specification says who ends them, and claims that rest on what nobody knows.
+
+Verdicts are of ``verify``: no, yes, or undecided with the reason.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.spec.close import ClosedSpec, close
+from ros2cc_extract.spec.yaml_io import read_specs
+from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
+
+SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'
+OPTIONS = Options(profile=Profile.RCLPY, structural=False)
+
+
+def unit(
+    callbacks: str, *, threads: int = 4, kind: str = MULTI, activities: str = ''
+) -> ClosedSpec:
+    """A unit of lines ``name group: blocking``; groups whose names begin with f are reentrant."""
+    rows, groups = [], []
+    for line in callbacks.strip().splitlines():
+        head, _, blocking = line.strip().partition(': ')
+        name, group = head.split()
+        groups.append(group)
+        rows.append(
+            f'{{name: {name}, type: TMR, callback_group: {group}, node: arm, '
+            f'{blocking or "blocking: []"}}}'
+        )
+    types = {group: 'REENTRANT' if group.startswith('f') else 'EXCLUSIVE' for group in groups}
+    text = f"""\
+ros2cc: {{spec_version: 2}}
+node:
+  name: unit
+  callbacks: [{', '.join(rows)}]
+  callback_groups: [{', '.join(f'{{name: {g}, type: {t}}}' for g, t in types.items())}]
+  executor:
+    name: executor
+    kind: {kind}
+    threads: [{', '.join(f'{{name: t{n}}}' for n in range(threads))}]
+  {activities}
+"""
+    (spec,) = read_specs(text, 'unit.yaml')
+    return close(spec)
+
+
+def said(closed: ClosedSpec) -> list[str]:
+    """Who may not come to its end, or why that is not known; with ``dead-lock`` for the unit."""
+    found = []
+    for result in verify_unit(closed, OPTIONS).results:
+        name = ' '.join(result.callbacks) if result.family == 'progress' else 'dead-lock'
+        if result.family not in ('progress', 'deadlock') or result.verdict is Verdict.SATISFIED:
+            continue
+        undecided = result.verdict is Verdict.UNDECIDED
+        found.append(f'{name}: {result.reason}' if undecided else name)
+    return found
+
+
+def wait(resource: str, *wakers: str, needs: str = 'once', more: str = '') -> str:
+    given = ', '.join(f'{{{waker}}}' for waker in wakers)
+    return f'{{call: Event.wait, resource: {resource}, wakers: [{given}], needs: {needs}{more}}}'
+
+
+def blocking(*waits: str) -> str:
+    return f'blocking: [{", ".join(waits)}]'
+
+
+DONE = blocking(wait('done', 'by: tick'))
+
+
+@pytest.mark.parametrize('kind', [SINGLE, EVENTS])
+def test_on_one_thread_nobody_sets_an_event_that_is_waited_for(kind: str):
+    assert said(unit(f'drive a: {DONE}\ntick b', kind=kind, threads=1)) == ['dead-lock', 'drive']
+
+
+@pytest.mark.parametrize(('group', 'stuck'), [('a', ['dead-lock', 'drive']), ('b', [])])
+def test_an_event_set_by_a_member_of_the_own_group_never_comes(group: str, stuck: list[str]):
+    assert said(unit(f'drive a: {DONE}\ntick {group}')) == stuck
+
+
+def test_one_of_several_wakers_is_enough_for_an_event():
+    either = blocking(wait('done', 'by: tick', 'by: scan'))
+    assert said(unit(f'drive a: {either}\ntick a\nscan b')) == []
+
+
+def test_where_all_are_needed_one_that_cannot_run_is_missed():
+    both = blocking(wait('met', 'by: tick', 'by: scan', needs='all'))
+    assert said(unit(f'drive a: {both}\ntick a\nscan b')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {both}\ntick c\nscan b')) == []
+
+
+def test_each_wait_uses_up_a_signal_and_whoever_gives_it_comes_again():
+    item = blocking(wait('queue', 'by: tick', needs='each'))
+    assert said(unit(f'drive a: {item}\nturn b: {item}\ntick c')) == []
+    twice = blocking(
+        wait('queue', 'by: tick', needs='each'), wait('queue', 'by: tick', needs='each')
+    )
+    assert said(unit(f'drive a: {twice}\ntick c')) == []
+
+
+def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
+    item = blocking(wait('queue', 'by: tick', needs='each'))
+    assert said(unit(f'drive a: {item}\nturn b: {item}\ntick c: one_shot: true')) == [
+        'dead-lock',
+        'drive',
+        'turn',
+    ]
+
+
+def test_a_semaphore_lets_as_many_through_as_it_has_at_first():
+    one = blocking(wait('room', needs='each', more=', initial: 1'))
+    assert said(unit(f'drive a: {one}')) == []
+    assert said(unit(f'drive a: {one}\nturn b: {one}')) == ['dead-lock', 'drive', 'turn']
+
+
+def crossing(order_of_a: str, order_of_b: str) -> ClosedSpec:
+    """Two callbacks that set an event for the other and wait for the other's."""
+    after = {'sets, waits': 0, 'waits, sets': 1}
+    return unit(
+        f'a ga: {blocking(wait("e2", f"by: b, after: {after[order_of_b]}"))}\n'
+        f'b gb: {blocking(wait("e1", f"by: a, after: {after[order_of_a]}"))}'
+    )
+
+
+@pytest.mark.parametrize(
+    ('of_a', 'of_b', 'stuck'),
+    [
+        ('sets, waits', 'waits, sets', []),
+        ('waits, sets', 'sets, waits', []),
+        ('sets, waits', 'sets, waits', []),
+        ('waits, sets', 'waits, sets', ['dead-lock', 'a', 'b']),
+    ],
+)
+def test_two_waits_that_cross(of_a: str, of_b: str, stuck: list[str]):
+    assert said(crossing(of_a, of_b)) == stuck
+
+
+def test_a_wait_that_nobody_ends_is_for_ever():
+    assert said(unit(f'drive a: {blocking(wait("done"))}')) == ['dead-lock', 'drive']
+
+
+@pytest.mark.parametrize(
+    'waits',
+    [
+        wait('done', more=', seconds: 1.0'),
+        wait('done', 'by: time'),
+        wait('done', 'by: outside'),
+        wait('done', more=', conditional: true, seconds: 1.0'),
+    ],
+)
+def test_time_and_others_outside_end_a_wait(waits: str):
+    assert said(unit(f'drive a: {blocking(waits)}')) == []
+
+
+ESCAPES = wait('done', 'by: tick', more=', escapes: given to a library, source: arm.py:7')
+NOT_KNOWN = 'it is not known whether Event.wait at arm.py:7 ends (given to a library)'
+
+
+def test_a_wait_that_somebody_unknown_may_end_leaves_open_who_hangs_by_it():
+    assert said(unit(f'drive a: {blocking(ESCAPES)}\ntick a')) == [
+        f'dead-lock: {NOT_KNOWN}',
+        f'drive: {NOT_KNOWN}',
+    ]
+
+
+def test_it_leaves_nothing_open_where_a_known_waker_ends_it_in_any_case():
+    assert said(unit(f'drive a: {blocking(ESCAPES)}\ntick b')) == []
+
+
+def test_who_hangs_however_that_wait_ends_is_told():
+    """The second wait is for a member of the own group."""
+    waits = blocking(ESCAPES, wait('other', 'by: tick'))
+    assert said(unit(f'drive a: {waits}\ntick a')) == ['dead-lock', 'drive']
+
+
+def test_who_ends_whatever_is_not_known_is_decided():
+    """Somebody else's unknown wait is no reason to leave this one open."""
+    waits = blocking(wait('other', 'by: scan'))
+    assert said(unit(f'drive a: {blocking(ESCAPES)}\nturn b: {waits}\ntick a\nscan c')) == [
+        f'dead-lock: {NOT_KNOWN}',
+        f'drive: {NOT_KNOWN}',
+    ]
+
+
+def test_a_waker_that_is_not_in_the_unit_is_not_known():
+    (dead, drive) = said(unit(f'drive a: {blocking(wait("done", "by: stranger"))}'))
+    assert (dead, drive) == (
+        'dead-lock: it is not known whether Event.wait ends',
+        'drive: it is not known whether Event.wait ends',
+    )
+
+
+SILENT = 'it is not known whether tick always signals done at arm.py:9'
+
+
+def test_a_signal_in_a_branch_leaves_open_what_needs_it():
+    maybe = blocking(wait('done', 'by: tick, conditional: true, source: arm.py:9'))
+    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'dead-lock: {SILENT}', f'drive: {SILENT}']
+
+
+def test_a_hang_that_needs_no_skipped_branch_is_proven():
+    maybe = blocking(wait('done', 'by: tick, conditional: true'))
+    assert said(unit(f'drive a: {maybe}\ntick a')) == ['dead-lock', 'drive']
+
+
+def test_a_token_in_a_branch_that_is_once_not_taken_may_never_come():
+    maybe = blocking(wait('done', 'by: tick, conditional: true, source: arm.py:9', needs='each'))
+    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'dead-lock: {SILENT}', f'drive: {SILENT}']
+
+
+LOCKED = ', held: [lock]'
+
+
+def test_a_signal_that_needs_a_lock_held_over_the_wait_never_comes():
+    held = blocking(wait('done', 'by: tick, held: [lock]', more=LOCKED))
+    assert said(unit(f'drive a: {held}\ntick b')) == ['dead-lock', 'drive', 'tick']
+
+
+def test_a_lock_that_is_taken_at_an_unknown_place_leaves_it_open():
+    held = blocking(wait('done', 'by: tick', more=LOCKED))
+    reason = 'it is not known whether the wait for the lock lock ends'
+    assert said(unit(f'drive a: {held}\ntick b: locks: [{{name: lock}}]')) == [
+        f'dead-lock: {reason}',
+        f'drive: {reason}',
+        f'tick: {reason}',
+    ]
+
+
+def test_a_branch_may_skip_a_wait():
+    """Then what holds a lock afterwards meets others that the wait would have kept away."""
+    waits = blocking(
+        wait('first', 'by: tick', more=', conditional: true'), wait('second', 'by: scan')
+    )
+    assert said(unit(f'drive a: {waits}\ntick b\nscan a')) == ['dead-lock', 'drive']
+
+
+def test_an_awaited_future_that_another_callback_makes_done():
+    awaits = DONE.replace('Event.wait', 'await')
+    assert said(unit(f'drive a: {awaits}\ntick b', threads=1)) == []
+    assert said(unit(f'drive a: {awaits}\ntick a')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {awaits}\ntick b', threads=1, kind=SINGLE)) == []
+
+
+def test_the_run_names_who_signals():
+    results = verify_unit(crossing('waits, sets', 'waits, sets'), OPTIONS).results
+    (run,) = [r.evidence for r in results if r.family == 'progress' and r.callbacks == ('a',)]
+    assert run is not None
+    words = [sentence.text for moment in run.moments for sentence in moment.sentences]
+    assert 'a waits on t0 for b' in words or 'a waits on t1 for b' in words
