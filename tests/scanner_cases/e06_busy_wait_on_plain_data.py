@@ -40,6 +40,8 @@ if __name__ == '__main__':
 #       ended by ?
 #     blocks rclpy.spin_once on a 0.1 s @22
 #     blocks time.sleep 0.1 s @24
+#     blocks polling loop on on_in through A.arrived @23
+#       ended by on_in @18
 #     reads A.arrived @21
 #     reads A.arrived @23
 #     changes rclpy.spin_once @22

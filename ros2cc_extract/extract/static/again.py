@@ -22,6 +22,7 @@ def both(before: Deeds, again: Deeds) -> Deeds:
         locks=_both(before.locks, again.locks, lambda deed: deed.name),
         publishes=_both(before.publishes, again.publishes, lambda deed: deed.name),
         changes=_both(before.changes, again.changes, lambda deed: deed.name),
+        written={**before.written, **again.written},
     )
 
 

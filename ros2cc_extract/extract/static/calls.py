@@ -65,6 +65,7 @@ class Calls(Machine):
         """The result of calling something that cannot be followed."""
         self.library_call(function, call)
         if isinstance(function, Mystery):
+            self.note_unknown_wait(function, call)
             return Mystery(function.unknown, call.text or f'{function.text}(…)')
         name = function.name if isinstance(function, Library) else 'this value'
         return self.mystery(f'result of {name}, which is not followed', call.place, name)

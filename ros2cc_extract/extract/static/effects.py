@@ -97,6 +97,9 @@ class Effects(Waits):
         note_once(accesses, access)
         if kind is AccessKind.WRITE:
             flags.put_down(self.world, name)
+        if not is_read:
+            is_open = self.world.path != self.world.callback_path
+            deeds.written.setdefault((name, place), (deeds.behind, is_open))
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over what ``node`` gives; over a copy of it nothing happens."""

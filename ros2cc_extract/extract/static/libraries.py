@@ -24,7 +24,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import NodeState, PlainState
+from ros2cc_extract.extract.static.world import NodeState, PlainState, ThreadState
 from ros2cc_extract.places import Place, Unknown
 
 _ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
@@ -119,6 +119,15 @@ class Libraries(Machine):
                 elif isinstance(option, Native) and option.name in _SPINS:
                     # Whoever is given a spin runs it, with what is handed along.
                     run_in_thread(self, option, Call(call.place, call.args[index + 1 :]))
+                else:
+                    self._give_away(option, call.place)
+
+    def _give_away(self, value: Value, place: Place) -> None:
+        """Unknown code that is given an event, a queue …, or a method of one, may end waits."""
+        thing = value.receiver if isinstance(value, Native) else value
+        if isinstance(thing, Instance) and isinstance(thing.state, (PlainState, ThreadState)):
+            why = Unknown('it is handed to code that is not followed', place)
+            self.world.given.setdefault(id(thing), why)
 
     def _is_standard(self, name: str) -> bool:
         return name.partition('.')[0] in sys.stdlib_module_names

@@ -31,7 +31,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
 )
-from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.extract.static.wakings import DataRef, Word
 from ros2cc_extract.extract.static.world import AccessKind, World
 from ros2cc_extract.places import Place, Unknown
 
@@ -328,6 +328,16 @@ class Machine(ABC):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+
+    @abstractmethod
+    def note_loop_on_data(
+        self, name: str, on: DataRef | Unknown | None, seconds: Unknown | None, place: Place
+    ) -> None:
+        """A loop goes on until somebody else has written what its test reads."""
+
+    @abstractmethod
+    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
+        """Something that could not be followed is called, perhaps by the name of a wait."""
 
     @abstractmethod
     def note_await(self, value: Value, place: Place) -> None:

@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, flags, loops, memo, same_tests
+from ros2cc_extract.extract.static import changing, flags, loops, memo, polls, same_tests
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
@@ -305,12 +305,15 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
     holds = changing.decide(machine, node.test, frame)
     if holds is False:
         return machine.execute_block(node.orelse, frame)
+    before = polls.mark(machine)
     machine.note_loop(node, frame)
     reason = Unknown('made in a while loop', frame.place(node))
     with loops.counted(machine, reason), _loop(machine, frame):
         flow = _round(machine, node.body, frame)
     if not flow & (BREAK | RETURN):
         machine.note_endless(node)
+    if flow & (NEXT | CONTINUE):
+        polls.note(machine, node, frame, before)
     return loops.after_loop(flow)
 
 

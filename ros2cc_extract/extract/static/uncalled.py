@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.relevance import noted_on, walk
+from ros2cc_extract.extract.static.relevance import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place, Unknown
@@ -23,6 +23,7 @@ _METHODS: dict[str, Word] = {
     'get_nowait': Word.GET,
     'task_done': Word.DONE,
     'release': Word.RELEASE,
+    **dict.fromkeys(CHANGING_METHODS, Word.WRITE),
 }
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
@@ -51,6 +52,14 @@ def uncalled_wakers(world: World, name: str, words: frozenset[Word]) -> Unknown 
     return None
 
 
+def data_is_written_elsewhere(world: World, names: frozenset[str]) -> Unknown | None:
+    """Why somebody who is not in sight may write the data of ``names`` (``Class.attribute``)."""
+    found = (
+        uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE})) for name in names
+    )
+    return next((why for why in found if why is not None), None)
+
+
 def _operations(tree: ast.Module) -> tuple[_Operation, ...]:
     return tuple(
         operation
@@ -65,6 +74,14 @@ def _of_function(
 ) -> Iterator[_Operation]:
     called = 'a lambda' if isinstance(node, ast.Lambda) else node.name
     for part in _own_parts(node):
+        target = part.value if isinstance(part, ast.Subscript) else part
+        is_stored = isinstance(part, (ast.Attribute, ast.Subscript, ast.Name))
+        if is_stored and not isinstance(part.ctx, ast.Load):
+            if isinstance(target, ast.Attribute):
+                yield _Operation(
+                    target.attr, Word.WRITE, part.lineno, part.col_offset + 1, id(node), called
+                )
+            continue
         if not isinstance(part, ast.Call) or not isinstance(part.func, ast.Attribute):
             continue
         word, owner = _METHODS.get(part.func.attr), part.func.value

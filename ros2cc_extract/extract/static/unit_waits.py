@@ -7,12 +7,19 @@ from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.setters import the_setter
-from ros2cc_extract.extract.static.uncalled import uncalled_wakers
+from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
-from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, SettableRef, Waking, Word
+from ros2cc_extract.extract.static.wakings import (
+    DataRef,
+    EntityRef,
+    ResourceRef,
+    SettableRef,
+    Waking,
+    Word,
+)
 from ros2cc_extract.extract.static.world import ActivityState, Deeds, EntityState, World, way_of
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Waker
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Blocking, Waker
 
 Doer = EntityState | ActivityState
 _SETTING = frozenset({Word.SET, Word.PUT})
@@ -45,6 +52,7 @@ class UnitWaits:
             if setter is not None and id(setter) in names:
                 self._settled[number] = names[id(setter)]
         doers = tuple(doers)
+        self._doers = doers
         self._kept = {id(doer): self._keep(doer.deeds or Deeds()) for doer in doers}
 
     def of(self, doer: Doer) -> tuple[Blocking, ...]:
@@ -78,6 +86,8 @@ class UnitWaits:
 
     def _named(self, raw: Blocking) -> Blocking:
         resource = raw.resource
+        if isinstance(raw.on, DataRef):
+            return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
         is_settled = not isinstance(resource, ResourceRef) or not _SETTING.isdisjoint(
             resource.ended_by
         )
@@ -105,7 +115,41 @@ class UnitWaits:
         setters = [waking for waking in wakings if waking.word is Word.SET]
         return bool(setters) and all(is_activity(waking.by) for waking in setters)
 
+    def _the_writer(self, on: DataRef) -> str:
+        """The one callback that writes what a loop waits for, else the name of the data."""
+        names = {
+            name for doer, _ in self._writes(on) if (name := self._names.get(id(doer))) is not None
+        }
+        is_open = data_is_written_elsewhere(self._world, on.names) is not None
+        is_one = len(names) == 1 and not is_open
+        doer = next((doer for doer, _ in self._writes(on)), None)
+        return names.pop() if is_one and not is_activity(doer) else str(on)
+
+    def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
+        """Who writes what a loop waits for, but for what its own callback did before."""
+        for doer in self._doers:
+            for access in (doer.deeds or Deeds()).writes:
+                is_before = (access.name, access.source) in on.before
+                if access.name in on.names and not is_before:
+                    yield doer, access
+
+    def _writers(self, on: DataRef) -> Iterator[Waker]:
+        for doer, access in self._writes(on):
+            written = (doer.deeds or Deeds()).written
+            behind, is_open = written.get((access.name, access.source), (None, False))
+            kept = self._kept[id(doer)]
+            yield Waker(
+                by=self._names[id(doer)],
+                source=access.source,
+                after=kept.places.get(behind, 0),
+                conditional=is_open,
+            )
+
     def _with_wakers(self, raw: Blocking, named: Blocking) -> Blocking:
+        if isinstance(raw.on, DataRef):
+            wakers = tuple(dict.fromkeys(self._writers(raw.on)))
+            why = data_is_written_elsewhere(self._world, raw.on.names)
+            return replace(named, wakers=wakers, escapes=why)
         row = WAITS.get(raw.call, NO_ROW)
         wakers = [Waker(by=by) for by in row.always]
         escapes = raw.escapes

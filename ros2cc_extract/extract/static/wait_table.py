@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static import outside_library
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Needs
 
@@ -58,6 +59,7 @@ WAITS: dict[str, WaitRow] = {
     'Process.join': _row(Word.END),
     'Future.result': _FUTURE,
     'Future.exception': _FUTURE,
+    'unknown wait': _row(Word.END),
     'await': _FUTURE,
     'busy wait': _FUTURE,
     'time.sleep': _SLEEP,
@@ -69,6 +71,7 @@ WAITS: dict[str, WaitRow] = {
     'Rate.sleep': _ANSWER,
     'wait_for_service': _OUTSIDE,
     'wait_for_server': _OUTSIDE,
+    **dict.fromkeys(outside_library.CALLS, _OUTSIDE),
 }
 
 NO_ROW = WaitRow()

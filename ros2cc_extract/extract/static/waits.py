@@ -8,8 +8,11 @@ from dataclasses import replace
 from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.unknown_waits import NAME as UNKNOWN_WAIT
+from ros2cc_extract.extract.static.unknown_waits import unknown_wait
 from ros2cc_extract.extract.static.values import (
     NONE,
+    Call,
     Const,
     Coroutine,
     Instance,
@@ -18,7 +21,14 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS, WaitRow
-from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, SettableRef, Waking, Word
+from ros2cc_extract.extract.static.wakings import (
+    DataRef,
+    EntityRef,
+    ResourceRef,
+    SettableRef,
+    Waking,
+    Word,
+)
 from ros2cc_extract.extract.static.world import (
     RECENT,
     ActivityState,
@@ -99,6 +109,37 @@ class Waits(Machine):
         touch(world.activity, thing)
         deeds.behind = way_of(block)
         _note_round(deeds, block, world.round)
+
+    def note_loop_on_data(
+        self, name: str, on: DataRef | Unknown | None, seconds: Unknown | None, place: Place
+    ) -> None:
+        """A loop goes on until somebody else has written what its test reads."""
+        world, deeds = self.world, self.world.deeds
+        if deeds is None:
+            return
+        block = Blocking(
+            call=name,
+            source=place,
+            on=on,
+            seconds=seconds,
+            chain=world.chain[1:],
+            held=held_over(world, None),
+            resource=on if isinstance(on, DataRef) else None,
+            escapes=on if isinstance(on, Unknown) else None,
+            conditional=world.path != world.callback_path,
+        )
+        deeds.behind = way_of(block)
+        if block not in deeds.blocking[-RECENT:]:
+            deeds.blocking.append(block)
+
+    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
+        """Something that could not be followed is called, perhaps by the name of a wait."""
+        if self.world.deeds is None:
+            return
+        why = unknown_wait(function, call, self.world.trees)
+        if why is not None:
+            timeout = call.keywords.get('timeout')
+            self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout, call.place)
 
     def _resource(self, thing: Instance | None, row: WaitRow) -> ResourceRef | None:
         if thing is None or not row.ended_by or _is_of_entity(thing):

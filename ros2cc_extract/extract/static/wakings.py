@@ -43,6 +43,7 @@ class Word(Enum):
     RELEASE = 'release'
     ARRIVE = 'arrive'
     END = 'end'
+    WRITE = 'write'
 
 
 class ResourceRef(SettableRef):
@@ -79,3 +80,16 @@ class Waking:
     conditional: bool = False
     after_spin: bool = False
     uncalled: str | None = None
+
+
+class DataRef(EntityRef):
+    """
+    Stands for plain data that a loop waits for somebody else to write.
+
+    :param names: what the test reads.
+    :param before: what the loop's own callback has written before the loop, and where.
+    """
+
+    number = 0
+    names: frozenset[str] = frozenset()
+    before: frozenset[tuple[str, Place | None]] = frozenset()

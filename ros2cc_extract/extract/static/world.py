@@ -247,6 +247,7 @@ class Deeds:
     What one callback or activity does, in the order of its text.
 
     :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
     blocking: list[Blocking] = field(default_factory=list)
@@ -257,6 +258,7 @@ class Deeds:
     changes: list[Act] = field(default_factory=list)
     rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
     behind: object = None
+    written: dict[object, tuple[object, bool]] = field(default_factory=dict)
 
 
 def way_of(block: Blocking) -> object:

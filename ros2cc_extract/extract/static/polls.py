@@ -1,0 +1,163 @@
+"""
+Loops that do nothing but wait until somebody else has changed plain data.
+
+``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; who writes what the test
+reads ends it.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.outside_waits import is_endless
+from ros2cc_extract.extract.static.relevance import walk
+from ros2cc_extract.extract.static.wait_table import WAITS
+from ros2cc_extract.extract.static.wakings import DataRef
+from ros2cc_extract.extract.static.world import Deeds
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import TIME
+
+POLL = 'polling loop'
+ENDLESS = 'endless loop'
+_LEAVES = (ast.Break, ast.Return, ast.Raise)
+_INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
+_NEUTRAL = frozenset(
+    ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
+)
+_ASKED = frozenset(['done', 'is_set', 'wait_for_service', 'service_is_ready', 'server_is_ready'])
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How much had been noted when a loop began."""
+
+    waits: int
+    writes: int
+
+
+def mark(machine: Machine) -> Mark | None:
+    """Before the loop; ``None`` where nothing is noted."""
+    deeds = machine.world.deeds
+    return None if deeds is None else Mark(len(deeds.blocking), len(deeds.writes))
+
+
+def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
+    """After one round of ``loop``."""
+    deeds = machine.world.deeds
+    if before is None or deeds is None or _is_told(machine, loop, deeds, before):
+        return
+    tests = list(_exit_tests(loop))
+    if not tests:
+        if is_endless(loop) and machine.world.in_callback and not _leaves(loop):
+            machine.note_loop_on_data(ENDLESS, None, None, frame.place(loop))
+        return
+    names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
+    written = {access.name for access in deeds.writes[before.writes :]}
+    if names & written:
+        return
+    _note(machine, loop, frame, tests, names)
+
+
+def _note(
+    machine: Machine, loop: ast.While, frame: Frame, tests: list[ast.expr], names: set[str]
+) -> None:
+    place = frame.place(tests[0])
+    ends_otherwise = any(_is_foreign(test, loop) for test in tests)
+    if names:
+        own = frozenset(
+            (access.name, access.source) for access in (machine.world.deeds or Deeds()).writes
+        )
+        reference = DataRef(sorted(names)[0])
+        reference.names, reference.before = frozenset(names), own
+        reason = Unknown('the loop also ends otherwise', place)
+        machine.note_loop_on_data(POLL, reference, reason if ends_otherwise else None, place)
+    elif not ends_otherwise and not any(_asks_object(test) for test in tests):
+        text = ' or '.join(ast.unparse(test) for test in tests)
+        unknown = Unknown(f'what ends the loop: {text}', place)
+        machine.note_loop_on_data(POLL, unknown, None, place)
+
+
+def _is_told(machine: Machine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
+    """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
+    inside = deeds.blocking[before.waits :]
+    others = [block for block in inside if not _is_pause(block.call)]
+    if any(block.call in ('busy wait', 'await') or 'spin' in block.call for block in others):
+        return True
+    return bool(others) and machine.world.activity is None
+
+
+def _is_pause(call: str) -> bool:
+    row = WAITS.get(call)
+    return call == 'Rate.sleep' or (row is not None and row.always == (TIME,))
+
+
+def _exit_tests(loop: ast.While) -> Iterator[ast.expr]:
+    """Tests one of which must come out otherwise for the loop to end."""
+    if not is_endless(loop):
+        yield loop.test
+    for part in _own_parts(loop):
+        if isinstance(part, ast.If) and any(
+            isinstance(each, _LEAVES) for arm in (part.body, part.orelse) for each in arm
+        ):
+            yield part.test
+
+
+def _leaves(loop: ast.While) -> bool:
+    return any(isinstance(part, (*_LEAVES, ast.Yield, ast.Await)) for part in _own_parts(loop))
+
+
+def _own_parts(loop: ast.While) -> Iterator[ast.AST]:
+    """What stands in the body of a loop, and in no function inside of it."""
+    waiting: list[ast.AST] = list(loop.body)
+    while waiting:
+        part = waiting.pop(0)
+        if not isinstance(part, _INNER):
+            yield part
+            waiting.extend(ast.iter_child_nodes(part))
+
+
+def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
+    """Names of the shared data that the tests read."""
+    world = machine.world
+    noted, world.deeds = world.deeds, Deeds()
+    try:
+        for test in tests:
+            machine.evaluate(test, frame)
+        return {access.name for access in world.deeds.reads}
+    finally:
+        world.deeds = noted
+
+
+def _is_foreign(test: ast.expr, loop: ast.While) -> bool:
+    """Whether something else than shared data may turn out otherwise: a clock, a counter."""
+    assigned = {
+        part.id
+        for each in loop.body
+        for part in walk(each)
+        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+    }
+    for part in walk(test):
+        if isinstance(part, ast.Name) and part.id in assigned:
+            return True
+        if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not _is_neutral(part):
+            return True
+    return False
+
+
+def _is_neutral(part: ast.expr) -> bool:
+    function = part.func if isinstance(part, ast.Call) else None
+    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
+    return name in _NEUTRAL
+
+
+def _asks_object(test: ast.expr) -> bool:
+    """What is asked by a method is told where that is noted."""
+    return any(
+        isinstance(part, ast.Call)
+        and isinstance(part.func, ast.Attribute)
+        and part.func.attr in _ASKED
+        for part in walk(test)
+    )
