@@ -54,7 +54,7 @@ if __name__ == '__main__':
 #     changes timer @29>20
 #   timer tock in a_default every 1 coroutine
 #     blocks busy wait on go_client @33
-#     blocks await on woken through woken#2 conditional @35>21
+#     blocks await on lambda_set_result through woken#2 conditional @35>21
 #       ended by lambda_set_result @20
 #     blocks time.sleep 0.01 s @36
 #     changes timer @35>20

@@ -11,10 +11,11 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
+    NONE,
     Bound,
     Call,
-    Const,
     Function,
+    Instance,
     Native,
     Partial,
     Value,
@@ -128,12 +129,13 @@ def spins(world: World, *, for_ever: bool) -> None:
 
 
 def _code_of(target: Value | None, call: Call) -> object:
-    """Equal for what runs one text on one object with the same arguments, numbers aside."""
-    arguments = tuple(
-        None if isinstance(value, Const) else id(value)
-        for value in (*call.args, *call.keywords.values())
-    )
-    return tuple(_text_of(option) for option in options_of(target or Const(None))), arguments
+    """Equal for what runs one text on one object, for the same objects and functions."""
+    given = (option for v in (*call.args, *call.keywords.values()) for option in options_of(v))
+    arguments = tuple(_text_of(v) for v in given if isinstance(v, (Instance, *_CODE)))
+    return tuple(_text_of(option) for option in options_of(target or NONE)), arguments
+
+
+_CODE = (Bound, Function, Partial)
 
 
 def _text_of(target: Value) -> object:

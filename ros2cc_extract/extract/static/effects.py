@@ -238,6 +238,8 @@ class Effects(Waits):
             name = str(key.value)
         elif isinstance(key, Mystery):
             name = key.unknown
+        is_open = self.world.path != self.world.callback_path
+        deeds.written.setdefault((name, place), (deeds.behind, is_open))
         note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:

@@ -80,6 +80,8 @@ class Expressions(Machine):
             return (), Unknown('one of several sequences, depending on a branch', place)
         if isinstance(value, Mystery):
             return (), Unknown(value.unknown.reason, value.unknown.at or place)
+        if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
+            self.note_blocking('Executor.map', value, None, place)
         return (), Unknown('a sequence that could not be followed', place)
 
     def truth(self, value: Value) -> bool | None:

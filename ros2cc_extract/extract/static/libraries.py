@@ -6,6 +6,7 @@ import sys
 
 from ros2cc_extract.extract.static import again, rclpy_api
 from ros2cc_extract.extract.static.activities import run_in_thread
+from ros2cc_extract.extract.static.futures_library import is_pool, note_leaving
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, UNKNOWN_CLIENT, result_of
@@ -212,6 +213,11 @@ class Libraries(Machine):
         if name in _ENTITY_ONLY and value.text and not _is_no_node(value):
             return self.library_member(Library(NODE), ghost_node(self, value), name, place)
         return None
+
+    def leave_context(self, value: Value, place: Place) -> None:
+        """A ``with`` over ``value`` ends; a pool waits for all that was handed to it."""
+        if is_pool(value):
+            note_leaving(self, value, place)
 
     def awaited(self, future: Instance, place: Place) -> Value:
         """What awaiting a future gives."""

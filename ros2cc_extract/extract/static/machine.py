@@ -187,6 +187,10 @@ class Machine(ABC):
         """What ``with value as x`` binds to ``x``."""
 
     @abstractmethod
+    def leave_context(self, value: Value, place: Place) -> None:
+        """A ``with`` over ``value`` ends."""
+
+    @abstractmethod
     def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
         """An attribute is touched; matters while a callback runs."""
 

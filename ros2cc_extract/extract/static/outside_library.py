@@ -49,6 +49,7 @@ _FUNCTIONS: dict[str, _Wait] = {
     'subprocess.getoutput': _BY_NAME,
     'subprocess.getstatusoutput': _BY_NAME,
     'os.system': _BY_NAME,
+    'os.read': _BY_NAME,
     'os.wait': _BY_NAME,
     'os.waitpid': _BY_NAME,
     'builtins.input': _BY_NAME,

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.outside_waits import is_endless
+from ros2cc_extract.extract.static.outside_waits import is_endless, is_idle
 from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef
@@ -27,6 +27,7 @@ _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 _NEUTRAL = frozenset(
     ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
 )
+_CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
 _ASKED = frozenset(['done', 'is_set', 'wait_for_service', 'service_is_ready', 'server_is_ready'])
 
 
@@ -74,10 +75,28 @@ def _note(
         reference.names, reference.before = frozenset(names), own
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(POLL, reference, reason if ends_otherwise else None, place)
-    elif not ends_otherwise and not any(_asks_object(test) for test in tests):
+    elif (not ends_otherwise or _is_idle(loop, tests)) and not any(
+        _asks_object(test) for test in tests
+    ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
         machine.note_loop_on_data(POLL, unknown, None, place)
+
+
+def _is_idle(loop: ast.While, tests: list[ast.expr]) -> bool:
+    """Whether it only sleeps until something is answered otherwise that no clock tells."""
+    called = {
+        _name_of(part) for test in tests for part in walk(test) if isinstance(part, ast.Call)
+    }
+    return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
+
+
+def _counts(loop: ast.While) -> bool:
+    return any(
+        isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+        for each in loop.body
+        for part in walk(each)
+    )
 
 
 def _is_told(machine: Machine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
@@ -148,9 +167,12 @@ def _is_foreign(test: ast.expr, loop: ast.While) -> bool:
 
 
 def _is_neutral(part: ast.expr) -> bool:
-    function = part.func if isinstance(part, ast.Call) else None
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-    return name in _NEUTRAL
+    return isinstance(part, ast.Call) and _name_of(part) in _NEUTRAL
+
+
+def _name_of(call: ast.Call) -> str:
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
 
 
 def _asks_object(test: ast.expr) -> bool:

@@ -7,11 +7,11 @@ import ast
 from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
+from ros2cc_extract.extract.static.futures_library import run_in_executor
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
 from ros2cc_extract.extract.static.memo import keep_results
-from ros2cc_extract.extract.static.threads_library import run_in_executor
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import When
 
 _RANGE_LIMIT = 100_000
 
@@ -313,7 +314,13 @@ _EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stac
 
 
 def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
-    results = [machine.await_value(arg, call.place) for arg in call.args]
+    """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
+    world = machine.world
+    before, world.on_loop = world.on_loop, world.in_callback
+    try:
+        results = [machine.await_value(arg, call.place) for arg in call.args]
+    finally:
+        world.on_loop = before
     return results[0] if results else NONE
 
 
@@ -321,7 +328,7 @@ def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
     """The event loop runs it later: the callback that hands it over does none of it."""
     world = machine.world
     deeds, held = world.deeds, world.held
-    if deeds is None:
+    if deeds is None or (world.activity is not None and world.when is When.START):
         return _run_coroutine(machine, receiver, call)
     world.deeds, world.held = None, ()
     try:
@@ -397,7 +404,6 @@ _FUNCTIONS: dict[str, Handler] = {
     'asyncio.wait': _run_coroutine,
     'asyncio.create_task': _make_task,
     'asyncio.ensure_future': _make_task,
-    'asyncio.run_coroutine_threadsafe': _make_task,
     'collections.deque': _deque,
     'collections.OrderedDict': _dict,
     'collections.defaultdict': _defaultdict,
@@ -408,7 +414,14 @@ _FUNCTIONS: dict[str, Handler] = {
 
 def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
-    return machine.mystery('result of asyncio.sleep', call.place, 'asyncio.sleep')
+    return NONE
+
+
+def _call_soon(machine: Machine, receiver: Value, call: Call) -> Value:
+    """The loop calls it, which whoever hands it over need not wait for."""
+    if call.args:
+        machine.call(call.args[0], Call(call.place, call.args[1:]))
+    return NONE
 
 
 def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -420,6 +433,9 @@ def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
 _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_coroutine,
     'create_task': _make_task,
+    'create_future': lambda machine, receiver, call: machine.future(call.place, 'future'),
+    'call_soon': _call_soon,
+    'call_soon_threadsafe': _call_soon,
     'run_forever': _run_forever,
     'run_in_executor': run_in_executor,
 }

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from ros2cc_extract.extract.static import (
+    futures_library,
     outside_library,
     python_library,
     queues_library,
@@ -50,6 +51,7 @@ def table() -> Library:
         [
             python_library.TABLE,
             threads_library.TABLE,
+            futures_library.TABLE,
             queues_library.TABLE,
             outside_library.TABLE,
             ros_groups.TABLE,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.ending import note_use
+from ros2cc_extract.extract.static.futures_library import FUTURE
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_executors import (
@@ -13,6 +15,7 @@ from ros2cc_extract.extract.static.ros_nodes import NODE, mark_destroyed
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
+    Const,
     Handler,
     Instance,
     Value,
@@ -21,7 +24,7 @@ from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.spec.model import ActivityKind, EntityKind
 
 
 def _blocking(name: str, position: int | None) -> Handler:
@@ -56,7 +59,10 @@ def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
     """Done-callbacks run as tasks of the executor, in no group (measured)."""
     assert isinstance(receiver, Instance)
     state = receiver.state
-    if not isinstance(state, PlainState) or state.kind == 'pool':
+    if isinstance(state, PlainState) and state.kind == FUTURE and call.args:
+        # Who ends the task runs it, in a thread of the pool.
+        begin(machine, ActivityKind.POOL, call.args[0], Call(call.place, [receiver]))
+    if not isinstance(state, PlainState) or state.kind == FUTURE:
         return NONE
     source = state.of.state if isinstance(state.of, Instance) else None
     node = source.node if isinstance(source, EntityState) else None
@@ -94,9 +100,23 @@ def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    if receiver.state.kind == 'pool':
+    if receiver.state.kind == FUTURE:
         machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
     return result_of(machine, receiver, call.place)
+
+
+def _future_exception(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    if receiver.state.kind == FUTURE:
+        timeout = call.argument(0, 'timeout')
+        machine.note_blocking('Future.exception', receiver, timeout, call.place)
+    return machine.mystery('exception of a future', call.place, 'exception()')
+
+
+def _future_done(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who has asked whether it is done does not wait for it."""
+    machine.world.asked.add(id(receiver))
+    return machine.mystery('whether a future is done', call.place, 'done()')
 
 
 def _set_result(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -134,6 +154,8 @@ def future_class(kind: str) -> LibraryClass:
         methods={
             'add_done_callback': _add_done_callback,
             'result': _future_result,
+            'exception': _future_exception,
+            'done': _future_done,
             'set_result': _set_result,
             'set_exception': _set_result,
         },
@@ -141,6 +163,22 @@ def future_class(kind: str) -> LibraryClass:
 
 
 _ENTITY: dict[str, Handler] = {'destroy': _destroy}
+
+
+def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
+    """It takes the message itself, in the thread that waits (``wait_for_message.py``)."""
+    topic = Instance(Name('rclpy.topic'), call.place)
+    topic.state = PlainState('topic', call.argument(2, 'topic'), place=call.place)
+    timeout = call.argument(None, 'time_to_wait')
+    if (
+        isinstance(timeout, Const)
+        and isinstance(timeout.value, (int, float))
+        and timeout.value < 0
+    ):
+        timeout = None
+    machine.note_blocking('wait_for_message', topic, timeout, call.place)
+    return machine.mystery('a message at run time', call.place, 'wait_for_message(…)')
+
 
 TABLE = Library(
     classes={
@@ -169,6 +207,7 @@ TABLE = Library(
         'rclpy.task.Future': future_class('future'),
         'rclpy.task.Task': future_class('task'),
     },
+    functions={'rclpy.wait_for_message.wait_for_message': _wait_for_message},
 )
 
 NODE_EXECUTOR = (NODE, node_executor_property)

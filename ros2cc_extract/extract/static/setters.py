@@ -7,15 +7,17 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.wakings import Waking, Word
 from ros2cc_extract.extract.static.world import EntityState
 
+_SETTING = frozenset({Word.SET})
 
-def the_setter(wakings: Sequence[Waking]) -> EntityState | None:
+
+def the_setter(wakings: Sequence[Waking], words: frozenset[Word] = _SETTING) -> EntityState | None:
     """
     The one callback that sets something; ``None`` where it may be set otherwise.
 
     Inputs of one message filter run one function in one group: the first stands for all, since
     whatever keeps one of them from running keeps them all.
     """
-    setters = [waking.by for waking in wakings if waking.word in (Word.SET, Word.PUT)]
+    setters = [waking.by for waking in wakings if waking.word in words]
     first = setters[0] if setters else None
     if not isinstance(first, EntityState) or not all(_alike(first, by) for by in setters):
         return None

@@ -234,13 +234,18 @@ def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], 
 
 def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
     held = machine.world.held
+    entered_ones: list[tuple[Value, Place]] = []
     try:
         for item in node.items:
             value = machine.evaluate(item.context_expr, frame)
             entered = machine.enter_context(value, frame.place(item.context_expr))
             if item.optional_vars is not None:
                 machine.assign(item.optional_vars, entered, frame)
-        return machine.execute_block(node.body, frame)
+            entered_ones.append((entered, frame.place(item.context_expr)))
+        flow = machine.execute_block(node.body, frame)
+        for value, place in reversed(entered_ones):
+            machine.leave_context(value, place)
+        return flow
     finally:
         machine.world.held = flags.after_block(held, machine.world.held)
 

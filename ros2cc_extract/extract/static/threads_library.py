@@ -80,23 +80,6 @@ def _is_daemon(thread: Instance) -> bool:
     return bool(thread.slots.get('daemon', NONE) == Const(True))
 
 
-def _submit(machine: Machine, receiver: Value, call: Call) -> Value:
-    future = machine.future(call.place, 'pool')
-    if call.args:
-        inner = Call(call.place, call.args[1:], call.keywords, call.more)
-        begin(machine, ActivityKind.POOL, call.args[0], inner, future)
-    return future
-
-
-def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``loop.run_in_executor(pool, function, …)``."""
-    future = machine.future(call.place, 'pool')
-    if len(call.args) > 1:
-        inner = Call(call.place, call.args[2:])
-        begin(machine, ActivityKind.POOL, call.args[1], inner, future)
-    return future
-
-
 def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
     if call.args:
         inner = _target_call(machine, call, call.argument(1), call.argument(2))
@@ -132,6 +115,26 @@ def _wakes(word: Word) -> Handler:
 def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_acquire(receiver, call.place, may_fail=bool(call.args or call.keywords))
     return machine.mystery('result of acquire', call.place)
+
+
+def _take(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who gives it back himself takes it as a lock, else it is a wait for others."""
+    blocking = call.argument(0, 'blocking')
+    if not (isinstance(blocking, Const) and not blocking.value):
+        timeout = call.argument(1, 'timeout')
+        machine.note_blocking('Semaphore.acquire', receiver, timeout, call.place)
+    return _acquire(machine, receiver, call)
+
+
+def _give(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_wake(receiver, Word.RELEASE, call.place)
+    return _release(machine, receiver, call)
+
+
+def _meet(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Whoever comes to a barrier is waited for by the others."""
+    machine.note_wake(receiver, Word.ARRIVE, call.place)
+    return _blocking('Barrier.wait', 0, 'timeout')(machine, receiver, call)
 
 
 def _release(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -193,18 +196,14 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         'notify_all': _wakes(Word.SET),
         'notifyAll': _wakes(Word.SET),
     },
-    'semaphore': _LOCK_METHODS,
+    'semaphore': {'acquire': _take, 'release': _give},
     'event': {
         'wait': _blocking('Event.wait', 0, 'timeout'),
         'set': _set,
         'clear': _clear,
         'is_set': _is_set,
     },
-    'barrier': {'wait': _blocking('Barrier.wait', 0, 'timeout')},
-    'pool': {
-        'submit': _submit,
-        'map': lambda machine, receiver, call: machine.mystery('results of a pool', call.place),
-    },
+    'barrier': {'wait': _meet},
 }
 
 
@@ -244,15 +243,9 @@ TABLE = Library(
         'threading.BoundedSemaphore': _plain('semaphore'),
         'threading.Event': _plain('event'),
         'threading.Barrier': _plain('barrier'),
-        'concurrent.futures.ThreadPoolExecutor': _plain('pool'),
-        'concurrent.futures.ProcessPoolExecutor': _plain('pool'),
     },
     functions={
         'time.sleep': _sleep,
         '_thread.start_new_thread': _start_new,
-        'asyncio.to_thread': _submit,
-    },
-    aliases={
-        'concurrent.futures.thread.ThreadPoolExecutor': 'concurrent.futures.ThreadPoolExecutor'
     },
 )

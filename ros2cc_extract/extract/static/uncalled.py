@@ -74,20 +74,24 @@ def _of_function(
 ) -> Iterator[_Operation]:
     called = 'a lambda' if isinstance(node, ast.Lambda) else node.name
     for part in _own_parts(node):
-        target = part.value if isinstance(part, ast.Subscript) else part
-        is_stored = isinstance(part, (ast.Attribute, ast.Subscript, ast.Name))
-        if is_stored and not isinstance(part.ctx, ast.Load):
-            if isinstance(target, ast.Attribute):
-                yield _Operation(
-                    target.attr, Word.WRITE, part.lineno, part.col_offset + 1, id(node), called
-                )
-            continue
+        written = _written(part)
+        if written is not None:
+            at = (written.lineno, written.col_offset + 1)
+            yield _Operation(written.attr, Word.WRITE, *at, id(node), called)
         if not isinstance(part, ast.Call) or not isinstance(part.func, ast.Attribute):
             continue
         word, owner = _METHODS.get(part.func.attr), part.func.value
         name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, 'id', None)
         if word is not None and name is not None:
             yield _Operation(name, word, part.lineno, part.col_offset + 1, id(node), called)
+
+
+def _written(part: ast.AST) -> ast.Attribute | None:
+    """The attribute that gets a new value or a new item."""
+    if isinstance(part, ast.Subscript) and not isinstance(part.ctx, ast.Load):
+        return part.value if isinstance(part.value, ast.Attribute) else None
+    is_stored = isinstance(part, ast.Attribute) and not isinstance(part.ctx, ast.Load)
+    return part if is_stored and isinstance(part, ast.Attribute) else None
 
 
 def _own_parts(node: ast.AST) -> Iterator[ast.AST]:

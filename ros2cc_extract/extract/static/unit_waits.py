@@ -14,15 +14,15 @@ from ros2cc_extract.extract.static.wakings import (
     EntityRef,
     ResourceRef,
     SettableRef,
+    TopicRef,
     Waking,
     Word,
 )
 from ros2cc_extract.extract.static.world import ActivityState, Deeds, EntityState, World, way_of
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Blocking, Waker
 
 Doer = EntityState | ActivityState
-_SETTING = frozenset({Word.SET, Word.PUT})
 
 
 @dataclass
@@ -53,19 +53,19 @@ class UnitWaits:
                 self._settled[number] = names[id(setter)]
         doers = tuple(doers)
         self._doers = doers
-        self._kept = {id(doer): self._keep(doer.deeds or Deeds()) for doer in doers}
+        self._kept = {id(doer): self._keep(doer) for doer in doers}
 
     def of(self, doer: Doer) -> tuple[Blocking, ...]:
         """The waits of ``doer``."""
         kept = self._kept[id(doer)]
         pairs = zip(kept.raw, kept.named, strict=True)
-        return tuple(self._with_wakers(raw, named) for raw, named in pairs)
+        return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
 
-    def _keep(self, deeds: Deeds) -> _Kept:
+    def _keep(self, doer: Doer) -> _Kept:
         """Waits for one of several that have no name here are alike."""
         kept = _Kept()
-        for raw in deeds.blocking:
-            if not self._is_none(raw):
+        for raw in (doer.deeds or Deeds()).blocking:
+            if not self._is_none(raw) and not self._gives_back(raw, doer):
                 named = self._named(raw)
                 if named not in kept.named:
                     kept.raw.append(raw)
@@ -81,22 +81,41 @@ class UnitWaits:
         if not isinstance(reference, ResourceRef) or not reference.asked:
             return False
         rival = WAITS[raw.call].rival
+        if rival is None:
+            return True
         wakings = wakings_of(self._world, reference)
         return len({id(waking.by) for waking in wakings if waking.word is rival}) < 2
+
+    def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
+        """Whether who takes a semaphore gives it back too, so that it is a lock."""
+        reference = raw.resource
+        if raw.call != 'Semaphore.acquire' or not isinstance(reference, ResourceRef):
+            return False
+        wakings = wakings_of(self._world, reference)
+        return any(waking.by is doer for waking in wakings if waking.word is Word.RELEASE)
 
     def _named(self, raw: Blocking) -> Blocking:
         resource = raw.resource
         if isinstance(raw.on, DataRef):
             return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
-        is_settled = not isinstance(resource, ResourceRef) or not _SETTING.isdisjoint(
-            resource.ended_by
-        )
-        on = _waited_name(raw.on, self._settled if is_settled else {})
+        if isinstance(raw.on, TopicRef):
+            return replace(raw, on=str(raw.on), resource=str(raw.on))
+        on = _waited_name(raw.on, self._settled)
+        if isinstance(resource, ResourceRef):
+            on = self._the_waker(raw, resource) or (str(raw.on) if on is not None else None)
         if isinstance(resource, ResourceRef):
             resource = self._resource(resource)
         elif isinstance(raw.on, EntityRef) and isinstance(on, str):
             resource = on
         return replace(raw, on=on, foreign=self._is_foreign(raw.on), resource=resource)
+
+    def _the_waker(self, raw: Blocking, reference: ResourceRef) -> str | None:
+        """The one callback that ends a wait, where nothing else can."""
+        wakings = wakings_of(self._world, reference)
+        setter = the_setter(wakings, reference.ended_by)
+        mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        is_open = raw.escapes is not None or self._why_open(mine, reference) is not None
+        return None if setter is None or is_open else self._names.get(id(setter))
 
     def _resource(self, reference: ResourceRef) -> str:
         known = self._resources.get(reference.number)
@@ -135,26 +154,34 @@ class UnitWaits:
 
     def _writers(self, on: DataRef) -> Iterator[Waker]:
         for doer, access in self._writes(on):
-            written = (doer.deeds or Deeds()).written
-            behind, is_open = written.get((access.name, access.source), (None, False))
-            kept = self._kept[id(doer)]
-            yield Waker(
-                by=self._names[id(doer)],
-                source=access.source,
-                after=kept.places.get(behind, 0),
-                conditional=is_open,
-            )
+            yield self._does(doer, access.name, access.source)
 
-    def _with_wakers(self, raw: Blocking, named: Blocking) -> Blocking:
+    def _senders(self, topic: TopicRef) -> Iterator[Waker]:
+        """Who publishes what is waited for; the names are compared as they are written."""
+        for doer in self._doers:
+            for act in (doer.deeds or Deeds()).publishes:
+                if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
+                    yield self._does(doer, act.name, act.source)
+
+    def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
+        """A write or a message of ``doer`` that ends a wait."""
+        behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
+        after = self._kept[id(doer)].places.get(behind, 0)
+        return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
+
+    def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
+        if isinstance(raw.on, TopicRef):
+            senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
+            return replace(named, wakers=senders)
         if isinstance(raw.on, DataRef):
-            wakers = tuple(dict.fromkeys(self._writers(raw.on)))
+            writers = tuple(dict.fromkeys(self._writers(raw.on)))
             why = data_is_written_elsewhere(self._world, raw.on.names)
-            return replace(named, wakers=wakers, escapes=why)
+            return replace(named, wakers=writers, escapes=why)
         row = WAITS.get(raw.call, NO_ROW)
         wakers = [Waker(by=by) for by in row.always]
         escapes = raw.escapes
         if isinstance(raw.resource, ResourceRef):
-            more, why = self._wakers_of(raw.resource)
+            more, why = self._wakers_of(raw.resource, doer)
             wakers += more
             escapes = escapes or why
         elif row.ended_by and isinstance(raw.on, EntityRef):
@@ -165,9 +192,11 @@ class UnitWaits:
             escapes = raw.on if isinstance(raw.on, Unknown) else unknown
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
 
-    def _wakers_of(self, reference: ResourceRef) -> tuple[list[Waker], Unknown | None]:
+    def _wakers_of(self, reference: ResourceRef, doer: Doer) -> tuple[list[Waker], Unknown | None]:
         wakings = wakings_of(self._world, reference)
         mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        if Word.ARRIVE in reference.ended_by:
+            mine = [waking for waking in mine if waking.by is not doer]
         found = [waker for waking in mine for waker in self._wakers(waking, reference)]
         return found, self._why_open(mine, reference)
 

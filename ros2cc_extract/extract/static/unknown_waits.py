@@ -22,6 +22,19 @@ _OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
 _FUTURES_FROM = frozenset(['asyncio', 'concurrent', 'multiprocessing'])
 
 
+CLOCKS = {'sleep_for': 'Clock.sleep_for', 'sleep_until': 'Clock.sleep_until'}
+"""Methods that nothing but a clock has; the clock of a node is not followed."""
+
+DURATION = Unknown('a duration that could not be followed')
+
+
+def called_name(call: Call) -> str:
+    """The method that is called."""
+    node = call.text
+    is_method = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+    return node.func.attr if is_method else ''  # type: ignore[union-attr]
+
+
 def unknown_wait(function: Mystery, call: Call, trees: list[ast.Module]) -> Unknown | None:
     """Why ``call`` may wait for something that is not known; ``None`` where it does not wait."""
     node = call.text

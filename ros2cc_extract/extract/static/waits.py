@@ -8,8 +8,13 @@ from dataclasses import replace
 from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.unknown_waits import (
+    CLOCKS,
+    DURATION,
+    called_name,
+    unknown_wait,
+)
 from ros2cc_extract.extract.static.unknown_waits import NAME as UNKNOWN_WAIT
-from ros2cc_extract.extract.static.unknown_waits import unknown_wait
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -26,6 +31,7 @@ from ros2cc_extract.extract.static.wakings import (
     EntityRef,
     ResourceRef,
     SettableRef,
+    TopicRef,
     Waking,
     Word,
 )
@@ -58,7 +64,8 @@ class Waits(Machine):
         deeds = self.world.deeds
         if deeds is None and not outside_waits.is_idle(node):
             return
-        gives_back = self.world.in_callback and outside_waits.awaits_each_round(node)
+        frees = self.world.in_callback and not self.world.on_loop
+        gives_back = frees and outside_waits.awaits_each_round(node)
         place, is_known = frame.place(node), False
         for part in ast.walk(node.test):
             if (
@@ -136,6 +143,10 @@ class Waits(Machine):
         """Something that could not be followed is called, perhaps by the name of a wait."""
         if self.world.deeds is None:
             return
+        clock = CLOCKS.get(called_name(call))
+        if clock is not None:
+            self.note_blocking(clock, None, Mystery(DURATION), call.place)
+            return
         why = unknown_wait(function, call, self.world.trees)
         if why is not None:
             timeout = call.keywords.get('timeout')
@@ -182,6 +193,8 @@ class Waits(Machine):
             source = state.of if isinstance(state, PlainState) and state.of else value
             if isinstance(source, Instance) and isinstance(source.state, EntityState):
                 return EntityRef.to_object(source.state, source.state.kind.value)
+            if isinstance(state, PlainState) and state.kind == 'topic':
+                return _topic(state.key, value.place)
             if isinstance(state, PlainState) and state.kind in _SETTABLE:
                 return SettableRef.to_object(value, value.hint or value.class_name)
             if isinstance(value.state, (NodeState, ExecutorState)):
@@ -191,8 +204,10 @@ class Waits(Machine):
 
     def note_await(self, value: Value, place: Place) -> None:
         """A callback awaits ``value``; awaiting its own coroutine is only a call."""
-        if not isinstance(value, Coroutine):
-            self.note_blocking('await', value, None, place)
+        if not isinstance(value, (Coroutine, Const)):
+            self.note_blocking(
+                'asyncio await' if self.world.on_loop else 'await', value, None, place
+            )
 
     def note_wake(self, thing: Value, word: Word, place: Place) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
@@ -242,6 +257,13 @@ class Waits(Machine):
         if node is not None:
             self.note_change(change, node, place)
         return True
+
+
+def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:
+    if isinstance(name, Const) and isinstance(name.value, str):
+        return TopicRef(name.value)
+    unknown = Unknown('topic that could not be followed', place)
+    return name.unknown if isinstance(name, Mystery) else unknown
 
 
 def _is_main(activity: ActivityState | None) -> bool:

@@ -93,3 +93,9 @@ class DataRef(EntityRef):
     number = 0
     names: frozenset[str] = frozenset()
     before: frozenset[tuple[str, Place | None]] = frozenset()
+
+
+class TopicRef(EntityRef):
+    """Stands for the topic of which somebody waits for a message."""
+
+    number = 0

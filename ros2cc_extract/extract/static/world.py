@@ -341,6 +341,7 @@ class World:
     :param activity: the thread or the part of the main program that is followed.
     :param activities: all of them, in the order of their start.
     :param told: how many of them were followed for what they do.
+    :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
     :param retelling: one is followed for what it does; what it makes is known already.
     :param called: every function that was followed, by the identity of its statement.
     :param subclasses: the direct ones of each class, in the order of their definition.
@@ -408,7 +409,7 @@ class World:
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False
-    awaiting: bool = False
+    on_loop: bool = False
     nodes: list[Instance] = field(default_factory=list)
     entities: list[EntityState] = field(default_factory=list)
     spins: dict[object, Spin] = field(default_factory=dict)

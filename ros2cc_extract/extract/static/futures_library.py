@@ -1,0 +1,190 @@
+"""
+Pools of the standard library and what is handed to them: futures, and who waits for them.
+
+Sources: CPython 3.12, ``concurrent/futures/_base.py`` (``wait``, ``as_completed``, ``map``,
+leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threadsafe``).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static.activities import begin
+from ros2cc_extract.extract.static.containers import Sequence
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Coroutine,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.extract.static.world import PlainState
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import ActivityKind
+
+FUTURE = 'pool'
+"""Kind of a future that waits when it is asked."""
+
+_HANDED_OVER = '__handed_over__'
+_FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
+
+
+def submit(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``pool.submit(function, …)``, ``asyncio.to_thread(function, …)``."""
+    future = machine.future(call.place, FUTURE)
+    if call.args:
+        inner = Call(call.place, call.args[1:], call.keywords, call.more)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, future)
+    _keep(machine, receiver, future)
+    return future
+
+
+def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``loop.run_in_executor(pool, function, …)``."""
+    future = machine.future(call.place, FUTURE)
+    if len(call.args) > 1:
+        begin(machine, ActivityKind.POOL, call.args[1], Call(call.place, call.args[2:]), future)
+        _keep(machine, call.args[0], future)
+    return future
+
+
+def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``asyncio.run_coroutine_threadsafe(coroutine, loop)``: the thread of the loop runs it."""
+    future = machine.future(call.place, FUTURE)
+    coroutine = call.args[0] if call.args else NONE
+    target: Value = coroutine
+    inner = Call(call.place)
+    if isinstance(coroutine, Coroutine):
+        target = coroutine.function
+        inner = Call(call.place, coroutine.call.args, coroutine.call.keywords, coroutine.call.more)
+    begin(machine, ActivityKind.THREAD, target, inner, future)
+    return future
+
+
+def _keep(machine: Machine, pool: Value, future: Value) -> None:
+    """Who waits for the end of a pool waits for all that was handed to it."""
+    if isinstance(pool, Instance):
+        kept = pool.slots.get(_HANDED_OVER, ())
+        machine.store.write(pool, _HANDED_OVER, (*kept, future))
+
+
+def _map(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Its results wait for all calls, when somebody goes over them."""
+    results = machine.future(call.place, FUTURE)
+    results.hint = 'map'
+    if call.args:
+        items = [loops.items_in(machine, each, call.place) for each in call.args[1:]]
+        given = [choice(list(each.known)) if each.known else _item(each) for each in items]
+        begin(machine, ActivityKind.POOL, call.args[0], Call(call.place, given), results)
+    _keep(machine, receiver, results)
+    return results
+
+
+def _item(items: loops.Items) -> Value:
+    return Mystery(items.others or Unknown('item that could not be followed'), 'item')
+
+
+def note_leaving(machine: Machine, pool: Value, place: Place) -> None:
+    """A pool ends: all that was handed to it must have come to its end."""
+    kept = pool.slots.get(_HANDED_OVER, ()) if isinstance(pool, Instance) else ()
+    for future in dict.fromkeys(option for each in kept for option in options_of(each)):
+        machine.note_blocking('Executor.shutdown', future, None, place)
+
+
+def is_pool(value: Value) -> bool:
+    """Whether leaving a ``with`` over it waits."""
+    state = value.state if isinstance(value, Instance) else None
+    return isinstance(state, PlainState) and state.kind == 'executor'
+
+
+def _shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
+    wait = call.argument(0, 'wait')
+    if not (isinstance(wait, Const) and not wait.value):
+        note_leaving(machine, receiver, call.place)
+    return NONE
+
+
+def _for_all(name: str, position: int | None) -> Handler:
+    """Waits for every future it is given, one after the other."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        given = call.args[0] if call.args else NONE
+        timeout = call.argument(position, 'timeout')
+        items = loops.items_in(machine, given, call.place)
+        when = call.argument(2, 'return_when') if name == 'futures.wait' else None
+        if items.others is not None or when is not None:
+            why = items.others or Unknown('it waits for the first of several', call.place)
+            machine.note_blocking(name, Mystery(why), timeout, call.place)
+        else:
+            for future in items.known:
+                machine.note_blocking(name, future, timeout, call.place)
+                machine.world.asked.add(id(future))
+            if name == 'futures.as_completed':
+                return Sequence(items.known, 'generator', None, items.many)
+        return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
+
+    return handler
+
+
+def _set(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_wake(receiver, Word.SET, call.place)
+    return NONE
+
+
+def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who has asked whether a future is done does not wait for it."""
+    machine.world.asked.add(id(receiver))
+    return machine.mystery('whether a future is done', call.place, 'done()')
+
+
+def _waits(name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        machine.note_blocking(name, receiver, call.argument(0, 'timeout'), call.place)
+        return machine.mystery(f'result of {name}', call.place, 'result()')
+
+    return handler
+
+
+_POOL = LibraryClass(
+    state=lambda machine, instance: PlainState('executor', place=instance.place),
+    init=lambda machine, receiver, call: NONE,
+    methods={'submit': submit, 'map': _map, 'shutdown': _shutdown},
+)
+
+TABLE = Library(
+    classes={
+        'concurrent.futures.ThreadPoolExecutor': _POOL,
+        'concurrent.futures.ProcessPoolExecutor': _POOL,
+        'concurrent.futures.Future': LibraryClass(
+            state=lambda machine, instance: PlainState(FUTURE, place=instance.place),
+            init=lambda machine, receiver, call: NONE,
+            methods={
+                'set_result': _set,
+                'set_exception': _set,
+                'cancel': _set,
+                'done': _asked,
+                'result': _waits('Future.result'),
+                'exception': _waits('Future.exception'),
+            },
+        ),
+    },
+    functions={
+        'asyncio.to_thread': submit,
+        'asyncio.run_coroutine_threadsafe': run_threadsafe,
+        'concurrent.futures.wait': _for_all('futures.wait', 1),
+        'concurrent.futures.as_completed': _for_all('futures.as_completed', 1),
+    },
+    aliases={
+        'concurrent.futures.thread.ThreadPoolExecutor': 'concurrent.futures.ThreadPoolExecutor',
+        'concurrent.futures.process.ProcessPoolExecutor': (
+            'concurrent.futures.ProcessPoolExecutor'
+        ),
+    },
+)
