@@ -225,9 +225,15 @@ def _tell(machine: Interpreter, state: ActivityState) -> None:
         call = state.call or Call(state.place)
         for option in options_of(state.target) if state.target is not None else ():
             machine.run_if_coroutine(machine.call(option, call), state.place)
-        machine.store.join([machine.store.close_branch(mark), {}])
+        _end_branch(machine, mark)
 
     guarded(machine, follow, state.place)
+
+
+def _end_branch(machine: Interpreter, mark: int) -> None:
+    """Join what was written with what held before, and with what others met meanwhile."""
+    written = machine.store.close_branch(mark)
+    machine.store.join([written, {}, *machine.store.take_shown()])
 
 
 def _run_again(machine: Interpreter, entity: EntityState) -> None:
@@ -264,7 +270,7 @@ def _run_callback(
         for option in options_of(callback):
             machine.run_if_coroutine(flags.call(machine, entity, option, call), entity.place)
         if mark is not None:
-            machine.store.join([machine.store.close_branch(mark), {}])
+            _end_branch(machine, mark)
 
     guarded(machine, follow, entity.place)
 

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.values import (
     Instance,
     Value,
     choice,
+    options_of,
 )
 
 Slot = tuple[Heaped, Any]
@@ -36,6 +37,7 @@ class Store:
         self._depth = 0
         self._opened: list[int] = []
         self._marks: list[int] = []
+        self._shown: list[Writes] = []
 
     @property
     def depth(self) -> int:
@@ -47,6 +49,7 @@ class Store:
         self._trail.clear()
         self._opened.clear()
         self._marks.clear()
+        self._shown.clear()
         self._depth = 0
 
     def write(self, owner: Heaped, slot: Any, value: Any) -> None:
@@ -97,6 +100,29 @@ class Store:
         self._depth -= 1
         return written
 
+    def show(self, thing: Value) -> None:
+        """
+        Others run now: in slots that the outermost branch has set to ``thing`` they find it.
+
+        The branch may set them anew before its end, as a coroutine does that awaits one future
+        after the other; ``take_shown`` gives these states beside that at its end.
+        """
+        if not self._depth:
+            return
+        shown: Writes = {}
+        for owner, slot, _ in self._trail[self._marks[0] :]:
+            now = owner.slots.get(slot, ABSENT)
+            if isinstance(owner, (Instance, Class)) and _holds(now, thing):
+                is_new = owner.serial > self._opened[0]
+                shown[id(owner), slot] = owner, slot, now, is_new
+        if shown:
+            self._shown.append(shown)
+
+    def take_shown(self) -> list[Writes]:
+        """Give what ``show`` has kept, and forget it."""
+        shown, self._shown = self._shown, []
+        return shown
+
     def unwind(self, depth: int) -> None:
         """Undo the branches beyond ``depth``, which a run that was cut off has left open."""
         while self._depth > depth:
@@ -129,6 +155,15 @@ class Store:
                 self.remove(owner, slot)
             else:
                 self.write(owner, slot, joined)
+
+
+def _holds(content: Any, thing: Value) -> bool:
+    if isinstance(content, dict):
+        content = (*content.values(),)
+    items = content if isinstance(content, tuple) else (content,)
+    return any(
+        option is thing for item in items if isinstance(item, Value) for option in options_of(item)
+    )
 
 
 def _with_inherited(owner: Instance | Class, slot: Any, ends: list[Any]) -> list[Any]:

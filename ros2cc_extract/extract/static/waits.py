@@ -114,6 +114,8 @@ class Waits(Machine):
             times=world.times,
         )
         touch(world.activity, thing)
+        if thing is not None:
+            self.store.show(thing)
         deeds.behind = way_of(block)
         _note_round(deeds, block, world.round)
 

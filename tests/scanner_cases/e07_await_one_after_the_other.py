@@ -1,0 +1,62 @@
+"""Deeds: a coroutine awaits one future after the other, kept in one place; others find each there."""
+
+import rclpy
+from rclpy.node import Node
+from rclpy.task import Future
+
+
+class Stair(Node):
+    def __init__(self):
+        super().__init__('stair')
+        self.step = None
+        self.landings = []
+        self.create_timer(0.1, self.lift)
+        self.create_timer(1.0, self.climb)
+        self.create_timer(0.2, self.land)
+
+    async def climb(self):
+        self.step = Future()
+        await self.step
+        self.step = Future()
+        await self.step
+        last = Future()
+        self.landings.append(last)
+        await last
+        self.landings = []
+
+    def lift(self):
+        if self.step is not None and not self.step.done():
+            self.step.set_result(True)
+
+    def land(self):
+        for landing in self.landings:
+            landing.set_result(True)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Stair())
+
+
+if __name__ == '__main__':
+    main()
+
+# expect:
+# unit stair: SingleThreadedExecutor x1 rclpy.spin, main
+#   group stair_default EXCLUSIVE default
+#   timer lift in stair_default every 0.1
+#     reads Stair.step @28
+#     reads Stair.step @28
+#     reads Stair.step rests @29
+#   timer climb in stair_default every 1 coroutine
+#     blocks await on lift through step @19
+#       ended by lift conditional @29
+#     blocks await on lift through step#2 @21
+#       ended by lift conditional @29
+#     blocks await on land through last @24
+#       ended by land conditional @33
+#     writes Stair.step @18
+#     writes Stair.landings update in_place @23
+#     writes Stair.landings @25
+#   timer land in stair_default every 0.2
+#     reads Stair.landings iterates list @32
