@@ -17,7 +17,7 @@ WAITS, BREAKS = 'waits here', 'breaks here'
 DISTRIBUTIONS = ('jazzy', 'kilted')
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Row:
     """
     One shape of waiting or ending.

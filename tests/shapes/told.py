@@ -13,6 +13,7 @@ from tests.shapes.rows import BREAKS, WAITS, Node, Row, marked_lines
 
 # What says no more than what a set-up is good for.
 ADVICE = ('CC401', 'CC402', 'CC403', 'CC404', 'CC5', 'CC6')
+RACES = 'CC3'
 # Notes on waits: nobody knows who ends it, or only another program can.
 OPEN = {'CC120': 'undecided', 'CC121': 'assumed to end'}
 
@@ -68,9 +69,10 @@ def is_right(node: Node, said: str) -> bool:
 
 
 def _is_asked_for(row: Row, said: set[str]) -> bool:
-    """One of the codes of the row; ``finding`` asks for any, ``undecided`` with less."""
+    """One of its codes; ``finding`` asks for any that is no race, ``undecided`` for less."""
     asked = {word.strip() for word in row.finds.split(',')}
     if 'undecided' in asked and OPEN['CC121'] in said:
         return True
     codes = {word for word in said if word.startswith('CC')}
-    return bool(codes if 'finding' in asked else asked & codes)
+    any_wait = {code for code in codes if not code.startswith(RACES)}
+    return bool(any_wait if 'finding' in asked else asked & codes)
