@@ -413,7 +413,9 @@ _FUNCTIONS: dict[str, Handler] = {
 
 
 def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
+    current = machine.world.current
+    if current is None or not current.node.state.on_asyncio:
+        machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
     return NONE
 
 

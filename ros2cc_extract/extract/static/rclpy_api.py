@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static import (
     python_library,
     queues_library,
     ros_actions,
+    ros_async,
     ros_called,
     ros_clients,
     ros_events,
@@ -64,6 +65,7 @@ def table() -> Library:
             ros_helpers.TABLE,
             ros_events.TABLE,
             ros_called.TABLE,
+            ros_async.TABLE,
         ]
     )
 

@@ -67,6 +67,7 @@ class NodeState:
     name: Value | None = None
     ghost: Unknown | None = None
     lifecycle: bool = False
+    on_asyncio: bool = False
     rate_group: Instance | None = None
     has_parameter_services: bool = True
     parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
