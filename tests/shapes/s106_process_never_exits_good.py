@@ -18,7 +18,7 @@ class Exporter(Node):
 
     def stop(self):
         self.full.set()
-        rclpy.shutdown()
+        raise SystemExit
 
 
 def main():

@@ -19,7 +19,7 @@ class Indexer(Node):
 
     def stop(self):
         self.jobs.put(None)
-        rclpy.shutdown()
+        raise SystemExit
 
 
 def main():

@@ -12,8 +12,9 @@ class Arbiter(Node):
     def __init__(self):
         super().__init__('arbiter')
         self.asked = threading.Event()
-        self.create_timer(0.2, self.beat, callback_group=MutuallyExclusiveCallbackGroup())
-        self.create_timer(0.1, self.arbitrate)
+        self.create_timer(0.2, self.beat)
+        group = MutuallyExclusiveCallbackGroup()
+        self.create_timer(0.1, self.arbitrate, callback_group=group)
 
     def arbitrate(self):
         for _ in range(3):

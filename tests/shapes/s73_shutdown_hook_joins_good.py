@@ -20,8 +20,7 @@ class Writer(Node):
 
     def stop(self):
         self.stopped.set()
-        rclpy.shutdown()
-        self.stopped.set()
+        raise SystemExit
 
     def finish(self):
         self.worker.join()
@@ -30,7 +29,10 @@ class Writer(Node):
 
 def main():
     rclpy.init()
-    rclpy.spin(Writer())
+    try:
+        rclpy.spin(Writer())
+    finally:
+        rclpy.shutdown()
 
 
 if __name__ == '__main__':
