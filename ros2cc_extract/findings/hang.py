@@ -29,6 +29,7 @@ class Standstill:
     :param thread: that it holds; ``None`` for an ``await``.
     :param spins: true where it serves others on that thread meanwhile.
     :param is_for_lock: ``needed`` holds the lock that is waited for.
+    :param wait: which of the waits of ``who`` in the model.
     """
 
     who: str
@@ -38,6 +39,7 @@ class Standstill:
     spins: bool = False
     is_for_lock: bool = False
     enders: tuple[str, ...] = ()
+    wait: int | None = None
 
     @property
     def words(self) -> str:
@@ -60,10 +62,10 @@ def show_hang(
     :param threads: all that the executor has.
     :return: the run as it was where it does not end in such a wait.
     """
-    open_waits = _open_waits(run.moments)
-    held = {wait.thread for wait in open_waits if not wait.spins}
+    standing = open_waits(run.moments)
+    held = {wait.thread for wait in standing if not wait.spins}
     is_full = held >= set(threads)
-    waits = open_waits if is_full else _concerned(open_waits, about, groups)
+    waits = standing if is_full else _concerned(standing, about, groups)
     if not waits:
         return run
     told = sorted(
@@ -77,7 +79,8 @@ def show_hang(
     )
 
 
-def _open_waits(moments: Sequence[Moment]) -> list[Standstill]:
+def open_waits(moments: Sequence[Moment]) -> list[Standstill]:
+    """Give the waits that have not ended at the end of a run, in the order of their begin."""
     waits: list[Standstill] = []
     for index, event in _events(moments):
         if event.is_wait and event.who is not None and event.awaited is not None:
@@ -99,6 +102,7 @@ def _standstill(event: Event, since: int) -> Standstill:
         event.is_spin,
         event.is_for_lock,
         event.enders,
+        event.wait,
     )
 
 

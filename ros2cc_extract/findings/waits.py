@@ -155,7 +155,11 @@ def name_of_service(client: Callback) -> str:
 
 def waits_in(wait: Wait) -> str:
     """Say where it waits: the call, the loop, the nested spin."""
-    words = {BUSY_WAIT: 'a busy loop', SPIN_FOR_FUTURE: 'a nested spin'}
+    words = {
+        BUSY_WAIT: 'a busy loop',
+        SPIN_FOR_FUTURE: 'a nested spin',
+        'polling loop': 'a polling loop',
+    }
     return words.get(wait.block.call, wait.block.call)
 
 

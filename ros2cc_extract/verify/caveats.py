@@ -70,3 +70,9 @@ def _is_open(block: Blocking, callback: Callback, unit: Spec) -> bool:
     if is_part_of_spin(block, callback):
         return False
     return is_left_open(block, unit) or ends_outside(block, unit)
+
+
+def block_at(unit: Spec, callback: Callback, wait: int | None) -> Blocking | None:
+    """Give the wait of a callback that a model numbers ``wait``, as an event of a run does."""
+    steps = tuple(waits_of(callback, unit))
+    return steps[wait].block if wait is not None and wait < len(steps) else None

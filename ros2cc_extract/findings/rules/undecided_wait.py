@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.verdicts import PROGRESS, surely_ends, verdict_on
 from ros2cc_extract.findings.waits import (
     Wait,
@@ -51,6 +52,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _cut_short(context, waits):
             waits.append(wait)
             reasons[id(wait)] = _limit_of(wait, context)
+        for wait in _not_proven(context):
+            waits.append(wait)
+            reasons[id(wait)] = open_facts(context)
     for alike in at_one_place(waits):
         yield _hit(alike, reasons[id(alike[0])], is_outside=is_outside)
 
@@ -94,6 +98,12 @@ def _cut_short(context: Context, told: Sequence[Wait]) -> Iterator[Wait]:
                 for block in caller.blocking
                 if kind_of(block) is not WaitKind.SLEEP and block.seconds is None
             )
+
+
+def _not_proven(context: Context) -> Iterator[Wait]:
+    """Waits that last for ever in the model of a unit of which not all facts are known."""
+    if open_facts(context):
+        yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
 
 
 def _limit_of(wait: Wait, context: Context) -> str:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from finding_units import (
+    ONE_THREAD,
     at,
     calls,
     client,
@@ -18,11 +20,15 @@ from finding_units import (
     unit,
 )
 
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import Spec, Unresolved
+from ros2cc_extract.spec.close import close
+from ros2cc_extract.spec.deeds import Blocking, Needs, Waker
+from ros2cc_extract.spec.model import Executor, Spec, Unresolved
 from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.unit import Options, QueryResult, Verdict, Verification, verify_unit
 
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')
 
@@ -107,15 +113,57 @@ def test_the_run_of_the_model_is_the_evidence() -> None:
     assert only(own_group(), 'CC101').run is None
 
 
+def judged(spec: Spec) -> Verification:
+    return verify_unit(close(spec), Options(profile=Profile.RCLPY, structural=False))
+
+
 def test_callbacks_that_wait_for_each_other_are_found_by_the_model() -> None:
-    stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
     assert found(circle()) == []
-    finding = only(circle(), 'CC109', stuck)
-    assert finding.subjects == ('on_left', 'on_right')
-    assert finding.run is RUN
+    finding = only(circle(), 'CC109', judged(circle()))
+    assert finding.message == (
+        'on_left waits in client.call for to_right, but on_right, which ends it, waits itself '
+        'for to_left: it waits for ever'
+    )
+    assert finding.subjects == ('on_left', 'on_right', 'to_right')
+    assert finding.run is not None
+    assert finding.run.closing.startswith('nothing moves any more: ')
     assert [(remark.place, remark.text) for remark in finding.related] == [
         (at(45), 'on_right waits here in client.call')
     ]
+
+
+def queue_of(*wakers: Waker) -> tuple[Blocking, ...]:
+    (wait,) = calls(None, call='Queue.get')
+    return (replace(wait, resource='jobs', needs=Needs.EACH, wakers=wakers),)
+
+
+@pytest.mark.parametrize(
+    ('executor', 'group', 'wakers', 'reason'),
+    [
+        (threads(2), 'other', (), 'nobody ends that wait'),
+        (
+            threads(2),
+            'arm_default',
+            (Waker(by='feed'),),
+            "feed is in the default group of 'arm', which is closed while drain waits",
+        ),
+        (
+            ONE_THREAD,
+            'other',
+            (Waker(by='feed'),),
+            'feed cannot run: drain holds the only thread of the executor',
+        ),
+    ],
+)
+def test_the_general_rule_names_the_cause(
+    executor: Executor, group: str, wakers: tuple[Waker, ...], reason: str
+) -> None:
+    spec = unit(executor, timer('drain', blocking=queue_of(*wakers)), timer('feed', group))
+    finding = only(spec, 'CC109', judged(spec))
+    assert finding.message == (
+        f'drain waits in Queue.get for jobs, but {reason}: it waits for ever'
+    )
+    assert finding.severity is Severity.ERROR
 
 
 def test_a_hang_that_another_rule_explains_is_told_once() -> None:
@@ -131,12 +179,21 @@ def test_a_hang_that_another_rule_explains_is_told_once() -> None:
 
 def test_a_unit_with_a_hole_is_not_judged_by_its_model() -> None:
     hole = Unresolved(subject='x', fact='group', reason='an argument', source=at(3))
-    stuck = progress(Verdict.NOT_SATISFIED, 'on_left', 'on_right')
-    spec = circle()
-    with_hole = type(spec)(**{**vars(spec), 'unresolved': (hole,)})
-    assert found(with_hole, stuck) == ['CC501:3 note']
-    no_executor = type(spec.executor)(name='e', kind=Unknown('none'), threads=('t',))
-    assert found(type(spec)(**{**vars(spec), 'executor': no_executor}), stuck) == []
+    with_hole = replace(circle(), unresolved=(hole,))
+    assert found(with_hole, judged(with_hole)) == [
+        'CC501:3 note',
+        'CC120:40 note',
+        'CC120:45 note',
+    ]
+    no_executor = Executor(name='e', kind=Unknown('none'), threads=('t',))
+    without = replace(circle(), executor=no_executor)
+    assert found(without, judged(without)) == ['CC120:40 note', 'CC120:45 note']
+
+
+def test_a_name_that_is_not_known_undoes_no_run() -> None:
+    hole = Unresolved(subject='x', fact='topic', reason='an argument', source=at(3))
+    spec = replace(circle(), unresolved=(hole,))
+    assert found(spec, judged(spec)) == ['CC109:40', 'CC501:3 note']
 
 
 def test_waiting_for_a_service_to_be_there_needs_no_callback() -> None:
