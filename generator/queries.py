@@ -75,6 +75,8 @@ def paper_queries(unit: Unit) -> tuple[Query, ...]:
         *_occupation_queries(unit),
         *(_starvation_in_rounds(callback, unit.executor) for callback in unit.callbacks),
     )
+    if not stuck:
+        return asked
     return tuple(replace(q, left_out=stuck) if q.family in _OF_ENDS else q for q in asked)
 
 
@@ -100,7 +102,8 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         *(_answered_spin(callback, unit) for callback in unit.callbacks if _spun_for(callback)),
         *(_node_kept(callback) for callback in unit.callbacks if _moved_nodes(callback)),
     )
-    asked = tuple(replace(query, left_out=_left_out(query, unit)) for query in asked)
+    if any(callback.left_out for callback in unit.callbacks):
+        asked = tuple(replace(query, left_out=_left_out(query, unit)) for query in asked)
     return tuple(map(_without_doubt, asked)) if unit.has_doubts else asked
 
 

@@ -44,6 +44,9 @@ def task_order(rclpy: str | None) -> TaskOrder | None:
 # nodes, then node by node timers, subscriptions, guard conditions, clients, services.
 TASK_RANK, _WAITABLE, _TIMER, _SUBSCRIPTION, GUARD_RANK, _CLIENT, _SERVICE = range(7)
 
+#: From this rank on nodes are served one after the other; tasks and waitables of all come first.
+NODE_RANK = TIMER_RANK = _TIMER
+
 #: A guard condition that is queued, and triggered, is queued once more, and so is what two
 #: threads find at a time that spin one pool (rclpy 7.1.6, 9.1.2).
 QUEUED_TWICE = 2

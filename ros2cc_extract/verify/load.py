@@ -96,14 +96,15 @@ class Load:
         return ' by medians' if slow == median else f' by medians, {slow} in slow runs'
 
 
-def load_of(spec: Spec, callback: Callback, others: Sequence[Spec] = ()) -> Load:
+def load_of(spec: Spec, callback: Callback, demands: Mapping[str, Demand] | None = None) -> Load:
     """
     Tell what becomes of ``callback`` at the rates that ``spec`` states or a run has measured.
 
-    :param others: units that run beside this one: timers there may publish what arrives here.
+    :param demands: of ``demands_of``, where several are asked for.
     """
     counted = {c.name: c for c in (*_counted(spec), callback)}
-    demands = {name: demand_of(c, (spec, *others)) for name, c in counted.items()}
+    known = demands_of(spec) if demands is None else demands
+    demands = {name: known[name] for name in counted}
     if _is_one_thread(spec):
         return _in_turns(spec, callback, demands)
     in_pool = _in_pool(spec, callback, demands)
@@ -134,6 +135,15 @@ def _contenders(spec: Spec, demands: Mapping[str, Demand]) -> int:
     return len({c.group for c in counted} & exclusive) + sum(max(1, ceil(x)) for x in others)
 
 
+def demands_of(spec: Spec, others: Sequence[Spec] = ()) -> dict[str, Demand]:
+    """
+    What each callback asks for.
+
+    :param others: units that run beside this one: timers there may publish what arrives here.
+    """
+    return {callback.name: demand_of(callback, (spec, *others)) for callback in spec.callbacks}
+
+
 def served_before(callback: Callback, spec: Spec) -> tuple[Callback, ...]:
     """
     Members of its group that are served before a callback, in serving order.
@@ -161,7 +171,7 @@ def _is_one_thread(spec: Spec) -> bool:
     return kind is not ExecutorKind.MULTI_THREADED or len(spec.executor.threads) == 1
 
 
-def _of_leftover(spec: Spec, callback: Callback, demands: dict[str, Demand]) -> Load:
+def _of_leftover(spec: Spec, callback: Callback, demands: Mapping[str, Demand]) -> Load:
     earlier = served_before(callback, spec)
     busy = [demands[c.name] for c in earlier]
     before = sum(demand.load for demand in busy)
@@ -222,7 +232,7 @@ def _fair_share(wanted: float, others: Sequence[Demand]) -> float:
     return min(wanted, rest / sharers)
 
 
-def _in_turns(spec: Spec, callback: Callback, demands: dict[str, Demand]) -> Load:
+def _in_turns(spec: Spec, callback: Callback, demands: Mapping[str, Demand]) -> Load:
     total = sum(demand.load for demand in demands.values())
     own = demands[callback.name]
     unknown = _unknown(_counted(spec), demands)
@@ -245,7 +255,7 @@ def _slow(demands: Iterable[Demand], load: float) -> float | None:
     return load if any(demand.slow_s is not None for demand in demands) else None
 
 
-def _lap_s(demands: dict[str, Demand]) -> float:
+def _lap_s(demands: Mapping[str, Demand]) -> float:
     """
     How long one lap over all that is ready takes under overload.
 
@@ -261,7 +271,7 @@ def _lap_s(demands: dict[str, Demand]) -> float:
     return lap
 
 
-def _in_pool(spec: Spec, callback: Callback, demands: dict[str, Demand]) -> Load:
+def _in_pool(spec: Spec, callback: Callback, demands: Mapping[str, Demand]) -> Load:
     threads = len(spec.executor.threads)
     total = _of_groups(spec, {name: demand.load for name, demand in demands.items()})
     slow = _of_groups(spec, {name: demand.slow_load for name, demand in demands.items()})
@@ -291,5 +301,5 @@ def _of_groups(spec: Spec, loads: Mapping[str, float]) -> float:
     return total
 
 
-def _unknown(callbacks: Sequence[Callback], demands: dict[str, Demand]) -> tuple[str, ...]:
+def _unknown(callbacks: Sequence[Callback], demands: Mapping[str, Demand]) -> tuple[str, ...]:
     return tuple(c.name for c in callbacks if not demands[c.name].is_known)

@@ -6,52 +6,36 @@ What slices cannot decide is asked of the whole unit, as far as the limits go.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.asking import Found, Key, Search, Slicing, key_of, total, weighs_more
+from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.results import QueryResult, open_result
-from ros2cc_extract.verify.slices import Names, Shape, Slicer, shape_of
+from ros2cc_extract.verify.slices import Names, Slicer
 
 #: A unit of up to so many callbacks is explored as a whole if it has no more states than that.
 SMALL = 8
 FIRST_LOOK_STATES = 20_000
-SLICE_STATES = 200_000
-Key = tuple[Family, tuple[str, ...], tuple[str, ...]]
-Role = tuple[Family, tuple[int, ...], tuple[int, ...]]
-
-
-def key_of(query: Query) -> Key:
-    """What a query is about; equal in a unit and in its slices."""
-    return query.family, query.callbacks, query.groups
-
-
-@dataclass(frozen=True)
-class Found:
-    """
-    What one search has found, or several together.
-
-    :param check: of the whole unit or of the first slice; counts are of all.
-    :param by_slices: how many results are from slices.
-    """
-
-    results: dict[Key, QueryResult]
-    check: CheckResult
-    by_slices: int = 0
-
-
-Search = Callable[[ClosedSpec, Sequence[Key], Limits], Found]
 
 
 def narrow(
-    closed: ClosedSpec, queries: Sequence[Query], max_cycle: int, search: Search, limits: Limits
+    closed: ClosedSpec,
+    queries: Sequence[Query],
+    max_cycle: int,
+    search: Search,
+    limits: Limits,
+    shelf: Shelf | None = None,
 ) -> Found:
-    """Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each."""
+    """
+    Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each.
+
+    :param shelf: answers that hold for slices of other units too.
+    """
     limits = limits.begun()
     found: Found | None = None
     if len(closed.spec.callbacks) <= SMALL:
@@ -61,7 +45,7 @@ def narrow(
             return found
     left = [q for q in queries if found is None or _is_open(found.results[key_of(q)])]
     slicer = Slicer(closed, max_cycle)
-    slicing = _Slicing(slicer, search, limits)
+    slicing = Slicing(slicer, search, limits, Shelf() if shelf is None else shelf)
     # Who starves follows from who comes to no end, as a rule.
     for last in (False, True):
         part = slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
@@ -100,113 +84,18 @@ def _is_undecided(result: QueryResult | None) -> bool:
     return result is None or _is_open(result)
 
 
-@dataclass(frozen=True)
-class _Question:
-    """One query, asked of one slice."""
-
-    part: ClosedSpec
-    key: Key
-
-    @property
-    def role(self) -> Role:
-        """The query by places in the slice; slices of one shape share it."""
-        callbacks = [callback.name for callback in self.part.spec.callbacks]
-        groups = [group.name for group in self.part.spec.groups]
-        family, named, of_groups = self.key
-        return (
-            family,
-            tuple(map(callbacks.index, named)),
-            tuple(map(groups.index, of_groups)),
-        )
-
-
-@dataclass(frozen=True)
-class _Slicing:
-    slicer: Slicer
-    search: Search
-    limits: Limits
-
-    def decide(self, queries: Iterable[Query]) -> Found | None:
-        """Ask every slice of ``queries``; ``None`` where none of them has any."""
-        asked: dict[Shape, list[_Question]] = {}
-        parts: dict[Names, tuple[ClosedSpec, Shape]] = {}
-        for query in queries:
-            for names in self._slices(query):
-                if names not in parts:
-                    part = self.slicer.cut(names)
-                    parts[names] = (part, shape_of(part.spec))
-                part, shape = parts[names]
-                if self.slicer.has_waits_of(part.spec):
-                    asked.setdefault(shape, []).append(_Question(part, key_of(query)))
-        found: Found | None = None
-        for questions in asked.values():
-            if not self.limits.is_over:
-                answered = self._ask(questions, replace(self.limits, states=SLICE_STATES))
-                found = answered if found is None else _joined(found, answered)
-        return found
-
-    def _slices(self, query: Query) -> Iterator[Names]:
-        names = self.slicer.slice_for(query)
-        if names is not None and len(names) < len(self.slicer.closed.spec.callbacks):
-            yield names
-
-    def _ask(self, questions: Sequence[_Question], limits: Limits) -> Found:
-        """Ask questions of slices of one shape: each role once, of the first slice."""
-        part = questions[0].part
-        keys = {question.role: _key_in(part.spec, question.role) for question in questions}
-        answered = self.search(part, list(keys.values()), limits)
-        results: dict[Key, QueryResult] = {}
-        for question in questions:
-            result = answered.results[keys[question.role]]
-            if question.part is not part and result.run is not None:
-                result = replace(result, run=partial(self._evidence, question))
-            if question.key not in results or _weighs_more(result, results[question.key]):
-                results[question.key] = result
-        return Found(results, answered.check, sum(not _is_open(r) for r in results.values()))
-
-    def _evidence(self, question: _Question) -> Evidence:
-        """Find the run of a slice of which another one of its shape was asked."""
-        found = self.search(question.part, [question.key], Limits())
-        evidence = found.results[question.key].evidence
-        assert evidence is not None, 'only asked of results that have a run'
-        return evidence
-
-
-def _key_in(part: Spec, role: Role) -> Key:
-    family, callbacks, groups = role
-    return (
-        family,
-        tuple(part.callbacks[place].name for place in callbacks),
-        tuple(part.groups[place].name for place in groups),
-    )
-
-
 def _is_open(result: QueryResult) -> bool:
     """True where asking more may decide it; what is not known stays so."""
     return result.verdict is Verdict.UNDECIDED and not result.in_doubt
-
-
-def _weighs_more(new: QueryResult, old: QueryResult) -> bool:
-    """Of slices asked for a dead-lock one that has one decides, then one that may have one."""
-    weights = {Verdict.NOT_SATISFIED: 2, Verdict.UNDECIDED: 1, Verdict.SATISFIED: 0}
-    return weights[new.verdict] > weights[old.verdict]
 
 
 def _joined(found: Found, part: Found) -> Found:
     """Add what a slice, or the whole unit, has decided."""
     results = dict(found.results)
     for key, result in part.results.items():
-        if key not in results or _is_open(results[key]) or _weighs_more(result, results[key]):
+        if key not in results or _is_open(results[key]) or weighs_more(result, results[key]):
             results[key] = result
-    one, other = found.check, part.check
-    check = replace(
-        one,
-        states=one.states + other.states,
-        transitions=one.transitions + other.transitions,
-        seconds=one.seconds + other.seconds,
-        peak_mb=max(one.peak_mb, other.peak_mb),
-    )
-    return Found(results, check, found.by_slices + part.by_slices)
+    return Found(results, total((found.check, part.check)), found.by_slices + part.by_slices)
 
 
 def _derive(found: Found, queries: Iterable[Query], slicer: Slicer) -> Found:

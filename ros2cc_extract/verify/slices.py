@@ -14,18 +14,9 @@ from enum import Enum
 from functools import cached_property
 
 from ros2cc_extract.generator.build import Family, Query
-from ros2cc_extract.generator.left_out import left_out_of_models
-from ros2cc_extract.generator.serving import (
-    GUARD_RANK,
-    TASK_RANK,
-    ExecutorKind,
-    executor_kind,
-    rank_of,
-    runs_of_an_arrival,
-)
+from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, runs_of_an_arrival
 from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
 from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
-from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
@@ -35,11 +26,17 @@ from ros2cc_extract.spec.partners import (
     is_done_callback,
     server_of,
 )
+from ros2cc_extract.verify.shapes import (
+    Facts,
+    Outline,
+    Setting,
+    facts_of,
+    outline,
+    outline_of,
+    setting_of,
+)
 
 Names = frozenset[str]
-Shape = tuple[object, ...]
-#: Waitables of all nodes are served before anything else of any node (``generator.serving``).
-WAITABLE_RANK = 1
 #: Claims that rest on others coming to an end, and on a free thread.
 OF_ENDS = (Family.STARVATION, Family.PROGRESS)
 #: Claims about what a run ends in.
@@ -73,7 +70,7 @@ class Slicer:
             return None
         if query.family not in OF_ENDS:
             names = (*query.callbacks, *self._closers(query), *self._spinning)
-            return self._cone(names, Rests.ON_RUNS)
+            return frozenset().union(*map(self._cone_of_runs, names))
         rests = Rests.ON_END if query.family is Family.PROGRESS else Rests.ON_START
         return self._cone(query.callbacks, rests)
 
@@ -167,7 +164,7 @@ class Slicer:
         for callback in self._spec.callbacks:
             if all(wait.frees_thread for wait in self._waits[callback.name]):
                 continue
-            if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+            if callback.group in self._exclusive:
                 holders[callback.group] = 1
             elif self._callers[callback.name]:
                 return False
@@ -178,7 +175,8 @@ class Slicer:
     def cut(self, names: Names) -> ClosedSpec:
         """Give the slice as a unit, with no more threads than can ever be at work in it."""
         spec = self._spec
-        callbacks = tuple(self._unpaired(c) for c in spec.callbacks if c.name in names)
+        kept = sorted(names, key=self._places.__getitem__)
+        callbacks = tuple(self._unpaired_by_name(name) for name in kept)
         groups = {c.group for c in callbacks}
         threads = spec.executor.threads[: self._at_work(callbacks)]
         part = replace(
@@ -188,6 +186,48 @@ class Slicer:
             executor=replace(spec.executor, kind=executor_kind(spec).value, threads=threads),
         )
         return replace(self.closed, spec=part)
+
+    def outline(self, names: Names) -> Outline | None:
+        """
+        Give the shape of a slice; ``None`` where it does not wait for what the unit waits for.
+
+        What is known of callbacks that wait for nothing, in any part, is not looked up again.
+        """
+        plain = [self._plain_facts.get(name) for name in names]
+        facts = [each for each in plain if each is not None]
+        if len(facts) == len(plain):
+            threads = self._at_work([self._by_name[name] for name in names])
+            setting = replace(self._setting, threads=min(threads, self._setting.threads))
+            return outline(facts, setting)
+        part = self.cut(names).spec
+        return outline_of(part, self.max_cycle) if self.has_waits_of(part) else None
+
+    @cached_property
+    def _setting(self) -> Setting:
+        return setting_of(self._spec, self.max_cycle)
+
+    @cached_property
+    def _plain_facts(self) -> dict[str, Facts]:
+        """
+        Of callbacks that neither wait nor take locks, in any part of such callbacks.
+
+        They signal nobody there.
+        """
+        spec = self._spec
+        return {
+            callback.name: replace(facts_of(callback, place, spec), server=None, waits=())
+            for place, callback in enumerate(spec.callbacks)
+            if not callback.blocking and not callback.locks
+        }
+
+    def _unpaired_by_name(self, name: str) -> Callback:
+        if name not in self._unpaired_callbacks:
+            self._unpaired_callbacks[name] = self._unpaired(self._by_name[name])
+        return self._unpaired_callbacks[name]
+
+    @cached_property
+    def _unpaired_callbacks(self) -> dict[str, Callback]:
+        return {}
 
     def _unpaired(self, callback: Callback) -> Callback:
         """
@@ -211,7 +251,7 @@ class Slicer:
         """One member of each exclusive group; each arrival of any other callback."""
         most: dict[object, int] = {}
         for callback in callbacks:
-            if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+            if callback.group in self._exclusive:
                 most[callback.group] = 1
             else:
                 asked = len(self._callers[callback.name]) * len(callbacks)
@@ -225,6 +265,15 @@ class Slicer:
     @property
     def _spec(self) -> Spec:
         return self.closed.spec
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {callback.name: place for place, callback in enumerate(self._spec.callbacks)}
+
+    @cached_property
+    def _exclusive(self) -> Names:
+        groups = self._spec.groups
+        return frozenset(g.name for g in groups if g.type is GroupType.EXCLUSIVE)
 
     @cached_property
     def _by_name(self) -> dict[str, Callback]:
@@ -254,9 +303,9 @@ class Slicer:
                 is_asked = wait.resource is None
                 if is_asked and self._by_name[wait.needed].type is CallbackType.CLT:
                     found[wait.needed].add(callback.name)
-            server = server_of(callback, self._spec.callbacks)
+            server = self._servers[callback.name]
             if server is not None:
-                found[server.name].add(callback.name)
+                found[server].add(callback.name)
         return {name: frozenset(callers) for name, callers in found.items()}
 
     @cached_property
@@ -273,10 +322,18 @@ class Slicer:
         """Who may close the groups a query is about; a reentrant one never closes."""
         if query.family is Family.GROUP_CLOSED:
             return
-        for group in self._spec.groups:
-            members = [c.name for c in self._spec.callbacks if c.group == group.name]
-            if group.name in query.groups:
-                yield from members if group.type is GroupType.EXCLUSIVE else members[:1]
+        for group in query.groups:
+            members = [c.name for c in self._spec.callbacks if c.group == group]
+            yield from members if group in self._exclusive else members[:1]
+
+    def _cone_of_runs(self, name: str) -> Names:
+        if name not in self._cones:
+            self._cones[name] = self._cone((name,), Rests.ON_RUNS)
+        return self._cones[name]
+
+    @cached_property
+    def _cones(self) -> dict[str, Names]:
+        return {}
 
     def _cone(self, names: Iterable[str], rests: Rests) -> Names:
         """Follow partners; of those that have to run, also who may keep their group closed."""
@@ -301,13 +358,19 @@ class Slicer:
             yield wait.needed
             yield from self._lock_holders.get(wait.lock, ())
             yield from self._sharers.get(wait.resource, ())
-        server = server_of(callback, self._spec.callbacks)
+        server = self._servers[callback.name]
         if server is not None:
-            yield server.name
+            yield server
+
+    @cached_property
+    def _servers(self) -> dict[str, str | None]:
+        callbacks = self._spec.callbacks
+        servers = {callback.name: server_of(callback, callbacks) for callback in callbacks}
+        return {name: None if s is None else s.name for name, s in servers.items()}
 
     def _holders(self, callback: Callback) -> Iterator[str]:
         """Members of its exclusive group that wait; a reentrant group is never held."""
-        if self._spec.group_of(callback).type is GroupType.EXCLUSIVE:
+        if callback.group in self._exclusive:
             for other in self._spec.callbacks:
                 if other.group == callback.group and self._waits[other.name]:
                     yield other.name
@@ -320,65 +383,3 @@ def _waits(steps: Iterable[NamedWait]) -> tuple[NamedWait, ...]:
     A slice without whoever waits for a signal does not have it.
     """
     return tuple(step for step in steps if not step.is_signal)
-
-
-def shape_of(part: Spec) -> Shape:
-    """
-    What the model of a unit depends on: units of one shape have the same verdicts.
-
-    Callbacks and groups are numbered in the order of the unit. Of the order of serving only that
-    counts, but for tasks, waitables and guard conditions, which the executors treat apart.
-    """
-    callbacks, groups = part.callbacks, part.groups
-    places = {callback.name: place for place, callback in enumerate(callbacks)}
-    numbers = {group.name: number for number, group in enumerate(groups)}
-    plain = sorted({rank_of(c) for c in callbacks} - {TASK_RANK, WAITABLE_RANK, GUARD_RANK})
-    nodes = list(dict.fromkeys(callback.node for callback in callbacks))
-    waits = {callback.name: tuple(waits_of(callback, part)) for callback in callbacks}
-    locks = list(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
-
-    resources = resources_of(waits)
-
-    def locked(wait: NamedWait) -> Shape:
-        return wait.lock and locks.index(wait.lock), tuple(map(locks.index, wait.held))
-
-    def signalled(step: NamedWait) -> Shape:
-        in_doubt = step.is_open or (step.is_signal and step.may_skip)
-        words = (step.origin, step.block, step.waker) if in_doubt else None  # of the reason
-        if step.resource is None:
-            return step.may_skip, words
-        place, resource = resources.index(step.resource), step.resource
-        return place, resource.is_each, resource.initial, step.may_skip, words
-
-    def serving(callback: Callback) -> tuple[bool, int]:
-        rank = rank_of(callback)
-        return rank in plain, plain.index(rank) if rank in plain else rank
-
-    def spun(wait: NamedWait) -> Shape | None:
-        if wait.spin is None:
-            return None
-        node = None if wait.spin.node is None else nodes.index(wait.spin.node)
-        return replace(wait.spin, node=None, needed=None), node
-
-    def described(callback: Callback) -> Shape:
-        server = server_of(callback, callbacks)
-        return (
-            callback.type if callback.type in (CallbackType.TMR, CallbackType.CLT) else None,
-            serving(callback),
-            nodes.index(callback.node),
-            numbers[callback.group],
-            tuple(
-                (places[w.needed], w.kind, spun(w), locked(w), signalled(w))
-                for w in waits[callback.name]
-            ),
-            callback.one_shot,
-            None if server is None else places[server.name],
-            bool(left_out_of_models(callback, part)),  # then it is asked for its end
-        )
-
-    return (
-        executor_kind(part),
-        len(part.executor.threads),
-        tuple(group.type for group in groups),
-        tuple(map(described, callbacks)),
-    )

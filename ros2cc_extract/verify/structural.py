@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from ros2cc_extract.checker.api import (
-    Answer,
+    CheckResult,
     EngineKind,
     Fairness,
     Limits,
@@ -24,18 +24,16 @@ from ros2cc_extract.checker.api import (
 )
 from ros2cc_extract.generator import build
 from ros2cc_extract.generator.queries import structural_starvation
-from ros2cc_extract.generator.serving import executor_kind, rank_of
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback, Spec
+from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.known import Answered, Entry, Role, Shelf
 from ros2cc_extract.verify.load import served_before
+from ros2cc_extract.verify.shapes import outline_of
 
 #: The member of a group that is served first starves by two others, not by one.
 RIVALS = 2
-#: From this rank on nodes are served one after the other; tasks and waitables of all come first.
-OF_NODES = 2
-Shape = tuple[object, ...]
 
 
 @dataclass(frozen=True)
@@ -55,32 +53,40 @@ class Structural:
 
 
 def structural_verdicts(
-    closed: ClosedSpec, engine: EngineKind, limits: Limits
+    closed: ClosedSpec, engine: EngineKind, limits: Limits, shelf: Shelf | None = None
 ) -> Iterator[Structural]:
     """Ask for every callback, in the order of the unit; slices of one shape are asked once."""
-    unit = number_unit(closed, None)
-    known: dict[Shape, Answer] = {}
-    for callback, numbered in zip(closed.spec.callbacks, unit.callbacks, strict=True):
+    shelf = Shelf() if shelf is None else shelf
+    numbered = number_unit(closed, None).callbacks
+    for callback, of_unit in zip(closed.spec.callbacks, numbered, strict=True):
         part = slice_for(callback, closed)
-        shape = _shape(part.spec, callback)
-        answer = known.get(shape)
-        seconds = 0.0
-        if answer is None and limits.deadline is not None and limits.is_over:
-            reason = limits.deadline.reason
-            query = structural_starvation(numbered)
-            yield Structural(query, Verdict.UNDECIDED, reason, 0.0, None)
+        if limits.deadline is not None and limits.is_over:
+            query = structural_starvation(of_unit)
+            yield Structural(query, Verdict.UNDECIDED, limits.deadline.reason, 0.0, None)
             continue
-        if answer is None:
-            answer = known[shape] = _ask(part, callback.name, engine, limits)
-            seconds = answer.seconds
-        starves = answer.verdict is Verdict.NOT_SATISFIED
-        yield Structural(
-            structural_starvation(numbered),
-            answer.verdict,
-            answer.reason,
-            seconds,
-            partial(_tell, part, callback.name, engine, limits) if starves else None,
+        outline = outline_of(part.spec, None)
+        role = (
+            build.Family.STRUCTURAL_STARVATION.value,
+            (outline.callbacks.index(callback.name),),
+            (),
         )
+        ask = partial(_entry, part, callback.name, role, engine, limits)
+        known = shelf.take((outline.shape, role), ask).answers[role]
+        yield Structural(
+            structural_starvation(of_unit),
+            known.verdict,
+            known.reason,
+            known.seconds,
+            partial(_tell, part, callback.name, engine, limits) if known.has_run else None,
+        )
+
+
+def _entry(part: ClosedSpec, name: str, role: Role, engine: EngineKind, limits: Limits) -> Entry:
+    found = _ask(part, name, engine, limits)
+    answer = found.answers[0]
+    has_run = answer.verdict is Verdict.NOT_SATISFIED
+    known = Answered(answer.verdict, answer.reason, answer.seconds, has_run)
+    return Entry({role: known}, replace(found, answers=(), peak_mb=0.0))
 
 
 def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
@@ -110,33 +116,7 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
     )
 
 
-def _shape(part: Spec, callback: Callback) -> Shape:
-    """
-    What the model depends on: two slices of one shape have one verdict.
-
-    Without waits a type says no more than the order of serving, and that kind by kind.
-    """
-    ranks = sorted({rank_of(c) for c in part.callbacks})
-    nodes = list(dict.fromkeys(c.node for c in part.callbacks))
-    groups = list(dict.fromkeys(c.group for c in part.callbacks))
-    return (
-        executor_kind(part),
-        len(part.executor.threads),
-        tuple(part.group_of(next(c for c in part.callbacks if c.group == g)).type for g in groups),
-        tuple(
-            (
-                min(rank_of(c), OF_NODES),
-                ranks.index(rank_of(c)),
-                nodes.index(c.node),
-                groups.index(c.group),
-                c.name == callback.name,
-            )
-            for c in part.callbacks
-        ),
-    )
-
-
-def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Answer:
+def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> CheckResult:
     rendered = build.render(
         part, profile=build.Profile.RCLPY, text=build.Text.COMPACT, max_cycle=None
     )
@@ -155,10 +135,10 @@ def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Ans
     )
     if result.answers[0].is_interrupted:
         raise KeyboardInterrupt  # many more would be asked
-    return result.answers[0]
+    return result
 
 
 def _tell(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Evidence:
-    run = _ask(part, name, engine, limits).path
+    run = _ask(part, name, engine, limits).answers[0].path
     assert run is not None, 'only asked of callbacks that starve'
     return tell(run, Names.of(part.spec))

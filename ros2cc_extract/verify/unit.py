@@ -32,11 +32,13 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.asking import Found, Key, key_of
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
 from ros2cc_extract.verify.doubts import doubts_in
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
-from ros2cc_extract.verify.load import load_of
-from ros2cc_extract.verify.narrowing import Found, Key, key_of, narrow
+from ros2cc_extract.verify.known import Shelf
+from ros2cc_extract.verify.load import demands_of, load_of
+from ros2cc_extract.verify.narrowing import narrow
 from ros2cc_extract.verify.results import QueryResult as QueryResult
 from ros2cc_extract.verify.results import Verification as Verification
 from ros2cc_extract.verify.structural import structural_verdicts
@@ -80,28 +82,36 @@ class Options:
 
 
 def verify_unit(
-    closed: ClosedSpec, options: Options = Options(), progress: OnProgress | None = None
+    closed: ClosedSpec,
+    options: Options = Options(),
+    progress: OnProgress | None = None,
+    shelf: Shelf | None = None,
 ) -> Verification:
-    """Render, check and tell one unit."""
+    """
+    Render, check and tell one unit.
+
+    :param shelf: answers that hold for parts of other units too; used and added to.
+    """
     options = replace(options, limits=options.limits.begun())
-    rendered = _render(closed, options)
+    shelf = Shelf() if shelf is None else shelf
+    queries = build.queries_of(closed, profile=options.profile, max_cycle=options.max_cycle)
     if options.text is build.Text.COMPACT:
         # It resets its variables itself: looking for dead ones costs time and finds no state less.
         options = replace(options, reduction=False)
     search = partial(_search, options=options, progress=progress)
     if options.max_cycle is not None and _may_be_sliced(options):
-        found = narrow(closed, rendered.queries, options.max_cycle, search, options.limits)
+        found = narrow(closed, queries, options.max_cycle, search, options.limits, shelf)
     else:
-        found = search(closed, [key_of(query) for query in rendered.queries], options.limits)
+        found = search(closed, [key_of(query) for query in queries], options.limits)
     left_out = left_out_of_deadlocks(closed.spec, options.profile)
     results = tuple(
         _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
-        for query in rendered.queries
+        for query in queries
     )
-    structural = tuple(_structural(closed, options))
+    structural = tuple(_structural(closed, options, shelf))
     is_open = any(result.verdict is Verdict.UNDECIDED for result in structural)
     return _verification(
-        rendered.name,
+        closed.spec.name,
         replace(found.check, complete=found.check.complete and not is_open),
         _with_loads((*results, *structural), closed),
         profile=options.profile.value,
@@ -114,6 +124,8 @@ def verify_unit(
 def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryResult:
     """A slice has numbers and names of its own; ``left_out`` is said of dead-locks."""
     words = f'{left_out}{query.words}' if query.family is build.Family.DEADLOCK else query.words
+    if (result.formula, result.words, result.callbacks) == (query.formula, words, query.callbacks):
+        return result
     return replace(result, formula=query.formula, words=words, callbacks=query.callbacks)
 
 
@@ -177,12 +189,12 @@ def _in_spite_of_doubts(
     return replace(result, verdict=Verdict.UNDECIDED, reason=reason, run=None, in_doubt=True)
 
 
-def _structural(closed: ClosedSpec, options: Options) -> Iterator[QueryResult]:
+def _structural(closed: ClosedSpec, options: Options, shelf: Shelf) -> Iterator[QueryResult]:
     """Ask for unlimited arrivals too; the model of the unit itself bounds them."""
     is_rclpy = options.profile is build.Profile.RCLPY
     if not (is_rclpy and options.structural and options.max_cycle):
         return
-    for found in structural_verdicts(closed, options.engine, options.limits):
+    for found in structural_verdicts(closed, options.engine, options.limits, shelf):
         yield QueryResult(
             family=found.query.family.value,
             formula=found.query.formula,
@@ -198,8 +210,9 @@ def _structural(closed: ClosedSpec, options: Options) -> Iterator[QueryResult]:
 def _with_loads(results: tuple[QueryResult, ...], closed: ClosedSpec) -> tuple[QueryResult, ...]:
     """Beside what overload might do, say what the rates at hand do."""
     callbacks = {callback.name: callback for callback in closed.spec.callbacks}
+    demands = demands_of(closed.spec)
     return tuple(
-        replace(result, load=load_of(closed.spec, callbacks[result.callbacks[0]]))
+        replace(result, load=load_of(closed.spec, callbacks[result.callbacks[0]], demands))
         if result.family == build.Family.STRUCTURAL_STARVATION.value
         else result
         for result in results

@@ -19,7 +19,7 @@ from ros2cc_extract.spec.model import (
     Measured,
     Spec,
 )
-from ros2cc_extract.verify.load import Load, LoadKind, load_of, served_before
+from ros2cc_extract.verify.load import Load, LoadKind, demands_of, load_of, served_before
 
 MULTI, SINGLE = 'MultiThreadedExecutor', 'SingleThreadedExecutor'
 
@@ -65,7 +65,8 @@ def unit(
 
 
 def load(spec: Spec, name: str, *others: Spec) -> Load:
-    return load_of(spec, next(c for c in spec.callbacks if c.name == name), others)
+    callback = next(c for c in spec.callbacks if c.name == name)
+    return load_of(spec, callback, demands_of(spec, others))
 
 
 def paper_case(c_every: float, **how: object) -> Spec:

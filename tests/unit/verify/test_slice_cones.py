@@ -18,7 +18,8 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.slices import Slicer, shape_of
+from ros2cc_extract.verify.shapes import Shape, outline_of
+from ros2cc_extract.verify.slices import Slicer
 
 KINDS = {
     'tick': EntityKind.TIMER,
@@ -207,12 +208,52 @@ def named(closed: ClosedSpec, *names: str) -> Spec:
     return Slicer(closed, 1).cut(frozenset(names)).spec
 
 
+def shape_of(part: Spec) -> Shape:
+    return outline_of(part, 1).shape
+
+
 def test_names_are_no_part_of_a_shape() -> None:
     closed = unit()
     assert shape_of(named(closed, 'ask')) != shape_of(named(closed, 'tick'))
     assert shape_of(named(closed, 'busy')) == shape_of(named(closed, 'far'))
-    assert shape_of(named(closed, 'busy', 'plan')) == shape_of(named(closed, 'far', 'plan'))
-    assert shape_of(named(closed, 'busy', 'plan')) != shape_of(named(closed, 'busy', 'far'))
+    assert shape_of(named(closed, 'busy', 'plan')) == shape_of(named(closed, 'busy', 'far'))
+
+
+def with_types(part: Spec, *kinds: EntityKind) -> Spec:
+    pairs = zip(part.callbacks, kinds, strict=True)
+    served = tuple(replace(c, entity=kind, type=kind.published_type) for c, kind in pairs)
+    return replace(part, callbacks=served)
+
+
+def with_one_reentrant(part: Spec) -> Spec:
+    first, *others = part.groups
+    return replace(part, groups=(replace(first, type=GroupType.REENTRANT), *others))
+
+
+SUBSCRIPTION, CLIENT = EntityKind.SUBSCRIPTION, EntityKind.CLIENT
+GUARD, TASK, WAITABLE = EntityKind.GUARD_CONDITION, EntityKind.TASK, EntityKind.WAITABLE
+
+
+def test_of_ranks_only_the_order_is_part_of_a_shape() -> None:
+    pair = with_one_reentrant(named(unit(), 'busy', 'far'))
+    in_order = shape_of(with_types(pair, EntityKind.TIMER, SUBSCRIPTION))
+    assert shape_of(with_types(pair, SUBSCRIPTION, CLIENT)) == in_order
+    assert shape_of(with_types(pair, SUBSCRIPTION, SUBSCRIPTION)) == in_order
+    assert shape_of(with_types(pair, CLIENT, SUBSCRIPTION)) != in_order
+
+
+def test_what_the_executors_treat_apart_is_part_of_a_shape() -> None:
+    """Whether a guard condition is served before another entity, or after it, too."""
+    pair = with_one_reentrant(named(unit(), 'busy', 'far'))
+    kinds = [
+        (one, other)
+        for one in (GUARD, TASK, WAITABLE, SUBSCRIPTION)
+        for other in (GUARD, TASK, WAITABLE, SUBSCRIPTION)
+    ]
+    assert len({shape_of(with_types(pair, *each)) for each in kinds}) == len(kinds)
+    before = shape_of(with_types(pair, GUARD, CLIENT))
+    assert before != shape_of(with_types(pair, GUARD, SUBSCRIPTION))
+    assert before != shape_of(with_types(pair, CLIENT, GUARD))
 
 
 def test_what_the_model_depends_on_is_part_of_a_shape() -> None:
@@ -223,13 +264,18 @@ def test_what_the_model_depends_on_is_part_of_a_shape() -> None:
         'two nodes': replace(base, callbacks=(one, replace(other, node='other'))),
         'one thread': replace(base, executor=replace(base.executor, threads=('t0',))),
         'one waits': replace(base, callbacks=(replace(one, blocking=(WAITS['watch'],)), other)),
-        'reentrant': replace(
-            base, groups=(replace(base.groups[0], type=GroupType.REENTRANT), base.groups[1])
-        ),
-        'another order': replace(
-            base, callbacks=(replace(one, type=EntityKind.CLIENT.published_type), other)
-        ),
+        'reentrant': with_one_reentrant(base),
+        'another release': replace(base, rclpy='7.1.9'),
     }
     shapes = {name: shape_of(spec) for name, spec in others.items()}
     assert shape_of(base) not in shapes.values()
     assert len(set(shapes.values())) == len(others)
+
+
+def test_a_shape_is_the_same_with_and_without_looking_at_the_slice() -> None:
+    """What is known of callbacks that wait for nothing is put together without cutting."""
+    slicer = Slicer(unit(), 1)
+    for names in (('tick',), ('far', 'tick'), ('plan', 'far', 'tick')):
+        outline = slicer.outline(frozenset(names))
+        assert outline is not None
+        assert outline.shape == shape_of(slicer.cut(frozenset(names)).spec)
