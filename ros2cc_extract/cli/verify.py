@@ -19,6 +19,7 @@ from ros2cc_extract.cli.progress import search_progress
 if TYPE_CHECKING:
     from ros2cc_extract.checker.api import Query
     from ros2cc_extract.spec.close import ClosedSpec
+    from ros2cc_extract.verify.known import Shelf
     from ros2cc_extract.verify.unit import OnProgress, Options, QueryResult, Verification
 
 MODEL_SUFFIX = '.xml'
@@ -104,6 +105,7 @@ def _refuse_with_ranges(args: argparse.Namespace) -> None:
 
 
 def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
+    from ros2cc_extract.verify.known import Shelf
     from ros2cc_extract.verify.unit import ask_unit, verify_model
 
     options, queries = options_of(args), _queries(args)
@@ -111,21 +113,24 @@ def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verific
         with search_progress(stderr, args.path.name) as progress:
             yield verify_model(args.path, queries, options, progress)
         return
+    shelf = Shelf()
     for closed in _units(args, stderr):
         with search_progress(stderr, closed.spec.name) as progress:
             if queries:
                 yield ask_unit(closed, queries, options, progress)
             else:
-                yield _verified(closed, options, progress)
+                yield _verified(closed, options, progress, shelf)
 
 
-def _verified(closed: ClosedSpec, options: Options, progress: OnProgress | None) -> Verification:
+def _verified(
+    closed: ClosedSpec, options: Options, progress: OnProgress | None, shelf: Shelf
+) -> Verification:
     """One unit; an error of its model is told beside the other units."""
     from ros2cc_extract.verify.undecided import failed_unit, is_defect
     from ros2cc_extract.verify.unit import verify_unit
 
     try:
-        return verify_unit(closed, options, progress)
+        return verify_unit(closed, options, progress, shelf)
     except Exception as error:
         if not is_defect(error):
             raise

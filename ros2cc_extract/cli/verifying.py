@@ -26,6 +26,7 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
 from ros2cc_extract.verify.unit import (
     Checker,
@@ -120,6 +121,8 @@ def examine_all(
     :param seconds: for all of them; what is not decided by then is undecided.
     """
     deadline = _deadline(seconds)
+    engines = {task.options.engine.value for task in tasks}
+    shelf = Shelf(folder, '\0'.join((__version__, *_code(), *sorted(engines))))
     found = {n: known for n, task in enumerate(tasks) if (known := _load(task, folder))}
     left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
     size = min(usable_cores(), len(left)) if len(left) >= FEWEST_TO_SHARE else 1
@@ -131,7 +134,7 @@ def examine_all(
         if deadline is not None and deadline.is_over:
             return _unasked(task, deadline.reason)
         watch = meter.search(task.closed.spec.name) if size == 1 else None
-        examined = examine(task, watch, deadline)
+        examined = examine(task, watch, deadline, shelf)
         _store(task, examined, folder)
         return examined
 
@@ -146,7 +149,7 @@ def examine_all(
     if folder is not None and left:
         tidy(folder)
     units = (
-        _with_runs(found[number], task) if number in found else _unasked(task, INTERRUPTED)
+        _with_runs(found[number], task, shelf) if number in found else _unasked(task, INTERRUPTED)
         for number, task in enumerate(tasks)
     )
     return Examination(tuple(units), interrupted)
@@ -167,7 +170,10 @@ def _unasked(task: Task, reason: str) -> Examined:
 
 
 def examine(
-    task: Task, watch: OnProgress | None = None, deadline: Deadline | None = None
+    task: Task,
+    watch: OnProgress | None = None,
+    deadline: Deadline | None = None,
+    shelf: Shelf | None = None,
 ) -> Examined:
     """
     Verify one unit; runs that are not kept are told by nobody but ``_with_runs``.
@@ -175,7 +181,7 @@ def examine(
     What is wrong with our own model of it is told, and the other units go on.
     """
     try:
-        return _examine(task, watch, deadline)
+        return _examine(task, watch, deadline, shelf or Shelf())
     except Exception as error:
         if not is_defect(error):
             raise  # such as a program that was asked for and is not there
@@ -184,11 +190,13 @@ def examine(
         return Examined(shown, judged, findings_of_unit(task.unit, None))
 
 
-def _examine(task: Task, watch: OnProgress | None, deadline: Deadline | None) -> Examined:
-    shown = verify_unit(task.closed, _until(deadline, task.options), watch)
+def _examine(
+    task: Task, watch: OnProgress | None, deadline: Deadline | None, shelf: Shelf
+) -> Examined:
+    shown = verify_unit(task.closed, _until(deadline, task.options), watch, shelf)
     judged = shown
     if task.judging:
-        judged = verify_unit(task.closed, _until(deadline, task.judging), watch)
+        judged = verify_unit(task.closed, _until(deadline, task.judging), watch, shelf)
     findings = findings_of_unit(task.unit, judged)
     kept = _kept(shown, task.keeps_runs)
     return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
@@ -214,20 +222,21 @@ def _left_behind() -> Evidence:
     raise AssertionError('runs that were left behind are replaced before anybody asks')
 
 
-def _with_runs(examined: Examined, task: Task) -> Examined:
+def _with_runs(examined: Examined, task: Task, shelf: Shelf) -> Examined:
     """Runs that were left behind can be asked for again."""
-    shown = _Again(task.closed, task.options).renew(examined.shown)
+    shown = _Again(task.closed, task.options, shelf).renew(examined.shown)
     if task.judging is None:
         return replace(examined, shown=shown, judged=shown)
-    judged = _Again(task.closed, task.judging).renew(examined.judged)
+    judged = _Again(task.closed, task.judging, shelf).renew(examined.judged)
     return replace(examined, shown=shown, judged=judged)
 
 
 class _Again:
     """Verifies a unit once more, when one of its runs is asked for."""
 
-    def __init__(self, closed: ClosedSpec, options: Options) -> None:
+    def __init__(self, closed: ClosedSpec, options: Options, shelf: Shelf) -> None:
         self._closed = closed
+        self._shelf = shelf
         self._options = options
 
     def renew(self, verification: Verification) -> Verification:
@@ -242,7 +251,7 @@ class _Again:
 
     @cached_property
     def _verification(self) -> Verification:
-        return verify_unit(self._closed, self._options)
+        return verify_unit(self._closed, self._options, None, self._shelf)
 
     def _run(self, number: int) -> Evidence:
         evidence = self._verification.results[number].evidence

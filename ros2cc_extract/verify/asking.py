@@ -146,7 +146,7 @@ class Slicing:
             found = self.search(part, list(keys.values()), limits)
             answered.update({role: found.results[key] for role, key in keys.items()})
             known = {role: _answered(result) for role, result in answered.items()}
-            return Entry(known, replace(found.check, answers=(), peak_mb=0.0))
+            return Entry(known, replace(found.check, answers=()))
 
         what = None if asked is None else tuple(sorted(asked))
         return self.shelf.take((first.outline.shape, what), ask), answered

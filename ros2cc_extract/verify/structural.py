@@ -86,7 +86,7 @@ def _entry(part: ClosedSpec, name: str, role: Role, engine: EngineKind, limits: 
     answer = found.answers[0]
     has_run = answer.verdict is Verdict.NOT_SATISFIED
     known = Answered(answer.verdict, answer.reason, answer.seconds, has_run)
-    return Entry({role: known}, replace(found, answers=(), peak_mb=0.0))
+    return Entry({role: known}, replace(found, answers=()))
 
 
 def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
