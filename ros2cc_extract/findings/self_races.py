@@ -13,7 +13,7 @@ from enum import Enum
 
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.races import Use
-from ros2cc_extract.findings.sections import keep_apart, kept_between, read_for
+from ros2cc_extract.findings.sections import is_operand, keep_apart, kept_between, read_for
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
 
@@ -69,7 +69,9 @@ def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace 
     kept = kept_between(read, write, callback)
     if all(keep_apart(kept, other.locks) for other in writes):
         return None
-    return SelfRace(SelfRaceKind.STALE_READ, Use(callback, write), _waits(read, write, callback))
+    at_once = is_operand(read, write)
+    kind = SelfRaceKind.LOST_UPDATE if at_once else SelfRaceKind.STALE_READ
+    return SelfRace(kind, Use(callback, write), _waits(read, write, callback))
 
 
 def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:

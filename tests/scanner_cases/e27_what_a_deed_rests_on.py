@@ -15,6 +15,7 @@ class A(Node):
         self.create_timer(1.0, self.by_test)
         self.create_timer(1.0, self.by_early_return)
         self.create_timer(1.0, self.use)
+        self.create_timer(1.0, self.store_and_use)
         self.create_timer(1.0, self.copy)
         self.create_timer(1.0, self.items)
 
@@ -43,6 +44,12 @@ class A(Node):
         self.goal.cancel()
         self.get_logger().info(self.goal)
 
+    def store_and_use(self):
+        if self.goal:
+            return
+        self.goal = object()
+        self.goal.cancel()
+
     def copy(self):
         goal = self.goal
         if goal is not None:
@@ -67,30 +74,34 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer by_value in a_default every 1
-#     reads A.count @22
-#     writes A.count rests @24
-#     writes A.state @25
+#     reads A.count @23
+#     writes A.count rests @25
+#     writes A.state @26
 #   timer by_test in a_default every 1
-#     reads A.state @28
-#     reads A.state @30
-#     writes A.state rests @29
-#     writes A.state @31
+#     reads A.state @29
+#     reads A.state @31
+#     writes A.state rests @30
+#     writes A.state @32
 #   timer by_early_return in a_default every 1
-#     reads A.goal @34
-#     writes A.goal rests @37
-#     writes A.goal rests clears @38
+#     reads A.goal @35
+#     writes A.goal rests @38
+#     writes A.goal clears @39
 #   timer use in a_default every 1
-#     reads A.goal @41
-#     reads A.goal rests @43
-#     reads A.goal @44
+#     reads A.goal @42
+#     reads A.goal rests @44
+#     reads A.goal @45
+#   timer store_and_use in a_default every 1
+#     reads A.goal @48
+#     reads A.goal under A.goal (flag) @51
+#     writes A.goal rests under A.goal (flag) @50
 #   timer copy in a_default every 1
-#     reads A.goal @47
+#     reads A.goal @54
 #   timer items in a_default every 1
-#     reads A.sides item 'left' @53
-#     reads A.sides item 'right' @53
-#     reads A.sides @55
-#     reads A.state @55
-#     writes A.sides update item 'left' @52
-#     writes A.sides update in_place keeps_size item 'right' rests @53
-#     writes A.sides update in_place item 'left' @54
-#     writes A.sides update in_place @55
+#     reads A.sides item 'left' @60
+#     reads A.sides item 'right' @60
+#     reads A.sides @62
+#     reads A.state @62
+#     writes A.sides update item 'left' @59
+#     writes A.sides update in_place keeps_size item 'right' rests @60
+#     writes A.sides update in_place item 'left' @61
+#     writes A.sides update in_place @62

@@ -97,6 +97,7 @@ class Effects(Waits):
         note_once(accesses, access)
         if kind is AccessKind.WRITE:
             flags.put_down(self.world, name)
+            reading.forget(name, self.world.path)
         if not is_read:
             is_open = self.world.path != self.world.callback_path
             deeds.written.setdefault((name, place), (deeds.behind, is_open))

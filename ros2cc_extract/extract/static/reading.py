@@ -52,6 +52,13 @@ class Reading:
         """Whether a test of ``name`` has led to where the program is."""
         return any(name in self.tests.get(place, ()) for place, _ in path)
 
+    def forget(self, name: str, path: Path) -> None:
+        """The callback has stored something itself: what it has read before decides no more."""
+        for place, _ in path:
+            known = self.tests.get(place)
+            if known is not None and name in known:
+                self.tests[place] = known - {name}
+
     def note_item(self, container: ast.expr, key: ast.expr, place: Place) -> None:
         """``container[key]`` is asked for or stored; ``place`` is that of the container."""
         name, item = _name_of(container), constant_key(key)

@@ -60,6 +60,13 @@ def test_what_is_written_whatever_was_read_is_left_alone() -> None:
     assert told(node) == []
 
 
+def test_a_sum_in_one_statement_is_an_update() -> None:
+    read = Access(name='Arm.goal', source=at(30, 21))
+    node = service('on_go', 'free', reads=(read,), writes=(access(30, rests=True),))
+    finding = only(unit(threads(2), node), 'CC304')
+    assert 'updates Arm.goal from its old value' in finding.message
+
+
 def test_one_lock_from_the_read_to_the_write_protects_and_two_sections_do_not() -> None:
     reads, writes = (access(20, 'lock'),), (access(30, 'lock', rests=True),)
     one = service('on_go', 'free', reads=reads, writes=writes, locks=takes(19), **WAITING)
