@@ -12,7 +12,7 @@ from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_meta
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.flow import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import BudgetError, CannotCallError, Frame, Machine
-from ros2cc_extract.extract.static.relevance import mangled
+from ros2cc_extract.extract.static.relevance import is_test, mangled
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
     options_of,
+    source_text,
 )
 from ros2cc_extract.extract.static.world import Cut, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
@@ -262,7 +263,14 @@ class Calls(Machine):
                 value = result if not isinstance(result, Mystery) else value
             else:
                 memo.doubt(self.world, function, 'is decorated by', decorator)
+                self._keep_handler(function, decorator, frame)
         return value
+
+    def _keep_handler(self, function: Function, decorator: ast.expr, frame: Frame) -> None:
+        """Code that is not scanned has the function now, as a web server has its handlers."""
+        of_tests = source_text(decorator).startswith('pytest') or is_test(function.name)
+        if function.owner is None and not of_tests:
+            self.world.escaped.append((function, frame.place(decorator)))
 
     def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
         """A class from its statement, its body run."""

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.places import Place
 
 _SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
 _SPINS = frozenset({'spin', 'spin_once', 'spin_until_future_complete'})
@@ -21,11 +22,13 @@ class Entry:
 
     :param function: module-level function to call; ``None`` to run the file as ``__main__``.
     :param label: as shown to the user, ``arm.py:main``.
+    :param place: of a function that only spins: it is no start where another start calls it.
     """
 
     source: SourceFile
     function: str | None
     label: str
+    place: Place | None = None
 
 
 def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[Entry]:
@@ -48,11 +51,15 @@ def entries_of(source: SourceFile, scripts: frozenset[tuple[str, str]]) -> list[
         found.append(Entry(source, 'main', f'{source.shown}:main'))
     elif not found:
         found.extend(
-            Entry(source, name, f'{source.shown}:{name}')
+            Entry(source, name, f'{source.shown}:{name}', _place(source, node))
             for name, node in functions.items()
             if _spins(node) and not _wants_arguments(node)
         )
     return found
+
+
+def _place(source: SourceFile, node: ast.stmt) -> Place:
+    return Place(source.shown, node.lineno, node.col_offset + 1)
 
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)

@@ -12,10 +12,10 @@ from ros2cc_extract.extract.static.call_order import (
 )
 from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
-from ros2cc_extract.extract.static.programs_of_tests import is_test
+from ros2cc_extract.extract.static.programs_of_tests import end_test
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.reached import names_from_scanned
-from ros2cc_extract.extract.static.relevance import creates_entities, walk
+from ros2cc_extract.extract.static.relevance import creates_entities, is_test, walk
 from ros2cc_extract.extract.static.runs import (
     UNCALLED,
     guarded,
@@ -166,12 +166,12 @@ def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
     else:
         call = unknown_arguments(value, value.place, skip=0)
         if is_test(value.name):
-            machine.world.global_executor = None
+            end_test(machine)
         nodes, entities = len(machine.world.nodes), len(machine.world.entities)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
         _mark_later(machine.world, nodes, entities, value.place)
         if is_test(value.name):
-            machine.world.global_executor = None
+            end_test(machine)
 
 
 def _mark_later(world: World, nodes: int, entities: int, place: Place) -> None:

@@ -65,10 +65,12 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
 
     One that only lacks a caller is not told where another unit has that caller in sight.
     """
-    owned = {_what(c) for unit in units for c in unit.callbacks if isinstance(c.node, str)}
+    known = [c for unit in units for c in unit.callbacks if isinstance(c.node, str)]
+    owned = {_what(c) for c in known}
+    named = {_line(c) for c in known if not _nobody_passes(c.key)}
     kept: dict[object, Spec] = {}
     for unit in units:
-        if unit.callbacks and all(_lacks_caller(c) and _what(c) in owned for c in unit.callbacks):
+        if unit.callbacks and all(_is_told(c, owned, named) for c in unit.callbacks):
             continue
         is_known = any(not isinstance(callback.node, Unknown) for callback in unit.callbacks)
         key = id(unit) if is_known else replace(unit, entry=None, sources=())
@@ -76,8 +78,20 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     return tuple(kept.values())
 
 
-def _lacks_caller(callback: Callback) -> bool:
-    return isinstance(callback.node, Unknown) and callback.node.reason.endswith(NO_CALLER)
+def _is_told(callback: Callback, owned: set[object], named: set[object]) -> bool:
+    """Whether it only lacks a caller, and another unit has that caller in sight."""
+    if _nobody_passes(callback.key):
+        return _line(callback) in named
+    return _nobody_passes(callback.node) and _what(callback) in owned
+
+
+def _nobody_passes(fact: object) -> bool:
+    return isinstance(fact, Unknown) and fact.reason.endswith(NO_CALLER)
+
+
+def _line(callback: Callback) -> object:
+    """Equal for one line that makes one thing under whatever name, on whatever node."""
+    return callback.entity, callback.source, callback.function
 
 
 def _what(callback: Callback) -> object:

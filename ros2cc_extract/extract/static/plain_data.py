@@ -9,7 +9,7 @@ lead to, by name; so it is never one that makes, serves or waits for anything of
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Machine
@@ -76,19 +76,30 @@ def is_plain(world: World, function: Function) -> bool:
 
 def leads_nowhere(world: World, start: ast.AST) -> bool:
     """Whether nothing that ``start`` names makes, serves or waits for anything of ROS."""
+    return not any(
+        creates_entities(node) or noted_on(node, 'does_more', _does_more)
+        for node in _reachable(world, start)
+    )
+
+
+def may_make_entities(world: World, start: ast.AST) -> bool:
+    """Whether something that ``start`` names makes or serves entities."""
+    return any(creates_entities(node) for node in _reachable(world, start))
+
+
+def _reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
+    """``start``, and the functions and classes that it leads to by name."""
     indices = [noted_on(tree, 'by_name', _by_name) for tree in world.trees]
     waiting, seen = [start], {id(start)}
     while waiting:
         node = waiting.pop()
-        if creates_entities(node) or noted_on(node, 'does_more', _does_more):
-            return False
+        yield node
         for name in noted_on(node, 'used_names', _used_names):
             for index in indices:
                 for other in index.get(name, ()):
                     if id(other) not in seen:
                         seen.add(id(other))
                         waiting.append(other)
-    return True
 
 
 def _used_names(node: ast.AST) -> frozenset[str]:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.interpreter import Interpreter
+from ros2cc_extract.extract.static.ros_executors import nodes_of, remove_node
 from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.values import Bound, Class, Function, Instance
 
 PREPARING = ('setUp', 'asyncSetUp', 'setup_method')
 """Methods that are called before each test."""
-
-
-def is_test(name: str) -> bool:
-    """Whether test runners take a function of this name for a test."""
-    return name.startswith('test')
 
 
 def begin_test(machine: Interpreter, instance: Instance) -> Instance:
@@ -22,8 +18,17 @@ def begin_test(machine: Interpreter, instance: Instance) -> Instance:
     Each test begins with ``rclpy.init`` and ends with ``rclpy.shutdown``, which leaves no global
     executor behind (rclpy 7.1.6, ``__init__.py``).
     """
-    machine.world.global_executor = None
+    end_test(machine)
     return _set_up_for_test(machine, instance)
+
+
+def end_test(machine: Interpreter) -> None:
+    """What the global executor served is free again: ``rclpy.shutdown`` has ended it."""
+    executor = machine.world.global_executor
+    if executor is not None:
+        for node in nodes_of(executor):
+            remove_node(machine, executor, node)
+    machine.world.global_executor = None
 
 
 def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:

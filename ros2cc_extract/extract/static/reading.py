@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+from ros2cc_extract.extract.static.relevance import noted_on, walk
 from ros2cc_extract.extract.static.values import Path, Value
 from ros2cc_extract.places import Place
 
@@ -81,7 +82,11 @@ def constant_key(key: ast.expr) -> str | None:
 
 def names_in(value: ast.expr) -> Iterable[str]:
     """The names that stand in an expression."""
-    return (part.id for part in ast.walk(value) if isinstance(part, ast.Name))
+    return noted_on(value, 'names_in', _names_in)
+
+
+def _names_in(value: ast.expr) -> tuple[str, ...]:
+    return tuple(part.id for part in walk(value) if isinstance(part, ast.Name))
 
 
 def _name_of(node: ast.expr) -> str | None:

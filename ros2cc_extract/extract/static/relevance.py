@@ -79,6 +79,11 @@ def _creates_entities(node: ast.AST) -> bool:
     )
 
 
+def is_test(name: str) -> bool:
+    """Whether test runners take a function of this name for a test."""
+    return name.startswith('test')
+
+
 def replaces_rclpy(tree: ast.Module) -> bool:
     """Whether a file does not import rclpy but puts a stand-in for it into ``sys.modules``."""
     parts = list(walk(tree))

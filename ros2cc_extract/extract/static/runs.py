@@ -20,10 +20,10 @@ from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
 from ros2cc_extract.extract.static.machine import BudgetError
 from ros2cc_extract.extract.static.outside_waits import note_unanswered
-from ros2cc_extract.extract.static.plain_data import leads_nowhere
-from ros2cc_extract.extract.static.programs_of_tests import PREPARING, begin_test, is_test
+from ros2cc_extract.extract.static.plain_data import leads_nowhere, may_make_entities
+from ros2cc_extract.extract.static.programs_of_tests import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.project import Project
-from ros2cc_extract.extract.static.relevance import creates_entities
+from ros2cc_extract.extract.static.relevance import creates_entities, is_test
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.spun_twice import note_spun_twice
 from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
@@ -106,7 +106,7 @@ def _run_escaped(machine: Interpreter) -> None:
         function = inner.function if isinstance(inner, Bound) else inner
         if not isinstance(function, Function) or id(function.node) in machine.world.called:
             continue
-        if creates_entities(function.node):
+        if may_make_entities(machine.world, function.node):
             _run_escaped_one(machine, value, function, place)
 
 
@@ -425,5 +425,5 @@ def _run_later(machine: Interpreter, instance: Instance, name: str, method: Func
 
     guarded(machine, follow, place)
     if is_test(name):
-        machine.world.global_executor = None
+        end_test(machine)
     machine.world.called[id(method.node)] = method

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ros2cc_extract.crew import Crew
 from ros2cc_extract.diagnostics import Diagnostic
@@ -53,11 +53,16 @@ class Piece:
 
 @dataclass(frozen=True)
 class Found:
-    """What following one file gave."""
+    """
+    What following one file gave.
+
+    :param perhaps: the same of functions that only spin, which may be starts: where they stand.
+    """
 
     units: tuple[Spec, ...] = ()
     noticed: tuple[Diagnostic, ...] = ()
     covered: frozenset[Place] = frozenset()
+    perhaps: tuple[tuple[Place, Found], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -134,10 +139,15 @@ class _Worker:
 
     def _from_entries(self, source: SourceFile) -> Found:
         found: list[Found] = []
+        perhaps: list[tuple[Place, Found]] = []
         for entry in entries_of(source, self._scripts):
-            found.append(_found(run_entry(self._project, entry).world, entry.label))
+            each = _found(run_entry(self._project, entry).world, entry.label)
+            if entry.place is None:
+                found.append(each)
+            else:
+                perhaps.append((entry.place, each))
             forget_programs()
-        return _joined(found)
+        return replace(_joined(found), perhaps=tuple(perhaps))
 
     def _from_rest(self, source: SourceFile, covered: frozenset[Place]) -> Found:
         rest = run_library(self._project, source, covered)
@@ -173,7 +183,7 @@ class _Scan:
     def run(self) -> tuple[Extraction, frozenset[FollowedFile]]:
         """Both rounds."""
         first = self._ask([Piece(numbers) for numbers in self._pieces], None)
-        from_entries = [found for answer, _ in first for found in answer.found]
+        from_entries = _with_starts([found for answer, _ in first for found in answer.found])
         homes = [home for _, home in first]
         from_rest = self._rest(from_entries, homes)
         read = self._read()
@@ -264,6 +274,22 @@ def _joined(parts: Iterable[Found]) -> Found:
         tuple(diagnostic for part in found for diagnostic in part.noticed),
         frozenset(place for part in found for place in part.covered),
     )
+
+
+def _with_starts(found: Sequence[Found]) -> list[Found]:
+    """Take what may be starts for such, but what others call."""
+    certain = frozenset(place for each in found for place in each.covered)
+    perhaps = [pair for each in found for pair in each.perhaps]
+    called = {
+        place
+        for place, mine in perhaps
+        for start, other in perhaps
+        if place in other.covered and start not in mine.covered
+    }
+    return [
+        _joined([each, *(f for at, f in each.perhaps if at not in certain and at not in called)])
+        for each in found
+    ]
 
 
 def _covered(world: World) -> frozenset[Place]:
