@@ -74,13 +74,8 @@ def _status(comparison: Comparison) -> int:
 
     if comparison.answer.outcome is Outcome.CONFORMS:
         return EXIT_CLEAN
-    is_open = comparison.answer.outcome is Outcome.UNDECIDED or _is_gap(comparison)
+    is_open = comparison.answer.outcome is Outcome.UNDECIDED or comparison.is_gap
     return EXIT_UNDECIDED if is_open else EXIT_FINDINGS
-
-
-def _is_gap(comparison: Comparison) -> bool:
-    """Whether it is the specification that does not tell enough."""
-    return bool(comparison.lacking or comparison.gaps)
 
 
 def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
@@ -94,7 +89,7 @@ def _lines(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
     elif answer.outcome is Outcome.UNDECIDED:
         yield f'{spec.name}: undecided: {answer.seen} states looked at, {events} events'
     else:
-        verdict = 'undecided' if _is_gap(comparison) else 'diverges'
+        verdict = 'undecided' if comparison.is_gap else 'diverges'
         yield f'{spec.name}: {verdict} after {answer.steps} of {events} events'
         yield from _divergence(comparison, trace, shown)
         yield from (f'  {gap}' for gap in comparison.gaps)

@@ -53,6 +53,11 @@ class Comparison:
     answer: Answer
     model: ObservedModel = field(repr=False)
 
+    @property
+    def is_gap(self) -> bool:
+        """Whether it is the specification that does not tell enough."""
+        return bool(self.lacking or self.gaps)
+
 
 def pair_units(
     traces: Sequence[Trace], units: Sequence[Spec]
