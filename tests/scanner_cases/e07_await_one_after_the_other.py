@@ -10,7 +10,9 @@ class Stair(Node):
         super().__init__('stair')
         self.step = None
         self.landings = []
+        self.doors = []
         self.create_timer(0.1, self.lift)
+        self.create_timer(0.3, self.unlock)
         self.create_timer(1.0, self.climb)
         self.create_timer(0.2, self.land)
 
@@ -23,10 +25,18 @@ class Stair(Node):
         self.landings.append(last)
         await last
         self.landings = []
+        door = Future()
+        self.doors.append(door)
+        await door
 
     def lift(self):
         if self.step is not None and not self.step.done():
             self.step.set_result(True)
+
+    def unlock(self):
+        doors, self.doors = self.doors, []
+        for door in doors:
+            door.set_result(True)
 
     def land(self):
         for landing in self.landings:
@@ -45,18 +55,24 @@ if __name__ == '__main__':
 # unit stair: SingleThreadedExecutor x1 rclpy.spin, main
 #   group stair_default EXCLUSIVE default
 #   timer lift in stair_default every 0.1
-#     reads Stair.step @28
-#     reads Stair.step @28
-#     reads Stair.step rests @29
+#     reads Stair.step @33
+#     reads Stair.step @33
+#     reads Stair.step rests @34
+#   timer unlock in stair_default every 0.3
+#     reads Stair.doors @37
+#     writes Stair.doors rests @37
 #   timer climb in stair_default every 1 coroutine
-#     blocks await on lift through step @19
-#       ended by lift conditional @29
-#     blocks await on lift through step#2 @21
-#       ended by lift conditional @29
-#     blocks await on land through last @24
-#       ended by land conditional @33
-#     writes Stair.step @18
-#     writes Stair.landings update in_place @23
-#     writes Stair.landings @25
+#     blocks await on lift through step @21
+#       ended by lift conditional @34
+#     blocks await on lift through step#2 @23
+#       ended by lift conditional @34
+#     blocks await on land through last @26
+#       ended by land conditional @43
+#     blocks await on unlock through door @30
+#       ended by unlock conditional @39
+#     writes Stair.step @20
+#     writes Stair.landings update in_place @25
+#     writes Stair.landings @27
+#     writes Stair.doors update in_place @29
 #   timer land in stair_default every 0.2
-#     reads Stair.landings iterates list @32
+#     reads Stair.landings iterates list @42

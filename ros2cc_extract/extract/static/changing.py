@@ -95,8 +95,10 @@ def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | N
     """``owner.name`` is read and gives ``held``."""
     if machine.world.when is not When.CALLBACK:
         return
-    if _may_be_filled(machine, held):
+    if isinstance(held, Collection) and _may_be_filled(machine, held):
         machine.world.changing += 1
+        if not holds_objects(held):
+            machine.world.lacking.append((held, None))
     elif is_assigned_later(machine, owner, name):
         machine.world.changing += 1
         note_met(machine.world, owner, name, held)
@@ -171,6 +173,15 @@ def _is_rebound(machine: Machine, name: str, frame: Frame) -> bool:
 
 def _may_be_filled(machine: Machine, held: Value | None) -> bool:
     return isinstance(held, Collection) and loops.may_be_filled(machine, held)
+
+
+def holds_objects(collection: Collection) -> bool:
+    """Whether there are objects in it, of which a callback may take one."""
+    items = (
+        *collection.slots.get('items', ()),
+        *collection.slots.get('entries', {}).values(),
+    )
+    return any(isinstance(option, Instance) for item in items for option in options_of(item))
 
 
 def _handed_in(tree: ast.Module) -> frozenset[str]:

@@ -13,6 +13,8 @@ from ros2cc_extract.extract.static.call_order import (
     callers_first,
     leading_to_entities,
 )
+from ros2cc_extract.extract.static.changing import holds_objects
+from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.handed_on import next_round
@@ -32,6 +34,7 @@ from ros2cc_extract.extract.static.values import (
     Call,
     Class,
     Function,
+    Heaped,
     Instance,
     Mystery,
     Partial,
@@ -176,20 +179,24 @@ class _TooEarly:
 
     entity: EntityState
     met_none: bool
-    lacking: tuple[tuple[Instance, str], ...]
+    lacking: tuple[tuple[Heaped, str | None], ...]
 
     def may_go_on(self) -> bool:
-        """True when it met ``None``, or lacked what somebody has set since."""
-        return self.met_none or any(name in owner.slots for owner, name in self.lacking)
+        """True when it met ``None``, or lacked what somebody has set or put in since."""
+        return self.met_none or any(_is_there(owner, name) for owner, name in self.lacking)
+
+
+def _is_there(owner: Heaped, name: str | None) -> bool:
+    return holds_objects(owner) if isinstance(owner, Collection) else name in owner.slots
 
 
 def run_callbacks(machine: Interpreter) -> None:
     """
     Follow every callback, also of entities that callbacks make.
 
-    Those that met ``None``, or nothing, where others put something are followed again after
-    them, and once more for what they hand on to each other; and those that met an object where
-    others put another one, as long as there are such.
+    Those that met ``None``, nothing, or a list without objects, where others put something are
+    followed again after them, and once more for what they hand on to each other; and those that
+    met an object where others put another one, as long as there are such.
     """
     _run_new_callbacks(machine)
     while again := next_round(machine.world):

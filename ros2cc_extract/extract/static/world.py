@@ -368,7 +368,8 @@ class World:
     :param trees: the text of every module that was run; ``files`` with the names of its file.
     :param changing: how often a callback has read what other functions may change.
     :param unset: how often one has read ``None`` where other functions put something.
-    :param lacking: attributes that callbacks asked for before anybody had set them.
+    :param lacking: attributes that callbacks asked for before anybody had set them, and (without
+        a name) collections before anybody had put an object in.
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
@@ -455,7 +456,7 @@ class World:
     files: list[tuple[ast.Module, str]] = field(default_factory=list)
     changing: int = 0
     unset: int = 0
-    lacking: list[tuple[Instance, str]] = field(default_factory=list)
+    lacking: list[tuple[Heaped, str | None]] = field(default_factory=list)
     missing: set[Place] = field(default_factory=set)
     again: bool = False
     made_then: dict[object, Instance] = field(default_factory=dict)
