@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.values import Const, Instance
+from ros2cc_extract.extract.static.values import Instance, Mystery
 from ros2cc_extract.extract.static.world import End, EntityState
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, Unknown
 
 SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
 DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
@@ -16,15 +16,18 @@ def note_use(machine: Machine, what: str, place: Place) -> None:
     """The middleware is used; it fails where the callback has surely shut rclpy down before."""
     world = machine.world
     current = world.current
-    if current is not None and current.node.slots.get(_slot(current)) == Const(True):
-        world.ends.append(End(USED, current.node, current, place, what))
+    at = current.node.slots.get(_slot(current)) if current is not None else None
+    if current is not None and isinstance(at, Mystery) and at.unknown.at:
+        world.ends.append(End(USED, current.node, current, at.unknown.at, f'{what} ({place})'))
 
 
 def note_shutdown(machine: Machine, place: Place) -> None:
     """The callback that is followed shuts rclpy down."""
     current = machine.world.current
     if current is not None:
-        machine.store.write(current.node, _slot(current), Const(True))
+        machine.store.write(
+            current.node, _slot(current), Mystery(Unknown('rclpy is shut down', place))
+        )
     note_end(machine, SHUTDOWN, None, place)
 
 

@@ -155,7 +155,7 @@ def _used(end: End) -> Diagnostic:
         severity=Severity.ERROR,
         slug='served-no-more',
         place=end.place,
-        message=f'{end.text} when this callback has shut rclpy down: that raises, and ends the '
+        message=f'a callback shuts rclpy down, and then {end.text}: that raises, and ends the '
         'spin',
         help='shut down last, or let the code after the spin do it',
     )

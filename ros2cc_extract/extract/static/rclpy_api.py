@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static import (
     ros_helpers,
     ros_libraries,
     ros_nodes,
+    ros_shutdown,
     ros_spins,
     threads_library,
 )
@@ -65,6 +66,7 @@ def table() -> Library:
             ros_helpers.TABLE,
             ros_events.TABLE,
             ros_called.TABLE,
+            ros_shutdown.TABLE,
             ros_async.TABLE,
         ]
     )

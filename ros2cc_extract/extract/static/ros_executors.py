@@ -16,7 +16,6 @@ from ros2cc_extract.extract.static.ending import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
     note_end,
-    note_shutdown,
 )
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -418,10 +417,8 @@ def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
 def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
     """Spins that go on in other threads end."""
     world = machine.world
-    if isinstance(receiver, Instance) and isinstance(receiver.state, ExecutorState):
+    if isinstance(receiver, Instance):
         note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place)
-    else:
-        note_shutdown(machine, call.place)
     if not world.in_callback and not world.in_thread:
         world.spins_over = len(world.spins)
     return NONE
@@ -455,8 +452,6 @@ TABLE = Library(
     },
     functions={
         'rclpy.get_global_executor': lambda machine, receiver, call: global_executor(machine),
-        'rclpy.shutdown': _shut_down,
-        'rclpy.try_shutdown': _shut_down,
     },
     aliases={
         'rclpy.SingleThreadedExecutor': SINGLE,

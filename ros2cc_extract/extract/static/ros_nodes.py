@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.ros_groups import (
     group_of,
     new_group,
 )
+from ros2cc_extract.extract.static.ros_shutdown import context_of_node
 from ros2cc_extract.extract.static.same_node import made_before, made_while_missing, remember
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -432,7 +433,11 @@ TABLE = Library(
             state=make_node,
             init=init_node,
             methods=NODE_METHODS,
-            properties={'default_callback_group': _default_group, DEFAULT_GROUP: _default_group},
+            properties={
+                'default_callback_group': _default_group,
+                DEFAULT_GROUP: _default_group,
+                'context': context_of_node,
+            },
         ),
         'rclpy.parameter.Parameter': LibraryClass(
             init=_keep_parameter,

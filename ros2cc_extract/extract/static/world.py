@@ -418,6 +418,7 @@ class World:
     spins_over: int = 0
     inside_spins: list[InsideSpin] = field(default_factory=list)
     ends: list[End] = field(default_factory=list)
+    context: Instance | None = None
     thread: int = 0
     threads: int = 0
     executors: list[Instance] = field(default_factory=list)
