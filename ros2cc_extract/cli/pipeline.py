@@ -26,6 +26,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.rates import with_arrivals
 from ros2cc_extract.verify.unit import Options, Verification
 
 
@@ -122,7 +123,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     closed = tuple(close(unit, job.policy) for unit in units)
     tasks = [
         Task(unit, each, job.options, job.keeps_runs)
-        for unit, each in zip(units, closed, strict=True)
+        for unit, each in zip(with_arrivals(units), closed, strict=True)
     ]
     with bar(stderr, 'verifying') as meter:
         folder = default_cache_folder() if job.cached else None

@@ -15,6 +15,7 @@ from ros2cc_extract.findings.rules.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases import has_change
+from ros2cc_extract.verify.rates import with_arrivals
 from ros2cc_extract.verify.unit import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
@@ -34,7 +35,7 @@ def findings_of(
     :param verifications: of the units, in their order; empty when none was verified.
     """
     verdicts = verifications or [None] * len(units)
-    pairs = zip(units, verdicts, strict=True)
+    pairs = zip(with_arrivals(units), verdicts, strict=True)
     releases = {unit.rclpy for unit in units}
     return all_findings([findings_of_unit(*pair) for pair in pairs], diagnostics, releases)
 

@@ -6,8 +6,8 @@ Stated by hand, measured in a live run, or read from the source: the first that 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import Blocking
@@ -57,7 +57,8 @@ class Demand:
 def demand_of(callback: Callback, specs: Sequence[Spec]) -> Demand:
     """Find out what ``callback`` asks for; timers of ``specs`` may publish what arrives for it."""
     stated = _period_s(callback)
-    published = _published_every_s(callback, specs) if stated is None else None
+    is_heard = stated is None and callback.entity is EntityKind.SUBSCRIPTION
+    published = _published_every_s(callback, _publishers(specs)) if is_heard else None
     measured = callback.measured
     seen = measured.period.median_s if measured and measured.period else None
     period = stated if stated is not None else published if published is not None else seen
@@ -80,20 +81,42 @@ def _period_s(callback: Callback) -> float | None:
     return period if period > 0 else None
 
 
-def _published_every_s(callback: Callback, specs: Sequence[Spec]) -> float | None:
+def with_arrivals(units: Sequence[Spec]) -> tuple[Spec, ...]:
+    """
+    The units, subscriptions with the period of who publishes for them in any of the units.
+
+    The publisher may be served by another executor, or stand in another program of the sources.
+    """
+    publishers = _publishers(units)
+
+    def arriving(callback: Callback) -> Callback:
+        every = _published_every_s(callback, publishers) if callback.period_s is None else None
+        return callback if every is None else replace(callback, period_s=every)
+
+    return tuple(replace(unit, callbacks=tuple(map(arriving, unit.callbacks))) for unit in units)
+
+
+Publishers = Mapping[str, Mapping[object, Callback]]
+
+
+def _publishers(specs: Iterable[Spec]) -> Publishers:
+    """Who publishes which topic; one node may be served in several programs."""
+    found: dict[str, dict[object, Callback]] = {}
+    for spec in specs:
+        for callback in spec.callbacks:
+            known = callback.source or (spec.name, callback.name), callback.function
+            for topic in {act.name for act in callback.publishes if isinstance(act.name, str)}:
+                found.setdefault(topic, {})[known] = callback
+    return found
+
+
+def _published_every_s(callback: Callback, publishers: Publishers) -> float | None:
     """The period of the one timer that publishes the topic of a subscription."""
     topic = callback.key
     if callback.entity is not EntityKind.SUBSCRIPTION or not isinstance(topic, str):
         return None
-    found = list(_publishers(topic, specs))
+    found = list(publishers.get(topic, {}).values())
     return _period_s(found[0]) if len(found) == 1 else None
-
-
-def _publishers(topic: str, specs: Sequence[Spec]) -> Iterator[Callback]:
-    for spec in specs:
-        for callback in spec.callbacks:
-            if any(act.name == topic for act in callback.publishes):
-                yield callback
 
 
 def _duration_s(callback: Callback) -> tuple[float | None, bool]:

@@ -32,6 +32,7 @@ from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import (
     NO_EXECUTOR,
     Callback,
@@ -307,6 +308,23 @@ def test_message_of_timers_that_leave_no_time_together() -> None:
         'group opens one of them is due, so last, served after them, may never run'
     )
     assert finding.place == at(70)
+
+
+def test_the_publisher_of_another_program_gives_the_rate() -> None:
+    busy = subscription('on_image', 'other', key='image', blocking=sleeps(0.2))
+    watched = unit(threads(2), busy, subscription('on_stop', 'other', key='stop'), timer('t'))
+    camera = timer('shoot', period_s=0.1, node='camera', publishes=(Act(name='image'),))
+
+    def told(*others: Callback) -> list[str]:
+        programs = [
+            replace(unit(ONE_THREAD, other), name=f'program_{other.name}') for other in others
+        ]
+        findings = findings_of([watched, *programs], [])
+        return [finding.code for finding in findings if finding.code == 'CC202']
+
+    assert told(camera) == ['CC202']
+    assert told() == []
+    assert told(camera, replace(camera, name='again')) == [], 'two publish what arrives'
 
 
 def test_who_is_made_only_at_times_keeps_no_group_busy() -> None:
