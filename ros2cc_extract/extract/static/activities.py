@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.doing import ActivityState
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -22,7 +23,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wakings import Waking, Word
-from ros2cc_extract.extract.static.world import ActivityState, World
+from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+from ros2cc_extract.extract.static.doing import Deeds
 from ros2cc_extract.extract.static.values import Class, Instance, Library
-from ros2cc_extract.extract.static.world import Deeds, World
+from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
 

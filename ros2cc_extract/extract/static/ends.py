@@ -15,6 +15,7 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ending import (
     DESTROY,
     DESTROY_NODE,
@@ -33,15 +34,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wakings import EntityRef
-from ros2cc_extract.extract.static.world import (
-    ActivityState,
-    Deeds,
-    End,
-    EntityState,
-    ExecutorState,
-    Spin,
-    World,
-)
+from ros2cc_extract.extract.static.world import End, EntityState, ExecutorState, Spin, World
 from ros2cc_extract.spec.deeds import Blocking
 
 _SINGLE = 'SingleThreadedExecutor'

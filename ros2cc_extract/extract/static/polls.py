@@ -11,12 +11,12 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static.doing import Deeds
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.outside_waits import is_endless, is_idle
 from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef
-from ros2cc_extract.extract.static.world import Deeds
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import TIME
 

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.call_order import (
 )
 from ros2cc_extract.extract.static.changing import holds_objects
 from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.handed_on import next_round
@@ -41,14 +42,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import (
-    ActivityState,
-    Cut,
-    Deeds,
-    EntityState,
-    NodeState,
-    World,
-)
+from ros2cc_extract.extract.static.world import Cut, EntityState, NodeState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 

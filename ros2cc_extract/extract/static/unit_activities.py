@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.naming import FunctionFacts, describe
 from ros2cc_extract.extract.static.unit_waits import UnitWaits
 from ros2cc_extract.extract.static.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.wakings import ResourceRef
-from ros2cc_extract.extract.static.world import ActivityState, Deeds, EntityState, World
+from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.spec.deeds import Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 

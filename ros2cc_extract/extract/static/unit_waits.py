@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.activities import is_activity
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
@@ -18,7 +19,7 @@ from ros2cc_extract.extract.static.wakings import (
     Waking,
     Word,
 )
-from ros2cc_extract.extract.static.world import ActivityState, Deeds, EntityState, World, way_of
+from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Blocking, Waker
 

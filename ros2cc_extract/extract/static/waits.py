@@ -6,6 +6,7 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.unknown_waits import (
@@ -37,13 +38,10 @@ from ros2cc_extract.extract.static.wakings import (
 )
 from ros2cc_extract.extract.static.world import (
     RECENT,
-    ActivityState,
-    Deeds,
     EntityState,
     ExecutorState,
     NodeState,
     PlainState,
-    way_of,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Blocking, Needs

@@ -1,0 +1,66 @@
+"""What callbacks and activities were seen to do, while they are followed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.values import Call, Path, Value
+from ros2cc_extract.extract.static.wakings import Waking
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.spec.model import ActivityKind
+
+
+@dataclass
+class Deeds:
+    """
+    What one callback or activity does, in the order of its text.
+
+    :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param written: of a write, by name and place, what lay behind it, and whether on a branch.
+    """
+
+    blocking: list[Blocking] = field(default_factory=list)
+    reads: list[Access] = field(default_factory=list)
+    writes: list[Access] = field(default_factory=list)
+    locks: list[Act] = field(default_factory=list)
+    publishes: list[Act] = field(default_factory=list)
+    changes: list[Act] = field(default_factory=list)
+    rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
+    behind: object = None
+    written: dict[object, tuple[object, bool]] = field(default_factory=dict)
+
+
+def way_of(block: Blocking) -> object:
+    """Equal for one wait, however often it is met."""
+    return block.call, block.source, block.chain
+
+
+@dataclass(eq=False)
+class ActivityState:
+    """
+    Code that runs on a thread which no executor has.
+
+    :param place: where it is started.
+    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
+    :param starts: who starts it.
+    :param serves: it spins an executor.
+    :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
+    :param site: equal for one start that is met again.
+    """
+
+    kind: ActivityKind
+    place: Place
+    target: Value | None = None
+    call: Call | None = None
+    runners: list[Value] = field(default_factory=list)
+    starts: list[Waking] = field(default_factory=list)
+    deeds: Deeds = field(default_factory=Deeds)
+    path: Path = ()
+    count: int | Unknown = 1
+    daemon: bool = False
+    loops: bool = False
+    serves: bool = False
+    nodes: set[int] = field(default_factory=set)
+    things: set[int] = field(default_factory=set)
+    site: object = None
