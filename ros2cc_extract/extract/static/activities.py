@@ -125,6 +125,7 @@ def spins(world: World, *, for_ever: bool) -> None:
     if activity is None:
         return
     activity.serves = True
+    activity.is_executor = activity.is_executor or for_ever
     if for_ever and activity.kind is ActivityKind.MAIN:
         world.activity = world.deeds = None
 
@@ -154,7 +155,7 @@ def followed(world: World) -> Iterator[ActivityState]:
     while world.told < len(world.activities):
         state = world.activities[world.told]
         world.told += 1
-        if state.kind is not ActivityKind.MAIN:
+        if state.kind is not ActivityKind.MAIN and not state.is_executor:
             yield state
 
 

@@ -38,6 +38,7 @@ from ros2cc_extract.extract.static.world import (
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
+from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
@@ -53,6 +54,8 @@ class Effects(Waits):
         Methods, entities and locks are no shared data, and neither is an object that this
         callback has made.
         """
+        if self.world.deeds is None and kind is AccessKind.WRITE:
+            self._note_other_write(owner, name, place)
         if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
             return
         if self.world.activity is not None and isinstance(owner, Instance):
@@ -64,6 +67,17 @@ class Effects(Waits):
             return
         shown = unmangled(name, cls.name)
         self._note_access(f'{_object_name(owner, cls)}.{shown}', kind, place)
+
+    def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
+        """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
+        world = self.world
+        cls = owner.cls if isinstance(owner, Instance) else owner
+        if not isinstance(cls, Class) or not (world.when is When.LATER or world.after_spin):
+            return
+        function = self.stack[0].name if self.stack else ''
+        by = function if world.when is When.LATER else None
+        shown = f'{_object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
+        world.other_writes.setdefault(shown, (by, place))
 
     def _note_access(self, name: str, kind: AccessKind, place: Place) -> None:
         deeds = self.world.deeds

@@ -125,7 +125,8 @@ def _for_all(name: str, position: int | None) -> Handler:
         else:
             for future in items.known:
                 machine.note_blocking(name, future, timeout, call.place)
-                machine.world.asked.add(id(future))
+                if timeout in (None, NONE):
+                    machine.world.asked.add(id(future))
             if name == 'futures.as_completed':
                 return Sequence(items.known, 'generator', None, items.many)
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')

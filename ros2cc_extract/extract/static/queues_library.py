@@ -5,21 +5,20 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
+from ros2cc_extract.extract.static.wait_table import INITIAL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState
-
-_MAXSIZE = '__maxsize__'
 
 
 def _init(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    machine.store.write(receiver, _MAXSIZE, call.argument(0, 'maxsize') or Const(0))
+    machine.store.write(receiver, INITIAL, call.argument(0, 'maxsize') or Const(0))
     return NONE
 
 
 def _may_be_full(queue: Instance) -> bool:
     """Source: ``queue.py``; a size of zero or less has no bound."""
-    size = queue.slots.get(_MAXSIZE, Const(0))
+    size = queue.slots.get(INITIAL, Const(0))
     is_number = isinstance(size, Const) and isinstance(size.value, (int, float))
     return not is_number or size.value > 0
 

@@ -208,6 +208,7 @@ TABLE = Library(
         'rclpy.task.Task': future_class('task'),
     },
     functions={'rclpy.wait_for_message.wait_for_message': _wait_for_message},
+    aliases={'rclpy.Future': 'rclpy.task.Future', 'rclpy.Task': 'rclpy.task.Task'},
 )
 
 NODE_EXECUTOR = (NODE, node_executor_property)

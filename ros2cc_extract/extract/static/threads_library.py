@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
 )
+from ros2cc_extract.extract.static.wait_table import INITIAL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
 from ros2cc_extract.spec.model import ActivityKind, When
@@ -87,10 +88,19 @@ def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _semaphore_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, INITIAL, call.argument(0, 'value') or Const(1))
+    return NONE
+
+
+_INITS: dict[str, Handler] = {'semaphore': _semaphore_init}
+
+
 def _plain(kind: str) -> LibraryClass:
     return LibraryClass(
         state=lambda machine, instance: PlainState(kind, place=instance.place),
-        init=_event_init if kind == 'event' else lambda machine, receiver, call: NONE,
+        init=_INITS.get(kind, lambda machine, receiver, call: NONE),
         methods=_PLAIN_METHODS.get(kind, {}),
     )
 
@@ -146,6 +156,9 @@ def _event_init(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, _IS_SET, Const(False))
     return NONE
+
+
+_INITS['event'] = _event_init
 
 
 def _set(machine: Machine, receiver: Value, call: Call) -> Value:

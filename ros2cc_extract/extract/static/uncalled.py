@@ -39,13 +39,21 @@ class _Operation:
     column: int
     function: int
     called: str
+    is_attribute: bool = True
 
 
-def uncalled_wakers(world: World, name: str, words: frozenset[Word]) -> Unknown | None:
-    """Why somebody who is not in sight may end a wait for what is stored under ``name``."""
+def uncalled_wakers(
+    world: World, name: str, words: frozenset[Word], made_in: str
+) -> Unknown | None:
+    """
+    Why somebody who is not in sight may end a wait for what is stored under ``name``.
+
+    :param made_in: the file in which a variable of that name means it.
+    """
     for tree, file in world.files:
         for operation in noted_on(tree, 'waking_operations', _operations):
             is_meant = operation.name == name and operation.word in words
+            is_meant = is_meant and (operation.is_attribute or file == made_in)
             if is_meant and operation.function not in world.called:
                 at = Place(file, operation.line, operation.column)
                 return Unknown(f'nobody in sight calls {operation.called}, which ends it', at)
@@ -54,8 +62,13 @@ def uncalled_wakers(world: World, name: str, words: frozenset[Word]) -> Unknown 
 
 def data_is_written_elsewhere(world: World, names: frozenset[str]) -> Unknown | None:
     """Why somebody who is not in sight may write the data of ``names`` (``Class.attribute``)."""
+    for name in sorted(names):
+        by, place = world.other_writes.get(name, (None, None))
+        if by is not None:
+            return Unknown(f'nobody in sight calls {by}, which writes it', place)
     found = (
-        uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE})) for name in names
+        uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE}), '')
+        for name in names
     )
     return next((why for why in found if why is not None), None)
 
@@ -83,7 +96,8 @@ def _of_function(
         word, owner = _METHODS.get(part.func.attr), part.func.value
         name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, 'id', None)
         if word is not None and name is not None:
-            yield _Operation(name, word, part.lineno, part.col_offset + 1, id(node), called)
+            at, is_attribute = (part.lineno, part.col_offset + 1), isinstance(owner, ast.Attribute)
+            yield _Operation(name, word, *at, id(node), called, is_attribute)
 
 
 def _written(part: ast.AST) -> ast.Attribute | None:

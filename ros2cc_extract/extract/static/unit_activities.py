@@ -63,7 +63,9 @@ def _is_executor(state: ActivityState) -> bool:
     """Whether it only sets up and spins an executor, or is a main program that does nothing."""
     deeds = state.deeds
     does = deeds.blocking or deeds.reads or deeds.writes or deeds.locks or deeds.publishes
-    return not does and (state.serves or state.kind is ActivityKind.MAIN)
+    if state.kind is ActivityKind.MAIN:
+        return not does
+    return state.is_executor or (state.serves and not does)
 
 
 def facts_of(state: ActivityState) -> FunctionFacts:

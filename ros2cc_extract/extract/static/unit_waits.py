@@ -23,6 +23,10 @@ from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Blocking, Waker
 
+# What is waited for of one object may be several things.
+_COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
+_PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
+
 Doer = EntityState | ActivityState
 
 
@@ -45,7 +49,7 @@ class UnitWaits:
     def __init__(self, world: World, names: dict[int, str], doers: Iterable[Doer]) -> None:
         self._world = world
         self._names = names
-        self._resources: dict[int, str] = {}
+        self._resources: dict[object, str] = {}
         self._taken: dict[str, int] = {}
         self._settled = dict(names)
         for number, wakings in world.wakings.items():
@@ -119,12 +123,13 @@ class UnitWaits:
         return None if setter is None or is_open else self._names.get(id(setter))
 
     def _resource(self, reference: ResourceRef) -> str:
-        known = self._resources.get(reference.number)
+        key = (reference.number, reference.ended_by)
+        known = self._resources.get(key)
         if known is None:
-            text = str(reference)
+            text = str(reference) + _PARTS.get(min(reference.ended_by, key=str), '')
             number = self._taken[text] = self._taken.get(text, 0) + 1
             known = text if number == 1 else f'{text}#{number}'
-            self._resources[reference.number] = known
+            self._resources[key] = known
         return known
 
     def _is_foreign(self, on: object) -> bool:
@@ -164,6 +169,13 @@ class UnitWaits:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
                     yield self._does(doer, act.name, act.source)
 
+    def _at_end(self, on: DataRef, doer: Doer) -> Iterator[Waker]:
+        """What the program does when the spin has ended, which ends its threads from outside."""
+        for name in sorted(on.names) if is_activity(doer) else ():
+            by, place = self._world.other_writes.get(name, ('', None))
+            if by is None:
+                yield Waker(by=OUTSIDE, source=place)
+
     def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
         """A write or a message of ``doer`` that ends a wait."""
         behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
@@ -175,7 +187,7 @@ class UnitWaits:
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)
         if isinstance(raw.on, DataRef):
-            writers = tuple(dict.fromkeys(self._writers(raw.on)))
+            writers = tuple(dict.fromkeys((*self._writers(raw.on), *self._at_end(raw.on, doer))))
             why = data_is_written_elsewhere(self._world, raw.on.names)
             return replace(named, wakers=writers, escapes=why)
         row = WAITS.get(raw.call, NO_ROW)
@@ -185,6 +197,10 @@ class UnitWaits:
             more, why = self._wakers_of(raw.resource, doer)
             wakers += more
             escapes = escapes or why
+            initial = self._initial(raw.resource, wakings_of(self._world, raw.resource))
+            if initial is None:
+                escapes = escapes or Unknown('how many waits end by themselves', raw.source)
+            named = replace(named, initial=initial or 0)
         elif row.ended_by and isinstance(raw.on, EntityRef):
             is_here = isinstance(named.on, str) and named.on in self._names.values()
             wakers.append(Waker(by=str(named.on) if is_here else OUTSIDE))
@@ -198,7 +214,7 @@ class UnitWaits:
         mine = [waking for waking in wakings if waking.word in reference.ended_by]
         if Word.ARRIVE in reference.ended_by:
             mine = [waking for waking in mine if waking.by is not doer]
-        found = [waker for waking in mine for waker in self._wakers(waking, reference)]
+        found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
         return found, self._why_open(mine, reference)
 
     def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
@@ -213,12 +229,14 @@ class UnitWaits:
             return Unknown(
                 f'nobody in sight calls {uncalled.uncalled}, which ends it', uncalled.place
             )
-        return uncalled_wakers(self._world, str(reference), reference.ended_by)
+        return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made_in)
 
-    def _wakers(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
+    def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
         by, place = waking.by, waking.place
         if by is None:
-            if waking.uncalled is None and not waking.after_spin:
+            if waking.after_spin and is_activity(doer):
+                yield Waker(by=OUTSIDE, source=place)
+            elif waking.uncalled is None and not waking.after_spin:
                 yield from self._by_set_up(waking, reference)
             return
         name = self._names.get(id(by))
@@ -226,15 +244,31 @@ class UnitWaits:
             yield Waker(by=OUTSIDE, source=place)
             return
         after = None if waking.word is Word.END else self.after(waking)
-        yield Waker(by=name, source=place, after=after, conditional=waking.conditional)
+        yield Waker(
+            by=name,
+            source=place,
+            after=after,
+            conditional=waking.conditional,
+            held=waking.held,
+        )
 
     def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
         """What is set before anything else runs stays so, unless it is taken back."""
         if waking.word is Word.SET and reference.is_kept:
             is_open = waking.conditional or reference.number in self._world.cleared
             yield Waker(by=TIME, source=waking.place, conditional=is_open)
-        elif waking.word in (Word.PUT, Word.RELEASE, Word.GET, Word.DONE):
+        elif (
+            waking.word in (Word.PUT, Word.RELEASE, Word.GET, Word.DONE) and not waking.is_counted
+        ):
             yield Waker(by=TIME, source=waking.place, conditional=True)
+
+    def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
+        """How many waits end without a waker, as the set-up leaves it."""
+        if reference.initial is None or reference.is_kept:
+            return reference.initial
+        early = [w for w in mine if w.by is None and w.uncalled is None and not w.after_spin]
+        counted = [w for w in early if w.word in (Word.PUT, Word.RELEASE) and w.is_counted]
+        return reference.initial + len(counted)
 
     def after(self, waking: Waking) -> int:
         """How many of its own waits the doer of ``waking`` has behind it then."""

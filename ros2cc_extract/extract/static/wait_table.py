@@ -13,6 +13,9 @@ from ros2cc_extract.extract.static import outside_library
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Needs
 
+INITIAL = '__initial__'
+"""Slot of a semaphore for its value, and of a queue for its size."""
+
 
 @dataclass(frozen=True)
 class WaitRow:

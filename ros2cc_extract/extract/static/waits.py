@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS, WaitRow
+from ros2cc_extract.extract.static.wait_table import INITIAL, NO_ROW, WAITS, WaitRow
 from ros2cc_extract.extract.static.wakings import (
     DataRef,
     EntityRef,
@@ -131,7 +131,7 @@ class Waits(Machine):
             seconds=seconds,
             chain=world.chain[1:],
             held=held_over(world, None),
-            resource=on if isinstance(on, DataRef) else None,
+            resource=on if isinstance(on, DataRef) else f'end of the loop at {place}',
             escapes=on if isinstance(on, Unknown) else None,
             conditional=world.path != world.callback_path,
         )
@@ -160,6 +160,8 @@ class Waits(Machine):
         reference.ended_by = row.ended_by
         reference.asked = row.unless_asked and id(thing) in self.world.asked
         reference.is_kept = row.needs is Needs.ONCE
+        reference.initial = _initial(thing, row)
+        reference.made_in = thing.place.file
         reference.like = self._made_there(thing)
         return reference
 
@@ -216,14 +218,14 @@ class Waits(Machine):
             return
         for option in options_of(thing):
             wakings = world.wakings.setdefault(id(option), [])
-            waking = self._waking(word, place)
+            waking = self._waking(option, word, place)
             if not any(_is_same_waking(waking, other) for other in wakings):
                 wakings.append(waking)
                 if isinstance(option, Instance):
                     self._made_there(option)
             touch(world.activity, option)
 
-    def _waking(self, word: Word, place: Place) -> Waking:
+    def _waking(self, thing: Value, word: Word, place: Place) -> Waking:
         world = self.world
         doer = world.activity or (world.current if world.deeds is not None else None)
         is_uncalled = doer is None and world.when is When.LATER
@@ -235,6 +237,8 @@ class Waits(Machine):
             conditional=world.path != world.callback_path if doer else bool(world.path),
             after_spin=world.after_spin,
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
+            held=held_over(world, thing),
+            is_counted=not world.path and world.count == 1,
         )
 
     def note_nested_spin(
@@ -280,6 +284,15 @@ def _one_object(on: Value | None, place: Place) -> tuple[Instance | None, Unknow
         return None, Unknown('one of several objects, depending on a branch', place)
     unknown = next((option.unknown for option in options if isinstance(option, Mystery)), None)
     return (things[0] if len(things) == 1 else None), unknown
+
+
+def _initial(thing: Instance, row: WaitRow) -> int | None:
+    """How many waits end by themselves: the value of a semaphore, the room in a queue."""
+    if row.rival is not Word.PUT and Word.RELEASE not in row.ended_by:
+        return 0
+    value = thing.slots.get(INITIAL)
+    number = value.value if isinstance(value, Const) else None
+    return number if isinstance(number, int) else None
 
 
 def _is_of_entity(thing: Instance) -> bool:

@@ -53,6 +53,8 @@ class ResourceRef(SettableRef):
     :param ended_by: which operations on it end this wait.
     :param asked: it was asked before whether it would wait at all.
     :param like: identities of objects that were made at the same place.
+    :param initial: how many waits end by themselves; ``None`` where that is not known.
+    :param made_in: the file in which it is made.
     :param is_kept: what ends the wait ends all that come after it.
     """
 
@@ -60,6 +62,8 @@ class ResourceRef(SettableRef):
     asked = False
     is_kept = False
     like: Sequence[int] = ()
+    initial: int | None = 0
+    made_in = ''
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +75,7 @@ class Waking:
         calls.
     :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
     :param uncalled: in whose text, which nobody in sight calls, it stands.
+    :param is_counted: it happens once, whatever branches are taken.
     """
 
     word: Word
@@ -80,6 +85,8 @@ class Waking:
     conditional: bool = False
     after_spin: bool = False
     uncalled: str | None = None
+    held: tuple[str, ...] = ()
+    is_counted: bool = False
 
 
 class DataRef(EntityRef):

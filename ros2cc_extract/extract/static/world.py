@@ -283,6 +283,8 @@ class World:
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: objects that the function has been asked of whether a wait would wait.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
+    :param other_writes: data that is written by what nobody in sight calls, with its name, or
+        after the spin has ended, with ``None``.
     :param cleared: events that somebody clears.
     :param given: objects that were handed to code which is not followed, with the reason.
     :param activity: the thread or the part of the main program that is followed.
@@ -343,6 +345,7 @@ class World:
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
     made_at: dict[object, list[int]] = field(default_factory=dict)
+    other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     cleared: set[int] = field(default_factory=set)
     given: dict[int, Unknown] = field(default_factory=dict)
     activity: ActivityState | None = None

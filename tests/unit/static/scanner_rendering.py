@@ -155,6 +155,7 @@ def _blocking(block: Blocking) -> str:
     if block.resource not in (None, block.on):
         words.append(f'through {block.resource}')
     words += [block.needs.value] if block.needs is not Needs.ONCE else []
+    words += [f'initial={block.initial}'] if block.initial else []
     words += ['conditional'] if block.conditional else []
     if block.seconds is not None:
         words.append(f'{_known(block.seconds)} s')
@@ -178,6 +179,7 @@ def _waker(waker: Waker) -> str:
     words = [waker.by]
     words += [f'after {waker.after}'] if waker.after else []
     words += ['conditional'] if waker.conditional else []
+    words += [f'holding {", ".join(waker.held)}'] if waker.held else []
     return ' '.join(words) + _trail(waker.source, ())
 
 
