@@ -63,8 +63,15 @@ def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
     reduced = _with_tasks_in_no_group(reduced)
     used = {callback.group for callback in reduced.callbacks}
     reduced = replace(reduced, groups=tuple(g for g in reduced.groups if g.name in used))
-    moved = _moved_tasks(reduced, spec)
-    return ClosedSpec(spec=reduced, assumptions=(*_assumptions(reduced, policy), *moved))
+    told = (*_assumptions(reduced, policy), *_moved_tasks(reduced, spec), *_empty_groups(spec))
+    return ClosedSpec(spec=reduced, assumptions=told)
+
+
+def _empty_groups(spec: Spec) -> list[str]:
+    """Say which groups have no member, not even one of rclpy's own."""
+    used = {callback.group for callback in spec.callbacks}
+    empty = (group.name for group in spec.groups if group.name not in used)
+    return [f'group {name} has no callback, and is not modelled' for name in empty]
 
 
 def _with_tasks_in_no_group(spec: Spec) -> Spec:

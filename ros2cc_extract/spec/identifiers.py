@@ -3,8 +3,10 @@ Names that UPPAAL accepts, and how an extracted name is mended into one.
 
 Keywords: docs.uppaal.org, page "Reserved Keywords"; and what UPPAAL 5 has beyond it, the built-in
 functions of the page "Expressions" among them, as its parser knows them
-(github.com/UPPAALModelChecker/utap, ``keywords.cpp``). The names that the published declarations
-define are reserved as well, because a callback of such a name would break the model.
+(github.com/UPPAALModelChecker/utap, ``keywords.cpp``). Constants and types that it declares by
+itself: the same page, "A few common constants and types" (built-in since Stratego 10). The names
+that the published declarations define are reserved as well, because a callback of such a name
+would break the model.
 """
 
 from __future__ import annotations
@@ -28,6 +30,13 @@ ceil floor trunc round fint ldexp ilogb logb nextafter copysign
 fpclassify isfinite isinf isnan isnormal signbit isunordered
 random random_arcsine random_beta random_gamma random_normal random_poisson random_tri
 random_weibull
+"""
+
+# All that UPPAAL declares before a model: a second declaration is refused.
+_BUILT_IN_TEXT = """
+INT8_MIN INT8_MAX UINT8_MAX INT16_MIN INT16_MAX UINT16_MAX INT32_MIN INT32_MAX
+int8_t uint8_t int16_t uint16_t int32_t FLT_MIN FLT_MAX DBL_MIN DBL_MAX
+M_PI M_PI_2 M_PI_4 M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
 """
 
 # Words of the query grammar alone: they break a query that names the process, not the model.
@@ -55,15 +64,23 @@ Callback CallbackGroup Thread Executor
 KEYWORDS = frozenset(_KEYWORD_TEXT.split())
 MODEL_NAMES = frozenset(_MODEL_NAME_TEXT.split())
 QUERY_WORDS = frozenset(_QUERY_WORD_TEXT.split())
-AVOIDED = KEYWORDS | MODEL_NAMES | QUERY_WORDS
+BUILT_INS = frozenset(_BUILT_IN_TEXT.split())
+AVOIDED = KEYWORDS | MODEL_NAMES | QUERY_WORDS | BUILT_INS
+#: UPPAAL refuses names of some 4,000 characters; file systems bear 255.
+LONGEST = 255
+_LONGEST_MENDED = 200
 
 
 def complaint(name: str) -> str | None:
     """Say why ``name`` cannot name a process of the model, ``None`` when it can."""
     if not _IDENTIFIER.match(name):
         return f'{name!r} is no UPPAAL identifier'
+    if len(name) > LONGEST:
+        return f'{name[:20]!r}… has {len(name)} characters, and {LONGEST} are allowed'
     if name in KEYWORDS:
         return f'{name!r} is a UPPAAL keyword'
+    if name in BUILT_INS:
+        return f'{name!r} is declared by UPPAAL itself'
     if name in MODEL_NAMES:
         return f'{name!r} is a name of the model itself'
     return None
@@ -82,7 +99,7 @@ def mend(text: str, taken: Collection[str] = ()) -> str:
 
     Underscores of its own are kept: ``tick`` and ``_tick`` are two.
     """
-    name = _OTHER.sub('_', _EDGES.sub('', text)) or 'unnamed'
+    name = _OTHER.sub('_', _EDGES.sub('', text))[:_LONGEST_MENDED] or 'unnamed'
     if name[0].isdigit():
         name = f'_{name}'
     if name in AVOIDED:

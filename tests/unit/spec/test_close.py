@@ -112,3 +112,10 @@ def test_every_hole_is_told_in_the_order_of_the_unit() -> None:
 def test_nothing_is_assumed_of_a_unit_without_holes() -> None:
     unit = replace(UNIT, executor=Executor(name='ex', kind='Own', threads=('t',)))
     assert close(unit).assumptions == ()
+
+
+def test_a_group_without_callbacks_is_told() -> None:
+    spare = CallbackGroup(name='spare', type=GroupType.EXCLUSIVE)
+    closed = close(replace(UNIT, groups=(*UNIT.groups, spare)), Policy(threads=4))
+    assert [group.name for group in closed.spec.groups] == ['g']
+    assert closed.assumptions == ('group spare has no callback, and is not modelled',)
