@@ -33,4 +33,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC501:25 note, CC406:30 warning
+# finds: CC406:30 warning, CC501:25 note

@@ -29,4 +29,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC402:14 note, CC102:19
+# finds: CC102:19, CC402:14 note

@@ -25,4 +25,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC501:11 note, CC105:17
+# finds: CC105:17, CC501:11 note

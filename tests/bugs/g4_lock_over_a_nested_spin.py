@@ -39,4 +39,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC107:25 warning, CC115:25
+# finds: CC115:25, CC107:25 warning
