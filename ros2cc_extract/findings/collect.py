@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.findings.assumptions import with_assumptions
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.registry import BY_SLUG, RULES
 from ros2cc_extract.findings.rule import Context
@@ -114,7 +115,8 @@ def _line(finding: Finding) -> tuple[str, int | None]:
 
 def _of_unit(context: Context) -> Iterator[Finding]:
     for rule in RULES:
-        yield from rule.check(context)
+        for finding in rule.check(context):
+            yield with_assumptions(finding, context.unit)
 
 
 def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool | None:

@@ -67,6 +67,7 @@ class Blocking:
         room in a queue.
     :param escapes: why somebody else might end it too, or who ends it is not known.
     :param conditional: true where a branch may skip the wait.
+    :param only_if: what leads there, where a parameter decides and its default does not.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
     """
 
@@ -83,6 +84,7 @@ class Blocking:
     initial: int = 0
     escapes: Unknown | None = None
     conditional: bool = False
+    only_if: str | None = None
     times: int = 1
 
 

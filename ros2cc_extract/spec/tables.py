@@ -99,6 +99,7 @@ BLOCKING = record(
                 ('initial', 'initial', COUNT),
                 ('wakers', 'wakers', listing(WAKER)),
                 ('conditional', 'conditional', FLAG),
+                ('only_if', 'only_if', optional(TEXT)),
                 ('times', 'times', COUNT),
                 ('held', 'held', listing(TEXT)),
                 _SOURCE,

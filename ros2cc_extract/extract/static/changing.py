@@ -37,7 +37,9 @@ from ros2cc_extract.spec.model import When
 def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
     """``bool(test)``; ``None`` when that depends, also on when it is asked."""
     before = machine.world.changing
-    holds = machine.truth(machine.evaluate(test, frame))
+    value = machine.evaluate(test, frame)
+    holds = machine.truth(value)
+    machine.world.tested = value
     return holds if machine.world.changing == before else None
 
 

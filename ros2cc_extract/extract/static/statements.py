@@ -14,7 +14,7 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, flags, loops, memo, polls, same_tests
+from ros2cc_extract.extract.static import changing, flags, loops, memo, polls, same_tests, settings
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
@@ -209,10 +209,13 @@ def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
     if holds is not None:
         return machine.execute_block(node.body if holds else node.orelse, frame)
     note_open_test(machine.world, node.test, frame.place(node))
+    asked = machine.world.tested
     bodies = _arms(machine, node, frame)
     if len(bodies) != len(('then', 'else')):
+        settings.note_arms(machine, node.test, asked, frame.place(node))
         return machine.branches(bodies, frame.place(node), frame)
     place, is_opposite = same_tests.first_place(machine, node, frame)
+    settings.note_arms(machine, node.test, asked, place, is_opposite=is_opposite)
     return machine.branches(bodies[::-1] if is_opposite else bodies, place, frame)
 
 

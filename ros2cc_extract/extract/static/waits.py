@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.settings import only_if
 from ros2cc_extract.extract.static.unknown_waits import (
     CLOCKS,
     DURATION,
@@ -109,6 +110,7 @@ class Waits(Machine):
             needs=row.needs,
             escapes=why if row is not NO_ROW else None,
             conditional=world.path != world.callback_path,
+            only_if=only_if(world),
             times=world.times,
         )
         touch(world.activity, thing)

@@ -325,6 +325,8 @@ class World:
     :param met: the objects that the running callback found in what others assign.
     :param met_by: the same of each callback that was followed, by the identity of its entity.
     :param rounds: how often it was followed again for others.
+    :param tested: the value of the last test.
+    :param conditions: of a branch that no default leads to, what setting does.
     :param plain: whether a function works on plain data alone, by the identity of its statement.
     :param plain_of: how many modules that was asked of.
     :param spent: the steps that such calls have taken, by the same, and under 0 of all.
@@ -415,6 +417,8 @@ class World:
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
     met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
     rounds: Counter[int] = field(default_factory=Counter)
+    tested: Value | None = None
+    conditions: dict[tuple[Place, int], str] = field(default_factory=dict)
     plain: dict[int, bool] = field(default_factory=dict)
     plain_of: int = 0
     spent: Counter[int] = field(default_factory=Counter)

@@ -163,6 +163,8 @@ def _blocking(block: Blocking) -> str:
         words.append(f'{block.times} times')
     if block.held:
         words.append(f'holding {", ".join(block.held)}')
+    if block.only_if:
+        words.append(f'only if {block.only_if.partition(",")[0]}')
     return ' '.join(words) + _trail(block.source, block.chain)
 
 
