@@ -12,7 +12,7 @@ from ros2cc_extract.findings.capacity import can_overlap_itself
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.waits import WaitKind, kind_of
-from ros2cc_extract.findings.workers import runs_in_parallel
+from ros2cc_extract.findings.workers import honours_groups, is_one_thread, runs_in_parallel
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.rates import demand_of
@@ -40,6 +40,24 @@ def overlap(one: Callback, other: Callback, context: Context) -> Overlap | None:
     if result is not None and result.verdict is Verdict.NOT_SATISFIED:
         return None
     return Overlap() if _groups_allow(one, other, context) else None
+
+
+def interleaves(callback: Callback, other: Callback, context: Context) -> bool:
+    """
+    True when ``other`` may run while ``callback`` awaits something on an executor with one thread.
+
+    A coroutine gives its thread back at an ``await`` and keeps its group closed. Source: rclpy
+    7.1.6 and 9.1.2, ``executors.py`` (``_make_handler``), ``task.py``; the events executor asks
+    no group and is left out.
+    """
+    executor = context.unit.executor
+    if not callback.coroutine or not is_one_thread(executor) or not honours_groups(executor):
+        return False
+    if any(context.group_of(each).unresolved is not None for each in (callback, other)):
+        return False
+    if callback.name == other.name:
+        return can_overlap_itself(callback, context)
+    return not exclude_each_other(callback, other) and _groups_allow(callback, other, context)
 
 
 def overlaps_itself(callback: Callback, context: Context) -> bool:

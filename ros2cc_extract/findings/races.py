@@ -18,7 +18,7 @@ from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
-from ros2cc_extract.findings.overlap import overlap
+from ros2cc_extract.findings.overlap import interleaves, overlap
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import (
     is_operand,
@@ -27,6 +27,7 @@ from ros2cc_extract.findings.sections import (
     kept_between,
     read_for,
 )
+from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Access
@@ -160,6 +161,7 @@ def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Co
         return
     together = overlap(one, other, context)
     if together is None:
+        yield from _over_awaits(one, other, context)
         return
     for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
@@ -176,6 +178,28 @@ def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Co
         if classified:
             kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
             yield _Conflict(kind, first, second, together.run)
+
+
+def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
+    """What a coroutine read before it awaited, and writes or uses because of that afterwards."""
+    for callback, rival in ((one, other), (other, one)):
+        if interleaves(callback, rival, context):
+            pairs = (
+                (Use(callback, a), Use(rival, b)) for a in callback.writes for b in rival.writes
+            )
+            for first, second in pairs:
+                if first.access.name == second.access.name and _is_stale(first, second):
+                    yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
+
+
+def _is_stale(first: Use, second: Use) -> bool:
+    write, callback = first.access, first.callback
+    read = read_for(write, callback) if write.rests and not write.in_place else None
+    if read is None or is_other_item(write, second.access):
+        return False
+    awaits = (b for b in callback.blocking if kind_of(b) is WaitKind.AWAIT)
+    over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
+    return over_await and not keep_apart(kept_between(read, write, callback), second.access.locks)
 
 
 # Their loops notice a change of size; those over a list see more or less, and raise nothing.

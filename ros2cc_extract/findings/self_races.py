@@ -8,12 +8,13 @@ on an earlier read, as a test or a copy; and what a run has written, waits, and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.races import Use
 from ros2cc_extract.findings.sections import is_operand, keep_apart, kept_between, read_for
+from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
 
@@ -47,6 +48,14 @@ def self_races_of(callback: Callback) -> Iterator[SelfRace]:
         found = next(_races_on(writes, callback), None)
         if found is not None:
             yield found
+
+
+def self_races_over_awaits(callback: Callback) -> Iterator[SelfRace]:
+    """The same of a coroutine on one thread: another run begins only while this one awaits."""
+    awaits = tuple(block for block in callback.blocking if kind_of(block) is WaitKind.AWAIT)
+    if awaits:
+        alone = replace(callback, blocking=awaits)
+        yield from (race for race in self_races_of(alone) if race.waits)
 
 
 def _races_on(writes: list[Access], callback: Callback) -> Iterator[SelfRace]:

@@ -6,10 +6,15 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
-from ros2cc_extract.findings.overlap import is_quick_timer, overlaps_itself
+from ros2cc_extract.findings.overlap import interleaves, is_quick_timer, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.self_races import SelfRace, SelfRaceKind, self_races_of
+from ros2cc_extract.findings.self_races import (
+    SelfRace,
+    SelfRaceKind,
+    self_races_of,
+    self_races_over_awaits,
+)
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.places import Place
@@ -37,6 +42,8 @@ def _losing(context: Context) -> Iterator[SelfRace]:
     for callback in shared_by(context):
         if overlaps_itself(callback, context):
             yield from self_races_of(callback)
+        elif interleaves(callback, callback, context):
+            yield from self_races_over_awaits(callback)
 
 
 def _told_of_others(context: Context) -> Iterator[tuple[str, Place | str]]:

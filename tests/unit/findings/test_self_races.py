@@ -5,10 +5,22 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from finding_units import at, found, only, outside, service, sleeps, threads, timer, unit, updates
+from finding_units import (
+    ONE_THREAD,
+    at,
+    found,
+    only,
+    outside,
+    service,
+    sleeps,
+    threads,
+    timer,
+    unit,
+    updates,
+)
 
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
 
 
@@ -153,3 +165,35 @@ def test_a_run_may_clear_what_another_run_of_the_same_callback_uses() -> None:
         'on_stop tests Arm.goal and then uses it, and another run of it may set it to None in '
         'between: the use then ends in an exception',
     )
+
+
+AWAITING = {'coroutine': True, 'blocking': (Blocking(call='await', source=at(25)),)}
+
+
+@pytest.mark.parametrize(
+    ('facts', 'group', 'expected'),
+    [
+        (AWAITING, 'free', ['CC304:30 warning']),
+        (AWAITING, 'other', []),
+        ({**AWAITING, **WAITING}, 'free', []),
+        ({**AWAITING, 'coroutine': False}, 'free', []),
+    ],
+)
+def test_a_coroutine_on_one_thread_meets_itself_where_it_awaits(
+    facts: dict[str, object], group: str, expected: list[str]
+) -> None:
+    node = service('on_go', group, **READ_THEN_WRITTEN, **facts)
+    found_in = found(unit(ONE_THREAD, node, timer('tick')))
+    assert [code for code in found_in if code.startswith('CC3')] == expected
+
+
+@pytest.mark.parametrize(
+    ('group', 'expected'), [('other', ['CC301:30 warning']), ('arm_default', [])]
+)
+def test_a_coroutine_on_one_thread_meets_members_of_other_groups(
+    group: str, expected: list[str]
+) -> None:
+    on_go = service('on_go', **READ_THEN_WRITTEN, **AWAITING)
+    other = timer('tick', group, writes=(access(40),))
+    found_in = found(unit(ONE_THREAD, on_go, other))
+    assert [code for code in found_in if code.startswith('CC3')] == expected
