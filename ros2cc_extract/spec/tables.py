@@ -125,6 +125,7 @@ ACCESS = record(
                 ('item', 'item', optional(TEXT)),
                 ('rests', 'rests', FLAG),
                 ('clears', 'clears', FLAG),
+                ('later', 'later', FLAG),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

@@ -57,7 +57,7 @@ if __name__ == '__main__':
 #   timer lift in stair_default every 0.1
 #     reads Stair.step @33
 #     reads Stair.step @33
-#     reads Stair.step rests @34
+#     reads Stair.step rests later @34
 #   timer unlock in stair_default every 0.3
 #     reads Stair.doors @37
 #     writes Stair.doors rests @37

@@ -40,7 +40,7 @@ def main():
 #   subscription on_text in bridge_default key=text
 #     reads Bridge.loop @21
 #     reads Bridge.loop @22
-#     reads Bridge.loop rests @24
+#     reads Bridge.loop rests later @24
 #     writes Bridge.seen @20
 #   activity thread run_forever daemon loops
 #   activity thread send (Bridge.send) started by on_text conditional @22 count=?

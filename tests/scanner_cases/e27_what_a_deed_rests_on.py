@@ -15,6 +15,7 @@ class A(Node):
         self.create_timer(1.0, self.by_test)
         self.create_timer(1.0, self.by_early_return)
         self.create_timer(1.0, self.use)
+        self.create_timer(1.0, self.use_later)
         self.create_timer(1.0, self.store_and_use)
         self.create_timer(1.0, self.copy)
         self.create_timer(1.0, self.items)
@@ -43,6 +44,11 @@ class A(Node):
             return
         self.goal.cancel()
         self.get_logger().info(self.goal)
+
+    def use_later(self):
+        if self.goal is not None:
+            self.get_logger().info('busy')
+            self.goal.cancel()
 
     def store_and_use(self):
         if self.goal:
@@ -74,34 +80,37 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer by_value in a_default every 1
-#     reads A.count @23
-#     writes A.count rests @25
-#     writes A.state @26
+#     reads A.count @24
+#     writes A.count rests @26
+#     writes A.state @27
 #   timer by_test in a_default every 1
-#     reads A.state @29
-#     reads A.state @31
-#     writes A.state rests @30
-#     writes A.state @32
+#     reads A.state @30
+#     reads A.state @32
+#     writes A.state rests @31
+#     writes A.state @33
 #   timer by_early_return in a_default every 1
-#     reads A.goal @35
-#     writes A.goal rests @38
-#     writes A.goal clears @39
+#     reads A.goal @36
+#     writes A.goal rests @39
+#     writes A.goal clears @40
 #   timer use in a_default every 1
-#     reads A.goal @42
-#     reads A.goal rests @44
-#     reads A.goal @45
+#     reads A.goal @43
+#     reads A.goal rests @45
+#     reads A.goal @46
+#   timer use_later in a_default every 1
+#     reads A.goal @49
+#     reads A.goal rests later @51
 #   timer store_and_use in a_default every 1
-#     reads A.goal @48
-#     reads A.goal under A.goal (flag) @51
-#     writes A.goal rests under A.goal (flag) @50
-#   timer copy in a_default every 1
 #     reads A.goal @54
+#     reads A.goal under A.goal (flag) @57
+#     writes A.goal rests under A.goal (flag) @56
+#   timer copy in a_default every 1
+#     reads A.goal @60
 #   timer items in a_default every 1
-#     reads A.sides item 'left' @60
-#     reads A.sides item 'right' @60
-#     reads A.sides @62
-#     reads A.state @62
-#     writes A.sides update item 'left' @59
-#     writes A.sides update in_place keeps_size item 'right' rests @60
-#     writes A.sides update in_place item 'left' @61
-#     writes A.sides update in_place @62
+#     reads A.sides item 'left' @66
+#     reads A.sides item 'right' @66
+#     reads A.sides @68
+#     reads A.state @68
+#     writes A.sides update item 'left' @65
+#     writes A.sides update in_place keeps_size item 'right' rests @66
+#     writes A.sides update in_place item 'left' @67
+#     writes A.sides update in_place @68

@@ -48,12 +48,14 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     if machine.world.deeds is None:
         return decide(machine, node.test, frame)
     reading, found = machine.world.reading, set[str]()
+    calls = reading.calls
     with reading.of(found):
         holds = decide(machine, node.test, frame)
     place = frame.place(outer)
     known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
     reading.tests[place] = known | found | _computed_from(node.test, frame)
     if node is outer:
+        reading.tested_at[place] = calls
         flags.note_test(reading, node, found, place)
     return holds
 

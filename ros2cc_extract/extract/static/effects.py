@@ -88,6 +88,7 @@ class Effects(Waits):
             reading.read.add(name)
         at = place, name.rpartition('.')[2]
         rests = reading.governs(name, self.world.path) or name in reading.flowing
+        is_used = rests and is_read and at in reading.used
         if kind is AccessKind.WRITE:
             flags.put_up(self.world, name)
         access = Access(
@@ -99,7 +100,8 @@ class Effects(Waits):
             keeps_size=self.world.refilling,
             iterates=self.world.iterating,
             item=reading.items.get(at),
-            rests=rests and (not is_read or at in reading.used),
+            rests=is_used or (rests and not is_read),
+            later=is_used and reading.has_called_since(name, self.world.path),
             clears=kind is AccessKind.WRITE and reading.stored == NONE,
             chain=self.world.chain[1:],
         )

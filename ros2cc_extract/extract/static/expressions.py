@@ -209,6 +209,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
         call.text = node
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
+    machine.world.reading.calls += 1
     return machine.call(function, call)
 
 

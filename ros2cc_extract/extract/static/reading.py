@@ -28,6 +28,8 @@ class Reading:
     :param items: the item that is meant, by the place of the container and its attribute.
     :param used: objects of which more is asked than whether they are there, in the same way.
     :param stored: the value that is being stored.
+    :param calls: how many calls there were.
+    :param tested_at: how many there were before a test, by its place.
     :param down: flags that were found down, by the step of the path on which they are.
     """
 
@@ -38,6 +40,8 @@ class Reading:
     used: set[tuple[Place, str]] = field(default_factory=set)
     stored: Value | None = None
     down: dict[tuple[Place, int], str] = field(default_factory=dict)
+    calls: int = 0
+    tested_at: dict[Place, int] = field(default_factory=dict)
 
     @contextmanager
     def of(self, found: set[str]) -> Iterator[None]:
@@ -52,6 +56,11 @@ class Reading:
     def governs(self, name: str, path: Path) -> bool:
         """Whether a test of ``name`` has led to where the program is."""
         return any(name in self.tests.get(place, ()) for place, _ in path)
+
+    def has_called_since(self, name: str, path: Path) -> bool:
+        """Whether something was called since ``name`` was tested last."""
+        tests = (place for place, _ in path if name in self.tests.get(place, ()))
+        return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
 
     def forget(self, name: str, path: Path) -> None:
         """The callback has stored something itself: what it has read before decides no more."""

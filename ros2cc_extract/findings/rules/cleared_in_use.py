@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
@@ -23,7 +24,8 @@ def find(context: Context) -> Iterator[Hit]:
     for race in races_of(context):
         if race.kind is RaceKind.CLEARED_IN_USE:
             told |= {(race.first.callback.name, name) for name in race.names}
-            yield hit_of(race, help_text=HELP)
+            hit = hit_of(race, help_text=HELP)
+            yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
     for callback in shared_by(context):
         if overlaps_itself(callback, context):
             uses = {
@@ -41,7 +43,7 @@ def _of_itself(use: Use, context: Context) -> Hit:
         message=f'{callback.display_name} tests {name} and then uses it, and another run of it '
         'may set it to None in between: the use then ends in an exception',
         help=HELP,
-        severity=Severity.NOTE if is_quick_timer(callback) else None,
+        severity=Severity.NOTE if is_quick_timer(callback) or not use.access.later else None,
         subjects=(callback.name, name),
         run=refuting_run(SELF_OVERLAP, context, callback),
     )
@@ -55,8 +57,12 @@ RULE = Rule(
     what='A callback tests whether an object is there (`if self.goal is not None`) and then uses '
     'it (`self.goal.cancel()`), and a callback that may run at the same time sets it to None. '
     'Where that happens between the test and the use, the use ends in an AttributeError or '
-    'TypeError, which ends the spin. No lock is held around both.',
-    why='Each reading of an attribute looks anew; CPython may switch threads between two of them. '
+    'TypeError, which ends the spin. No lock is held around both. Where nothing is called between '
+    'the test and the use, it is only a note: an interpreter with a global lock does not switch '
+    'threads there.',
+    why='Each reading of an attribute looks anew. CPython switches threads at calls and at the '
+    'ends of rounds of loops (3.12, `Python/bytecodes.c`, `CHECK_EVAL_BREAKER`), a build without '
+    'the global lock anywhere. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '
     'their groups and the number of threads. An exception in a callback leaves `spin`. Source: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`MultiThreadedExecutor`, `_spin_once_impl`).',
@@ -69,7 +75,7 @@ class Arm(Node):
         self.create_subscription(Empty, 'stop', self.on_stop, 10)
 
     def check(self):
-        if self.goal is not None:
+        if self.goal is not None and self.goal.is_active():
             self.goal.refresh()
 
     def on_stop(self, msg):
@@ -79,7 +85,7 @@ class Arm(Node):
 class Arm(Node):
     def check(self):
         goal = self.goal
-        if goal is not None:
+        if goal is not None and goal.is_active():
             goal.refresh()
 """,
     mend='Read the attribute once, into a local variable, and test and use that.',

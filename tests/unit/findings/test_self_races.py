@@ -117,7 +117,7 @@ def test_items_of_other_keys_do_not_meet() -> None:
 
 
 def using(*locks: str, **facts: object) -> Callback:
-    reads = (access(20, *locks), access(21, *locks, rests=True))
+    reads = (access(20, *locks), access(21, *locks, rests=True, later=True))
     return timer('check', reads=reads, locks=takes(19) if locks else (), **facts)
 
 
@@ -132,6 +132,11 @@ def test_an_object_that_is_set_to_none_between_a_test_and_its_use() -> None:
     assert told(using('lock'), clearing()) == ['CC305:21 warning']
     stored = replace(clearing(), writes=(access(40),))
     assert told(using(), stored) == []
+
+
+def test_nothing_called_between_a_test_and_a_use_makes_it_a_note() -> None:
+    at_once = replace(using(), reads=(access(20), access(21, rests=True)))
+    assert told(at_once, clearing()) == ['CC305:21 note']
 
 
 def test_an_object_that_the_callback_stores_itself_is_there() -> None:
@@ -155,7 +160,7 @@ def test_a_run_may_clear_what_another_run_of_the_same_callback_uses() -> None:
     node = service(
         'on_stop',
         'free',
-        reads=(access(20), access(21, rests=True)),
+        reads=(access(20), access(21, rests=True, later=True)),
         writes=(access(22, clears=True),),
     )
     (finding,) = findings_of([unit(threads(2), node)], [], [None])

@@ -191,6 +191,7 @@ def _access(access: Access) -> str:
     update += f' iterates {access.iterates}' if access.iterates else ''
     update += f' item {access.item}' if access.item else ''
     update += (' rests' if access.rests else '') + (' clears' if access.clears else '')
+    update += ' later' if access.later else ''
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
 
