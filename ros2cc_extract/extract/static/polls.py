@@ -152,18 +152,38 @@ def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
 
 def _is_foreign(test: ast.expr, loop: ast.While) -> bool:
     """Whether something else than shared data may turn out otherwise: a clock, a counter."""
-    assigned = {
-        part.id
-        for each in loop.body
-        for part in walk(each)
-        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
-    }
+    parts = [part for each in loop.body for part in walk(each)]
+    assigned = {name for part in parts for name in _assigned(part)}
+    grown = {name for part in parts for name in _grown(part)} - _owners(test)
     for part in walk(test):
-        if isinstance(part, ast.Name) and part.id in assigned:
+        if isinstance(part, ast.Name) and part.id in assigned | grown:
             return True
         if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not _is_neutral(part):
             return True
     return False
+
+
+def _assigned(part: ast.AST) -> Iterator[str]:
+    if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store):
+        yield part.id
+
+
+def _grown(part: ast.AST) -> Iterator[str]:
+    """Names whose object a method, or an assignment to an item, may change."""
+    target = part.func if isinstance(part, ast.Call) else part
+    is_stored = isinstance(part, ast.Subscript) and isinstance(part.ctx, ast.Store)
+    if (isinstance(part, ast.Call) or is_stored) and isinstance(
+        target, (ast.Attribute, ast.Subscript)
+    ):
+        owner = target.value
+        if isinstance(owner, ast.Name):
+            yield owner.id
+
+
+def _owners(test: ast.expr) -> set[str]:
+    """Names of which the test reads an attribute: that is shared data, and asked as such."""
+    parts = (part.value for part in walk(test) if isinstance(part, ast.Attribute))
+    return {owner.id for owner in parts if isinstance(owner, ast.Name)}
 
 
 def _is_neutral(part: ast.expr) -> bool:
