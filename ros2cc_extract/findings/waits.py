@@ -10,7 +10,7 @@ the executor has run the client; ``Rate.sleep`` waits for one set by a timer of 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.findings.model import Remark
@@ -41,8 +41,9 @@ BUSY_WAIT = 'busy wait'
 EVENT_WAIT = 'Event.wait'
 SPIN_FOR_FUTURE = 'spin for future'
 ASYNCIO_SLEEP = 'asyncio.sleep'
+_CALL = 'client.call'
 _KINDS = {
-    'client.call': WaitKind.ANSWER,
+    _CALL: WaitKind.ANSWER,
     'send_goal': WaitKind.ANSWER,
     'get_result': WaitKind.ANSWER,
     'cancel_goal': WaitKind.ANSWER,
@@ -112,14 +113,26 @@ def waits_of(context: Context) -> Iterator[Wait]:
     """
     All waits of the callbacks somebody wrote, in the order of the unit.
 
-    A loop that spins while it waits does not keep the executor from serving others.
+    A loop that steps an executor until a future is done is a nested spin for that future, told
+    where it steps.
     """
     for caller in context.written:
-        spins = any(kind_of(block) is WaitKind.SPIN for block in caller.blocking)
+        step = next((block for block in caller.blocking if kind_of(block) is WaitKind.SPIN), None)
         for block in caller.blocking:
-            if spins and block.call == BUSY_WAIT:
-                continue
+            if step is not None and block.call == BUSY_WAIT:
+                if not _steps_this_unit(step, context):
+                    continue
+                block = _stepped(block, step)
             yield Wait(caller, block, kind_of(block), tuple(_needs(block, caller, context)))
+
+
+def _steps_this_unit(step: Blocking, context: Context) -> bool:
+    unit = context.unit
+    return step.call.endswith('.spin_once') and step.on in (*unit.nodes, unit.executor.name)
+
+
+def _stepped(loop: Blocking, step: Blocking) -> Blocking:
+    return replace(loop, call=SPIN_FOR_FUTURE, source=step.source, chain=step.chain)
 
 
 def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Callback]:
@@ -168,7 +181,11 @@ def how_it_ends(waits: Sequence[Wait]) -> str:
     wait, is_one = waits[0], len(callers_of(waits)) == 1
     if wait.has_timeout:
         runs = 'it always runs into its' if is_one else 'they always run into their'
-        return f'{runs} time-out'
+        is_call = wait.block.call == _CALL
+        raises = (
+            ', which from Kilted on raises TimeoutError and ends the spin if nobody catches it'
+        )
+        return f'{runs} time-out{raises if is_call else ""}'
     is_event = wait.block.call == EVENT_WAIT and not is_done_callback(wait.needs[0])
     for_ever = 'it waits for ever' if is_one else 'they wait for ever'
     return for_ever + (', unless the event was set before' if is_event else '')

@@ -68,19 +68,28 @@ def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown
     elif workers.is_default and capacity.at_least > 1:
         rest = (
             f'with as many threads as CPUs, so on a machine with {capacity.at_least} or fewer '
-            'CPUs no thread is left for the answers and all wait for ever'
+            f'CPUs no thread is left for the answers and {_what_becomes_of(waits)}'
         )
         usual = capacity.at_least >= USUAL_CPUS
         yield _hit(waits, capacity, rest, Severity.WARNING if usual else Severity.NOTE)
     elif not workers.is_default and capacity.at_least >= workers.count:
         rest = (
-            f'on {plural(workers.count, "thread")}: then none is left for the answers and all '
-            'wait for ever'
+            f'on {plural(workers.count, "thread")}: then none is left for the answers and '
+            f'{_what_becomes_of(waits)}'
         )
         timed = all(wait.has_timeout for wait in waits)
         yield _hit(waits, capacity, rest, Severity.WARNING if timed else None)
     elif capacity.unbounded:
         yield _overlap_hit(waits, capacity, workers)
+
+
+def _what_becomes_of(waits: Sequence[Wait]) -> str:
+    """A wait with a time-out ends, and gives a thread back to the others."""
+    if all(wait.has_timeout for wait in waits):
+        return 'all run into their time-outs'
+    if any(wait.has_timeout for wait in waits):
+        return 'all wait, at least until the first time-out'
+    return 'all wait for ever'
 
 
 def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:

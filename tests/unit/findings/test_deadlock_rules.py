@@ -109,7 +109,10 @@ def test_a_time_out_makes_a_warning() -> None:
     )
     finding = only(spec, 'CC101')
     assert finding.severity is Severity.WARNING
-    assert finding.message.endswith('it always runs into its time-out')
+    assert finding.message.endswith(
+        'it always runs into its time-out, which from Kilted on raises TimeoutError and ends the '
+        'spin if nobody catches it'
+    )
 
 
 def test_the_service_of_the_same_unit_may_be_what_is_shut_out() -> None:
@@ -181,6 +184,13 @@ def test_a_busy_wait_for_a_future_is_a_wait_unless_it_spins() -> None:
     for blocking, expected in ((waits, ['CC102:40']), ((*waits, *spin), ['CC120:40 note'])):
         spec = unit(ONE_THREAD, timer('drive', blocking=blocking), client('plan_client'))
         assert found(spec) == expected
+
+
+def test_a_loop_that_steps_the_own_node_waits_for_its_future_at_the_step() -> None:
+    loop = (*calls('plan_client', 39, call='busy wait'), *calls('arm', call='rclpy.spin_once'))
+    drive = timer('drive', blocking=loop)
+    assert 'CC101:40' in found(unit(ONE_THREAD, drive, client('plan_client')))
+    assert 'CC101:40' not in found(unit(ONE_THREAD, drive, client('plan_client', 'other')))
 
 
 def test_an_event_that_a_member_of_the_group_sets() -> None:
@@ -518,3 +528,22 @@ def test_a_done_callback_that_spins_has_no_group_that_would_stay_closed() -> Non
     assert 'members of its own group do not' in only(unit(under_spin, tick), 'CC106').message
     free = timer('tick', 'free', blocking=spin)
     assert 'members of its own' not in only(unit(under_spin, free), 'CC106').message
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'words'),
+    [
+        ((None, None), 'all wait for ever'),
+        ((1.0, 1.0), 'all run into their time-outs'),
+        ((1.0, None), 'all wait, at least until the first time-out'),
+    ],
+)
+def test_what_becomes_of_a_pool_that_is_used_up(
+    seconds: tuple[float | None, ...], words: str
+) -> None:
+    timers = [
+        timer(f'ask_{number}', name, blocking=calls('plan_client', seconds=limit))
+        for number, (name, limit) in enumerate(zip(('arm_default', 'other'), seconds, strict=True))
+    ]
+    finding = only(unit(threads(2), *timers, client('plan_client', 'free')), 'CC103')
+    assert finding.message.endswith(words)
