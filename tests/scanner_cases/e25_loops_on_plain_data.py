@@ -48,12 +48,6 @@ class A(Node):
         while rclpy.ok():
             time.sleep(0.1)
 
-    def grow(self):
-        grown = []
-        while len(grown) < 5:
-            grown.append(1)
-            time.sleep(0.1)
-
 
 def main():
     rclpy.init()
