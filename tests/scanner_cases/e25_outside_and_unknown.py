@@ -32,6 +32,8 @@ class A(Node):
         self.line.recv(64)
         self.open_line.accept()
         input()
+        child = subprocess.Popen(['cat'], stdout=subprocess.PIPE)
+        child.stdout.readline()
 
     def ask_unknown(self):
         self.door.wait()
@@ -62,19 +64,20 @@ if __name__ == '__main__':
 #     blocks socket.recv 2.0 s @32
 #     blocks socket.accept @33
 #     blocks input @34
+#     blocks BufferedReader.readline @36
 #   timer ask_unknown in a_default every 1
-#     blocks unknown wait on ? @37
+#     blocks unknown wait on ? @39
 #       ended by ?
-#     blocks unknown wait on ? 2.0 s @38
+#     blocks unknown wait on ? 2.0 s @40
 #       ended by ?
-#     reads A.door @37
-#     reads A.door @38
 #     reads A.door @39
 #     reads A.door @40
-#     reads A.names @41
+#     reads A.door @41
 #     reads A.door @42
+#     reads A.names @43
+#     reads A.door @44
 #   timer wait_for_others in a_default every 1
-#     blocks Event.wait on given @45
+#     blocks Event.wait on given @47
 #       ended by ?
-#     blocks Event.wait on stopped @46
+#     blocks Event.wait on stopped @48
 #       ended by ?

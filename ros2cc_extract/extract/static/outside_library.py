@@ -19,7 +19,9 @@ from ros2cc_extract.extract.static.values import (
     Instance,
     Value,
 )
+from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.world import PlainState
+from ros2cc_extract.places import Place
 
 _TIMEOUT = 'timeout'
 _LIMIT = '__timeout__'
@@ -76,8 +78,13 @@ _SOCKET = dict.fromkeys(
 _SERIAL = dict.fromkeys(('read', 'read_until', 'readline', 'readlines', 'readinto'), _LIMITED)
 _REQUESTS = dict.fromkeys(('get', 'post', 'put', 'patch', 'delete', 'head', 'request'), _BY_NAME)
 
+# What another program writes (``subprocess.py``, ``Popen.__init__``).
+_STREAM = 'io.BufferedReader'
+_READS = dict.fromkeys(('read', 'read1', 'readinto', 'readline', 'readlines'), _BY_NAME)
+
 _CLASSES: dict[str, dict[str, _Wait]] = {
     'subprocess.Popen': {'wait': _Wait(0), 'communicate': _Wait(1)},
+    _STREAM: _READS,
     'socket.socket': _SOCKET,
     'serial.Serial': _SERIAL,
     'requests.Session': _REQUESTS,
@@ -118,6 +125,13 @@ def _blocks(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 _INITS: dict[str, Handler] = {'serial.Serial': _limit(5, _TIMEOUT)}
+
+
+def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
+    return Instance(Name(_STREAM), instance.place)
+
+
+_PROPERTIES = {'subprocess.Popen': {'stdout': _stream, 'stderr': _stream}}
 _MORE: dict[str, dict[str, Handler]] = {
     'socket.socket': {'settimeout': _limit(0, 'value'), 'setblocking': _blocks},
 }
@@ -132,6 +146,7 @@ def _class(name: str, methods: dict[str, _Wait]) -> LibraryClass:
             **{method: _waiting(f'{last}.{method}', row) for method, row in methods.items()},
             **_MORE.get(name, {}),
         },
+        properties=_PROPERTIES.get(name, {}),
     )
 
 
