@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass, Property
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -131,7 +131,9 @@ def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
     return Instance(Name(_STREAM), instance.place)
 
 
-_PROPERTIES = {'subprocess.Popen': {'stdout': _stream, 'stderr': _stream}}
+_PROPERTIES: dict[str, dict[str, Property]] = {
+    'subprocess.Popen': {'stdout': _stream, 'stderr': _stream}
+}
 _MORE: dict[str, dict[str, Handler]] = {
     'socket.socket': {'settimeout': _limit(0, 'value'), 'setblocking': _blocks},
 }
