@@ -13,7 +13,12 @@ from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_builtins import without_default_events
 from ros2cc_extract.extract.static.ros_executors import as_node
 from ros2cc_extract.extract.static.ros_groups import group_of
-from ros2cc_extract.extract.static.ros_nodes import NODE, NODE_METHODS, add_entity
+from ros2cc_extract.extract.static.ros_nodes import (
+    NODE,
+    NODE_METHODS,
+    add_callback,
+    add_entity,
+)
 from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
 from ros2cc_extract.extract.static.world import EntityState, PlainState
 from ros2cc_extract.spec.model import EntityKind
@@ -78,7 +83,7 @@ def _handle(index: int) -> Handler:
         callback = call.argument(index, 'callback')
         state = receiver.state if isinstance(receiver, Instance) else None
         if isinstance(state, EntityState) and callback is not None:
-            state.callback = state.callback or callback
+            add_callback(state, callback)
         return machine.mystery('a parameter callback handle', call.place)
 
     return handler

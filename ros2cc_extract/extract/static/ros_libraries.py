@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.ros_executors import (
     record_spin,
 )
 from ros2cc_extract.extract.static.ros_groups import group_of, new_group
-from ros2cc_extract.extract.static.ros_nodes import add_entity
+from ros2cc_extract.extract.static.ros_nodes import add_callback, add_entity
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -119,7 +119,7 @@ def _register(machine: Machine, receiver: Value, call: Call) -> Value:
     callback = call.argument(0, 'cb')
     for entity in _inputs(receiver):
         if callback is not None:
-            entity.callback = entity.callback or callback
+            add_callback(entity, callback)
     return machine.mystery('a filter connection', call.place)
 
 

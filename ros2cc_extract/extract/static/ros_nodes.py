@@ -285,6 +285,14 @@ def _destroy_node(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def add_callback(entity: EntityState, callback: Value) -> None:
+    """One more function that an entity runs; the first gives it its name."""
+    if entity.callback is None:
+        entity.callback = callback
+    elif callback not in (entity.callback, *entity.extra_callbacks):
+        entity.extra_callbacks += (callback,)
+
+
 def mark_destroyed(machine: Machine, entity: EntityState, place: Place) -> None:
     """Note that the program destroys ``entity`` while its node is alive."""
     note_end(machine, DESTROY, entity, place)
