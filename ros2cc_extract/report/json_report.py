@@ -133,7 +133,14 @@ def _load_data(load: Load) -> Data:
 
 
 def evidence_data(evidence: Evidence) -> list[Data]:
-    """One object per step; the first step of an endless cycle carries ``cycle_start``."""
+    """
+    One object per step; the first step of an endless cycle carries ``cycle_start``.
+
+    Also those that no words are said of; of a finding's run those that have a part in it.
+    """
+    in_full = bool(evidence.steps) and not evidence.left_out
+    moments = evidence.steps if in_full else evidence.moments
+    cycle_from = evidence.cycle_step if in_full else evidence.cycle_from
     return [
         {
             'step': moment.number,
@@ -141,9 +148,10 @@ def evidence_data(evidence: Evidence) -> list[Data]:
             'lanes': [sentence.lane for sentence in moment.sentences],
             'places': {name: str(place) for name, place in moment.places},
             'changes': dict(moment.changes),
-            **({'cycle_start': True} if moment.number == evidence.cycle_from else {}),
+            **({'edges': list(moment.edges)} if in_full else {}),
+            **({'cycle_start': True} if moment.number == cycle_from else {}),
         }
-        for moment in evidence.moments
+        for moment in moments
     ]
 
 

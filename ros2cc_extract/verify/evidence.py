@@ -51,12 +51,14 @@ class Moment:
     :param sentences: one per edge that has words.
     :param places: of the callbacks named, in the order of naming.
     :param changes: variables and locations that changed, with their new values.
+    :param edges: what was taken, by locations; of ``Evidence.steps`` alone.
     """
 
     number: int
     sentences: tuple[Sentence, ...]
     places: tuple[tuple[str, Place], ...]
     changes: Mapping[str, int | str]
+    edges: tuple[str, ...] = ()
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -74,6 +76,8 @@ class Evidence:
     :param ends: how a run without a cycle ends for good (``deadlock``, ``idle``), if it does.
     :param left_out: how many moments are not among ``moments``, since they have no part in it.
     :param closing: what the run ends in, in a sentence.
+    :param steps: every step that was taken, also those without words, in the same form.
+    :param cycle_step: number of the step from which the run repeats for ever.
     :param origin: the run that was told, step by step; it stays behind when evidence is pickled,
         as it holds the whole model.
     """
@@ -84,6 +88,8 @@ class Evidence:
     ends: str | None
     left_out: int = 0
     closing: str = ''
+    steps: tuple[Moment, ...] = ()
+    cycle_step: int | None = None
     origin: UppaalRun | None = field(default=None, repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, object]:
@@ -139,27 +145,38 @@ def tell(run: Run, names: Names) -> Evidence:
     """
     Turn a replayed run into moments.
 
-    Where comments are annotations, as ours are, steps without one are passed over; of a model of
-    somebody else every step is told, by its comment or else by its locations.
+    Where comments are annotations, as ours are, steps without one are passed over in ``moments``;
+    of a model of somebody else every step is told, by its comment or else by its locations.
     """
     edges = (edge for step in run.steps for edge in step.edges)
     is_ours = any(map(_annotation_of, edges))
     moments: list[Moment] = []
+    steps: list[Moment] = []
     cycle_from: int | None = None
     before = run.initial
     changes: dict[str, int | str] = {}
     for index, step in enumerate(run.steps):
         if index == run.cycle_start:
             cycle_from = len(moments) + 1
-        changes |= _changes(before, step.state)
+        own = _changes(before, step.state)
+        changes |= own
         sentences = tuple(
             _spoken(step.edges, before, step.state, names)
             if is_ours
             else map(_located, step.edges)
         )
         before = step.state
+        places = tuple(_places(sentences, names))
+        steps.append(
+            Moment(
+                number=index + 1,
+                sentences=sentences,
+                places=places,
+                changes=own,
+                edges=tuple(f'{e.process}: {e.source} -> {e.target}' for e in step.edges),
+            )
+        )
         if sentences:
-            places = tuple(_places(sentences, names))
             moments.append(
                 Moment(
                     number=len(moments) + 1, sentences=sentences, places=places, changes=changes
@@ -173,6 +190,8 @@ def tell(run: Run, names: Names) -> Evidence:
         moments=tuple(moments),
         cycle_from=cycle_from,
         ends=run.ends,
+        steps=tuple(steps),
+        cycle_step=None if run.cycle_start is None else run.cycle_start + 1,
     )
 
 

@@ -52,6 +52,7 @@ _OUTSIDE = {
 
 _BEYOND = 'outside the supported subset of UPPAAL'
 _WORD = re.compile(r'\w+|\S')
+_PROCESSES = re.compile(r'\bsystem\b[^;]*\Z')
 _LAST_WORD = re.compile(r'(\w+|\S)\s*$')
 
 
@@ -160,15 +161,17 @@ def _syntax_error(error: UnexpectedInput, text: str, place: Place) -> ModelForma
         if suspect in _OUTSIDE:
             what = f'{_OUTSIDE[suspect]} are {_BEYOND}'
             return ModelFormatError(what, at, MEND_SUBSET)
+    if word == '<' and _is_in_system_line(text, error.line - place.line, before):
+        return ModelFormatError(f'process priorities are {_BEYOND}', at, 'separate by commas')
     if word == '"':
         return ModelFormatError(f'strings are {_BEYOND}', at, MEND_SUBSET)
-    return ModelFormatError(f'syntax error at {word!r}', at, _mend(word, line))
+    return ModelFormatError(f'syntax error at {word!r}', at, 'correct the text there')
 
 
-def _mend(word: str, line: str) -> str:
-    if word == '<' and line.lstrip().startswith('system'):
-        return 'process priorities are outside the supported subset; separate by commas'
-    return 'correct the text there'
+def _is_in_system_line(text: str, lines: int, before: str) -> bool:
+    """Whether processes are listed there, over as many lines as it takes."""
+    read = '\n'.join((*text.split('\n')[:lines], before))
+    return bool(_PROCESSES.search(read))
 
 
 def parse_query(text: str, place: Place) -> syntax.Query:

@@ -132,7 +132,8 @@ def test_wrong_declaration(declaration: str, expected: str) -> None:
     [
         ('system Q;', "there is no template or process 'Q'; known are P"),
         ('', 'the model has 0 system lines'),
-        ('system P < P;', "syntax error at '<'; process priorities are outside"),
+        ('system P < P;', 'process priorities are outside the supported subset'),
+        ('system P,\n P < P;', 'process priorities are outside the supported subset'),
         ('system P, P;', 'process P stands twice in the system line'),
         ('A = P(3); system A;', 'P takes 0 arguments; 1 are given'),
         ('A = N(30); system A;', '30 is outside the range 0..3 of parameter id of N'),
