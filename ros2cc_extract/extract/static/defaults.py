@@ -16,6 +16,9 @@ from ros2cc_extract.extract.static.values import Const, Mystery, Value
 PARAMETER = 'value of parameter'
 """How the reason of what a ROS parameter may be begins."""
 
+AT_RUN_TIME = 'name of the node at run time'
+"""Why the name of a node is open: whoever starts it may give it another one."""
+
 
 def default_of(value: Value | None) -> Value | None:
     """What ``value`` is by default; itself where it is known."""
@@ -54,4 +57,6 @@ def assumption(fact: str, value: Mystery) -> str:
     reason = value.unknown.reason
     if reason.startswith(PARAMETER):
         return f'{fact} follows from {reason.removeprefix("value of ")}'
+    if reason == AT_RUN_TIME:
+        return f'{fact} follows from the name of the node in the source'
     return f'{fact} is the default of parameter {value.text!r}'

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.containers import Sequence
-from ros2cc_extract.extract.static.defaults import default_of
+from ros2cc_extract.extract.static.defaults import AT_RUN_TIME, default_of
 from ros2cc_extract.extract.static.ending import DESTROY, DESTROY_NODE, note_end
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -401,6 +401,13 @@ def _unfollowed(reason: str) -> Handler:
     return handler
 
 
+def _name_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``get_name()``: the name in the source, unless the node is renamed when it is started."""
+    state = receiver.state if isinstance(receiver, Instance) else None
+    name = state.name if isinstance(state, NodeState) else None
+    return Mystery(Unknown(AT_RUN_TIME, call.place), AT_RUN_TIME, default_of(name))
+
+
 _VALUE_FIELDS = [
     'bool_value',
     'integer_value',
@@ -429,7 +436,7 @@ NODE_METHODS: dict[str, Handler] = {
     'get_parameters': _get_all,
     'get_parameter_or': _parameter_or,
     'get_clock': _unfollowed('the clock'),
-    'get_name': _unfollowed('name of the node at run time'),
+    'get_name': _name_of,
     'get_logger': _unfollowed('the logger'),
     'get_namespace': _unfollowed('namespace of the node at run time'),
     'destroy_node': _destroy_node,
