@@ -43,7 +43,7 @@ def resource_waits(block: Blocking, callback: Callback, spec: Spec) -> Iterator[
     client = None if is_open else _asked_before(block, callback, spec)
     if client is not None:
         yield NamedWait(client.name, kind)
-    for resource, wakers in _resources_of(block, callback):
+    for resource, wakers in _resources_of(block, callback, spec):
         by = tuple(dict.fromkeys(waker.by for waker in wakers if waker.by in known))
         yield NamedWait(
             by[0] if by else callback.name,
@@ -70,7 +70,19 @@ def is_left_open(block: Blocking, spec: Spec) -> bool:
 
 def _is_open(block: Blocking, spec: Spec) -> bool:
     known = {callback.name for callback in spec.callbacks}
-    return block.escapes is not None or any(w.by not in known for w in block.wakers)
+    is_unknown = block.escapes is not None or any(w.by not in known for w in block.wakers)
+    return is_unknown or may_be_used_up(block, spec)
+
+
+def may_be_used_up(block: Blocking, spec: Spec) -> bool:
+    """
+    Tell whether waits that end without a signal may all have been used by earlier runs.
+
+    The model lets data arrive too seldom for that. Whoever gives back what it takes itself uses
+    up nothing.
+    """
+    waiting = {callback.name for callback in spec.callbacks if block in callback.blocking}
+    return block.initial > 0 and waiting.isdisjoint(waker.by for waker in block.wakers)
 
 
 def signals_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
@@ -81,7 +93,7 @@ def signals_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
             is_wait = goes_by_wakers(block, spec) and not is_part_of_spin(block, waiting)
             if not is_wait or not any(resource_waits(block, waiting, spec)):
                 continue
-            for resource, wakers in _resources_of(block, waiting):
+            for resource, wakers in _resources_of(block, waiting, spec):
                 for waker in wakers:
                     key = (resource, waker.after, waker.source, waker.held)
                     if waker.by == callback.name and key not in seen:
@@ -102,7 +114,7 @@ def _signal(resource: Resource, waker: Waker, callback: Callback) -> NamedWait:
 
 
 def _resources_of(
-    block: Blocking, callback: Callback
+    block: Blocking, callback: Callback, spec: Spec
 ) -> Iterator[tuple[Resource, tuple[Waker, ...]]]:
     """What a wait is for; a resource of its own for each waker where all of them are needed."""
     name = block.resource
@@ -115,7 +127,8 @@ def _resources_of(
         if block.wakers:
             return
     is_each = block.needs is Needs.EACH
-    yield Resource(name, is_each, block.initial if is_each else 0), block.wakers
+    has_some = is_each and not may_be_used_up(block, spec)
+    yield Resource(name, is_each, block.initial if has_some else 0), block.wakers
 
 
 def _asked_before(block: Blocking, callback: Callback, spec: Spec) -> Callback | None:
