@@ -192,3 +192,38 @@ def test_sitecustomize_of_the_user_still_runs(start: Start, tmp_path: Path) -> N
     assert child.end() == 0
     assert child.lines == ["the user's own sitecustomize\n", 'begun 5\n']
     assert len(recordings_in(tmp_path)) == 1
+
+
+LIBRARY = """\
+from std_msgs.msg import String
+
+
+def listen(node):
+    node.create_publisher(String, 'out', 1)
+    return node.create_subscription(String, 'in', lambda message: None, 1)
+"""
+USER_OF_LIBRARY = """\
+import rclpy
+from message_filters import listen
+
+rclpy.init()
+node = rclpy.create_node('listener')
+listen(node)
+rclpy.spin_once(node, timeout_sec=0.5)
+rclpy.shutdown()
+"""
+
+
+def test_qos_events_of_what_a_library_made_are_of_rclpy(start: Start, tmp_path: Path) -> None:
+    """The wheels bring no such library; this one has the name of one."""
+    (tmp_path / 'message_filters.py').write_text(LIBRARY)
+    program = tmp_path / 'user.py'
+    program.write_text(USER_OF_LIBRARY)
+    assert start(program, recorded_into=tmp_path).end() == 0
+    (unit,) = (spec for each in recordings_in(tmp_path) for spec in specs_of(each))
+    assert [(c.entity, c.library) for c in written(unit)] == [
+        (EntityKind.SUBSCRIPTION, 'message_filters')
+    ]
+    events = [c for c in unit.callbacks if c.entity is EntityKind.QOS_EVENT]
+    assert len(events) > 4
+    assert all(event.builtin for event in events)

@@ -301,7 +301,9 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
     if 'create_rate' in creation.functions:
         record.library = 'rclpy.create_rate'
     if record.function is not None and _is_of_rclpy(record.function):
-        record.builtin = record.builtin or record.library is None
+        # What rclpy does at QoS events is its own, whoever has made the publisher or subscription.
+        is_default = record.library is None or record.kind == 'qos_event'
+        record.builtin = record.builtin or is_default
     if record.kind == 'qos_event' and not record.builtin:
         record.key = creation.topic
     record.complete = True
