@@ -48,6 +48,8 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
 	$(BIN)/python -m tests.conformance.suite --python $(JAZZY)/bin/python $(ON_EVENTS)
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python $(ON_EVENTS)
+	$(BIN)/python -m tests.conformance.three --python $(JAZZY)/bin/python
+	$(BIN)/python -m tests.conformance.three --python $(KILTED)/bin/python
 
 # Every shape of waiting and ending of docs/waits.md, on both distributions.
 observe_on = $(BIN)/python -m tests.shapes.observe --python .venv-$(1)/bin/python --as $(1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -12,6 +13,8 @@ from ros2cc_extract.spec.model import EntityKind, GroupType, Spec
 #: Who collects looks at the group just before it is told; so long after its last step, the thread
 #: may have slept in between (89 ms were seen on a machine with eight times its load).
 ASLEEP_NS = 20_000_000
+#: So long before its end a trace tells of all that was made.
+UNTOLD_NS = 200_000_000
 
 
 class Act(Enum):
@@ -168,6 +171,32 @@ def _with_takes(rows: Iterator[Observation]) -> Iterator[Observation]:
             begun[row.thread] = len(kept)
         kept.append(row)
     yield from kept
+
+
+def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
+    """
+    Add tasks that have run and of which the trace ends before it tells that they were made.
+
+    Their maker tells it afterwards. What is no coroutine has begun once for each time.
+    """
+    if not seen:
+        return ()
+    end_ns = seen[-1].clock_ns + 1
+    times = Counter((each.callback, each.act) for each in seen if each.is_task)
+    untold = tuple(
+        Observation(
+            act=Act.ARRIVE,
+            callback=place,
+            thread=-1,
+            clock_ns=end_ns,
+            earliest_ns=end_ns - UNTOLD_NS,
+            is_task=True,
+        )
+        for place, callback in enumerate(spec.callbacks)
+        if not callback.coroutine
+        for _ in range(times[place, Act.BEGIN] - times[place, Act.ARRIVE])
+    )
+    return (*seen, *untold)
 
 
 def with_groups(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:

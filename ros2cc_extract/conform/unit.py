@@ -18,6 +18,7 @@ from ros2cc_extract.conform.observations import (
     Observation,
     observe,
     with_groups,
+    with_untold_tasks,
 )
 from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
@@ -97,6 +98,8 @@ def compare(
         seen = with_arrivals(seen, arrivals, unit.spec)
     if until_ns is not None:
         seen = tuple(each for each in seen if _is_before(each, until_ns))
+    else:
+        seen = with_untold_tasks(seen, unit.spec)
     text = edit(text_of(unit, seen))
     model = ObservedModel(
         read_model(text, f'{unit.spec.name}.xml'),
