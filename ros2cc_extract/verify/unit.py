@@ -39,6 +39,7 @@ from ros2cc_extract.verify.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.load import demands_of, load_of
 from ros2cc_extract.verify.narrowing import narrow
+from ros2cc_extract.verify.reading import limited_reading
 from ros2cc_extract.verify.results import QueryResult as QueryResult
 from ros2cc_extract.verify.results import Verification as Verification
 from ros2cc_extract.verify.structural import structural_verdicts
@@ -272,9 +273,23 @@ def verify_model(
     """
     Check a model file, by the queries given or by those in the model.
 
-    :raises InputError: when there is no query, or the file cannot be read.
+    :raises InputError: when there is no query, or the file cannot be read, also not in time.
     :raises ModelFormatError: when it is outside our subset; verifyta takes it all the same.
     """
+    options = replace(options, limits=options.limits.begun())
+    with limited_reading(options.limits, path) as has_begun:
+
+        def watch(known: Progress) -> None:
+            has_begun()
+            if progress is not None:
+                progress(known)
+
+        return _verify_model(path, queries, options, watch)
+
+
+def _verify_model(
+    path: Path, queries: Sequence[Query], options: Options, progress: OnProgress
+) -> Verification:
     try:
         model = load_model(path)
     except ModelFormatError as error:
