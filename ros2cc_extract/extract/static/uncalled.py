@@ -91,9 +91,10 @@ def _of_function(
         if written is not None:
             at = (written.lineno, written.col_offset + 1)
             yield _Operation(written.attr, Word.WRITE, *at, id(node), called)
-        if not isinstance(part, ast.Call) or not isinstance(part.func, ast.Attribute):
+        if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Load):
             continue
-        word, owner = _METHODS.get(part.func.attr), part.func.value
+        # Called there, or handed on to somebody who calls it.
+        word, owner = _METHODS.get(part.attr), part.value
         name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, 'id', None)
         if word is not None and name is not None:
             at, is_attribute = (part.lineno, part.col_offset + 1), isinstance(owner, ast.Attribute)
