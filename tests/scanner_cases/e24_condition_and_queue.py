@@ -52,8 +52,9 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer look in a_default every 1
 #   subscription on_in in a_default key=in
-#     blocks Queue.put on look through narrow (room) each initial=1 @27
+#     blocks Queue.put on narrow through narrow (room) each @27
 #       ended by look @39
+#       ended by ?
 #     locks filled @23
 #   service take in a_default key=take
 #     blocks Condition.wait on on_in through filled each @31

@@ -75,13 +75,14 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.1 s @41
 #     blocks polling loop on A.never @39
 #     blocks time.sleep 0.1 s @43
-#     blocks polling loop on ? through end of the loop at e25_loops_on_plain_data.py:42:15 @42
+#     blocks polling loop on ? @42
 #       ended by ?
 #     reads A.closed @36
 #     reads A.never @39
 #   timer work in a_default every 1
 #     blocks time.sleep 0.1 s @49
-#     blocks endless loop through end of the loop at e25_loops_on_plain_data.py:48:9 @48
+#     blocks endless loop on ? @48
+#       ended by ?
 #     reads A.left @46
 #     writes A.left update @47
 #   subscription on_in in a_default key=in

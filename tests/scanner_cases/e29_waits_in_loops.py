@@ -65,5 +65,6 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.1 s @39
 #     blocks time.sleep 0.2 s @39
 #     blocks time.sleep 0.02 s @41
-#     blocks endless loop through end of the loop at e29_waits_in_loops.py:40:9 @40
+#     blocks endless loop on ? @40
+#       ended by ?
 #     reads A.steps iterates list @38

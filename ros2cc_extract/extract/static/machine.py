@@ -335,7 +335,7 @@ class Machine(ABC):
 
     @abstractmethod
     def note_loop_on_data(
-        self, name: str, on: DataRef | Unknown | None, seconds: Unknown | None, place: Place
+        self, name: str, on: DataRef | Unknown, seconds: Unknown | None, place: Place
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
 

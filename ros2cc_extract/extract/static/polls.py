@@ -53,7 +53,9 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     tests = list(_exit_tests(loop))
     if not tests:
         if is_endless(loop) and machine.world.in_callback and not _leaves(loop):
-            machine.note_loop_on_data(ENDLESS, None, None, frame.place(loop))
+            place = frame.place(loop)
+            unknown = Unknown('nothing but the end of the program ends the loop', place)
+            machine.note_loop_on_data(ENDLESS, unknown, None, place)
         return
     names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
     written = {access.name for access in deeds.writes[before.writes :]}

@@ -120,6 +120,7 @@ class UnitWaits:
         setter = the_setter(wakings, reference.ended_by)
         mine = [waking for waking in wakings if waking.word in reference.ended_by]
         is_open = raw.escapes is not None or self._why_open(mine, reference) is not None
+        is_open = is_open or self._initial(reference, mine) != 0
         return None if setter is None or is_open else self._names.get(id(setter))
 
     def _resource(self, reference: ResourceRef) -> str:
@@ -198,9 +199,11 @@ class UnitWaits:
             wakers += more
             escapes = escapes or why
             initial = self._initial(raw.resource, wakings_of(self._world, raw.resource))
-            if initial is None:
-                escapes = escapes or Unknown('how many waits end by themselves', raw.source)
-            named = replace(named, initial=initial or 0)
+            if initial != 0:
+                # A model of so many runs cannot say when they are used up.
+                many = 'some' if initial is None else f'the first {initial}'
+                reason = f'{many} of these waits end by themselves'
+                escapes = escapes or Unknown(reason, raw.source)
         elif row.ended_by and isinstance(raw.on, EntityRef):
             is_here = isinstance(named.on, str) and named.on in self._names.values()
             wakers.append(Waker(by=str(named.on) if is_here else OUTSIDE))

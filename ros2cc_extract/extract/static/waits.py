@@ -120,7 +120,7 @@ class Waits(Machine):
         _note_round(deeds, block, world.round)
 
     def note_loop_on_data(
-        self, name: str, on: DataRef | Unknown | None, seconds: Unknown | None, place: Place
+        self, name: str, on: DataRef | Unknown, seconds: Unknown | None, place: Place
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
         world, deeds = self.world, self.world.deeds
@@ -133,7 +133,7 @@ class Waits(Machine):
             seconds=seconds,
             chain=world.chain[1:],
             held=held_over(world, None),
-            resource=on if isinstance(on, DataRef) else f'end of the loop at {place}',
+            resource=on if isinstance(on, DataRef) else None,
             escapes=on if isinstance(on, Unknown) else None,
             conditional=world.path != world.callback_path,
         )
