@@ -7,7 +7,7 @@ from dataclasses import replace
 from finding_units import ONE_THREAD, calls, client, found, only, threads, timer, unit
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Waker
+from ros2cc_extract.spec.deeds import OUTSIDE, Blocking, Needs, Waker
 
 
 def test_a_wait_whose_end_nobody_knows_is_told() -> None:
@@ -55,3 +55,21 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
 def test_a_time_out_ends_it_in_any_case() -> None:
     waits = calls('jobs', call='Barrier.wait', seconds=0.5)
     assert found(unit(threads(2), timer('feed', blocking=waits))) == []
+
+
+def test_what_earlier_runs_may_have_used_up_is_told() -> None:
+    waits = (places_by('leave'),)
+    assert found(unit(ONE_THREAD, timer('dock', blocking=waits), timer('leave'))) == [
+        'CC120:40 note'
+    ]
+
+
+def test_whoever_gives_back_what_it_takes_uses_up_nothing() -> None:
+    assert found(unit(threads(2), timer('dock', blocking=(places_by('dock'),)))) == []
+
+
+def places_by(waker: str) -> Blocking:
+    """A wait for one of two places, which a callback gives back."""
+    (wait,) = calls(None, call='Semaphore.acquire')
+    gives = Waker(by=waker, after=1 if waker == 'dock' else 0)
+    return replace(wait, resource='places', needs=Needs.EACH, initial=2, wakers=(gives,))
