@@ -104,9 +104,10 @@ def render(
     """
     if max_cycle is not None and max_cycle < 1:
         raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
-    numbered = number_unit(closed, max_cycle)
+    whole = number_unit(closed, max_cycle)
+    numbered = replace(whole, activities=())  # the published model has none
     published = paper_queries(numbered)
-    unit = _with_threads_that_run(numbered) if profile is Profile.RCLPY else numbered
+    unit = _with_threads_that_run(whole) if profile is Profile.RCLPY else numbered
     queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
     return RenderedModel(
         name=unit.name,
@@ -126,7 +127,7 @@ def queries_of(
     numbered = number_unit(closed, max_cycle)
     if profile is Profile.RCLPY:
         return rclpy_queries(_with_threads_that_run(numbered))
-    return paper_queries(numbered)
+    return paper_queries(replace(numbered, activities=()))
 
 
 def _with_threads_that_run(unit: Unit) -> Unit:
@@ -189,6 +190,8 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         'observed': freedom.observed,
         'has_pool': has_pool,
         'asks_groups': has_executor_laps,
+        'num_actors': 'NUM_ACTOR' if unit.activities else 'NUM_CB',
+        'is_activity': False,
         # On a pool whoever spins the pool only hands over, and the workers run what is there.
         'nests_on_threads': unit.has_global_spins or (unit.has_own_spins and not has_pool),
         'nested_runs': min(unit.nested_runs, freedom.nested or unit.nested_runs),

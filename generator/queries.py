@@ -14,7 +14,7 @@ from enum import Enum
 from itertools import combinations
 
 from ros2cc_extract.generator.spins import Spun
-from ros2cc_extract.generator.unit import Unit, UnitCallback, UnitGroup
+from ros2cc_extract.generator.unit import Unit, UnitActivity, UnitCallback, UnitGroup
 
 
 class Family(Enum):
@@ -89,13 +89,14 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
     asked = (
         Query(
             family=Family.DEADLOCK,
-            formula='A[] (deadlock imply cb_all_served())',
+            formula=f'A[] (deadlock imply cb_all_served(){_none_blocked(unit)})',
             words='there is no dead-lock: whatever arrives can be served',
         ),
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),
         *(_self_overlap(callback) for callback in unit.callbacks),
         *(_progress(callback, unit) for callback in unit.callbacks if waits(callback)),
+        *(_progress_beside(activity) for activity in unit.activities if activity.is_asked),
         *_pool_exhaustion(unit),
         *_outside_groups(unit),
         _serial(unit),
@@ -252,9 +253,9 @@ def _self_overlap(callback: UnitCallback) -> Query:
 def _progress(callback: UnitCallback, unit: Unit) -> Query:
     """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
     ending = [
-        ' or '.join(unit.callbacks[place].name for place in places)
+        ' or '.join(wait.wakers) or unit.callbacks[wait.place].name
         for wait in callback.waits
-        if (places := (wait.place,) if wait.is_for_callback else wait.wakers)
+        if wait.is_for_callback or wait.wakers
     ]
     needs = ' and '.join(dict.fromkeys(ending))
     words = f': {needs} can run while it waits' if needs else ''
@@ -263,6 +264,22 @@ def _progress(callback: UnitCallback, unit: Unit) -> Query:
         formula=f'A[] not (deadlock and cb_unfinished({callback.index}))',
         words=f'{callback.name} always ends{words}',
         callbacks=(callback.name,),
+    )
+
+
+def _none_blocked(unit: Unit) -> str:
+    """Say that no activity waits, of those about whose waits all is known."""
+    blocked = ' or '.join(f'{a.name}.blocked' for a in unit.activities if a.is_asked)
+    return f' and not ({blocked})' if blocked else ''
+
+
+def _progress_beside(activity: UnitActivity) -> Query:
+    """Ask whether a thread of the program's own comes out of its waits."""
+    return Query(
+        family=Family.PROGRESS,
+        formula=f'A[] not (deadlock and {activity.name}.blocked)',
+        words=f'{activity.name}, which runs beside the executor, never waits for ever',
+        callbacks=(activity.name,),
     )
 
 

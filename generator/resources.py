@@ -10,14 +10,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.generator.spins import is_part_of_spin
 from ros2cc_extract.generator.steps import NamedWait, Resource, WaitKind
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs, Waker
-from ros2cc_extract.spec.model import Callback, CallbackType, Spec
+from ros2cc_extract.spec.model import Activity, Callback, CallbackType, Spec
 from ros2cc_extract.spec.partners import client_before
 
+Actor = Callback | Activity
 #: Whose names stand for nobody of the unit.
 _BY_ITSELF = (OUTSIDE, TIME)
+
+
+def all_actors(spec: Spec) -> tuple[Actor, ...]:
+    """Callbacks and activities, be these in the model or not."""
+    return (*spec.callbacks, *spec.activities)
 
 
 def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
@@ -26,19 +33,32 @@ def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
 
     An answer comes from the client that is asked, whoever else is named.
     """
-    if block.resource is None and not block.wakers and block.escapes is None:
+    is_told = block.resource is not None or block.wakers or block.escapes is not None
+    if not is_told or is_foreign(block, spec):
         return False
     asked = next((c for c in spec.callbacks if c.name == block.on), None)
     is_client = asked is not None and asked.type is CallbackType.CLT
     return not is_client or asked is None or client_before(asked, spec.callbacks) is not None
 
 
-def resource_waits(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+def is_foreign(block: Blocking, spec: Spec) -> bool:
+    """
+    Tell whether only a thread of the user's own makes done what is awaited.
+
+    How the events executor goes on then was not read.
+    """
+    is_ours = executor_kind(spec) is not ExecutorKind.EVENTS
+    is_await = block.call == 'await' and block.seconds is None
+    return is_await and block.foreign and is_ours
+
+
+def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     """Give the waits that stand for one; several where every waker is needed."""
     if block.seconds is not None or any(waker.by in _BY_ITSELF for waker in block.wakers):
         return
-    kind = WaitKind.AWAITED if block.call == 'await' else WaitKind.HELD
-    known = {c.name for c in spec.callbacks}
+    is_await = block.call == 'await' and isinstance(callback, Callback)
+    kind = WaitKind.AWAITED if is_await else WaitKind.HELD
+    known = _known(spec)
     is_open = _is_open(block, spec)
     client = None if is_open else _asked_before(block, callback, spec)
     if client is not None:
@@ -69,7 +89,7 @@ def is_left_open(block: Blocking, spec: Spec) -> bool:
 
 
 def _is_open(block: Blocking, spec: Spec) -> bool:
-    known = {callback.name for callback in spec.callbacks}
+    known = _known(spec)
     is_unknown = block.escapes is not None or any(w.by not in known for w in block.wakers)
     return is_unknown or may_be_used_up(block, spec)
 
@@ -81,16 +101,32 @@ def may_be_used_up(block: Blocking, spec: Spec) -> bool:
     The model lets data arrive too seldom for that. Whoever gives back what it takes itself uses
     up nothing.
     """
-    waiting = {callback.name for callback in spec.callbacks if block in callback.blocking}
+    waiting = {actor.name for actor in all_actors(spec) if block in actor.blocking}
     return block.initial > 0 and waiting.isdisjoint(waker.by for waker in block.wakers)
 
 
-def signals_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
-    """Give the signals by which a callback ends waits, each at its place among its own waits."""
+def _known(spec: Spec) -> set[str]:
+    """Names of those whose signals the model has."""
+    activities = (a.name for a in spec.activities if a.unresolved is None)
+    return {*(callback.name for callback in spec.callbacks), *activities}
+
+
+def signals_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
+    """
+    Give the signals by which a callback ends waits, each at its place among its own waits.
+
+    It starts activities by signals too.
+    """
     seen: set[object] = set()
-    for waiting in spec.callbacks:
+    for activity in spec.activities:
+        start = start_of(activity, spec)
+        for waker in activity.starts:
+            if start is not None and waker.by == callback.name:
+                yield _signal(start, waker, callback)
+    for waiting in all_actors(spec):
         for block in waiting.blocking:
-            is_wait = goes_by_wakers(block, spec) and not is_part_of_spin(block, waiting)
+            is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
+            is_wait = goes_by_wakers(block, spec) and not is_spin
             if not is_wait or not any(resource_waits(block, waiting, spec)):
                 continue
             for resource, wakers in _resources_of(block, waiting, spec):
@@ -101,7 +137,30 @@ def signals_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
                         yield _signal(resource, waker, callback)
 
 
-def _signal(resource: Resource, waker: Waker, callback: Callback) -> NamedWait:
+def start_of(activity: Activity, spec: Spec) -> Resource | None:
+    """
+    Give what starts an activity; ``None`` where it runs from the beginning, or may.
+
+    One that does nothing for anybody is not started, as models do not have it.
+    """
+    known = _known(spec)
+    is_known = all(waker.by in known for waker in activity.starts)
+    if not activity.starts or not is_known or not concerns_others(activity, spec):
+        return None
+    return Resource(f'start of {activity.name}', is_each=not activity.loops)
+
+
+def concerns_others(activity: Activity, spec: Spec) -> bool:
+    """Tell whether an activity waits, takes locks, ends a wait or starts another one."""
+    if activity.unresolved is not None:
+        return False
+    blocks = (block for actor in all_actors(spec) for block in actor.blocking)
+    wakers = {w.by for block in blocks if goes_by_wakers(block, spec) for w in block.wakers}
+    starters = {waker.by for other in spec.activities for waker in other.starts}
+    return bool(activity.blocking or activity.locks) or activity.name in wakers | starters
+
+
+def _signal(resource: Resource, waker: Waker, callback: Actor) -> NamedWait:
     waits = len(callback.blocking)
     return NamedWait(
         callback.name,
@@ -114,7 +173,7 @@ def _signal(resource: Resource, waker: Waker, callback: Callback) -> NamedWait:
 
 
 def _resources_of(
-    block: Blocking, callback: Callback, spec: Spec
+    block: Blocking, callback: Actor, spec: Spec
 ) -> Iterator[tuple[Resource, tuple[Waker, ...]]]:
     """What a wait is for; a resource of its own for each waker where all of them are needed."""
     name = block.resource
@@ -131,7 +190,12 @@ def _resources_of(
     yield Resource(name, is_each, block.initial if has_some else 0), block.wakers
 
 
-def _asked_before(block: Blocking, callback: Callback, spec: Spec) -> Callback | None:
+def private_resource(block: Blocking, callback: Actor) -> Resource:
+    """What a wait is for of which nothing is known."""
+    return Resource(f'{callback.name} {callback.blocking.index(block)}', is_each=False)
+
+
+def _asked_before(block: Blocking, callback: Actor, spec: Spec) -> Callback | None:
     """
     Give the client that must have its answer first.
 

@@ -75,12 +75,14 @@ def choose_sources(profile: Profile, text: Text, unit: Unit) -> Sources:
             return PUBLISHED
         return _COMPACT_FOR_EVER if unit.max_cycle is None else _COMPACT
     executor = _EXECUTOR_FILE[unit.kind]
+    beside = ('rclpy/activity.xml.j2',) if unit.activities else ()
     return Sources(
         declarations=f'rclpy/{executor}_declarations.c.j2',
         system='shared/system.c.j2',
         automata=(
             'rclpy/callback.xml.j2',
             _GROUP,
+            *beside,
             f'rclpy/{executor}_thread.xml.j2',
             f'rclpy/{executor}_executor.xml.j2',
         ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.generator.left_out import (
@@ -10,92 +10,21 @@ from ros2cc_extract.generator.left_out import (
     left_out_of_models,
     unexplained_runs,
 )
+from ros2cc_extract.generator.resources import start_of
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
-from ros2cc_extract.generator.spins import NestedSpin, Refusal, Spun
-from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
-from ros2cc_extract.generator.waits import foreign_wakes, waits_of
+from ros2cc_extract.generator.spins import Refusal, Spun
+from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, gives
+from ros2cc_extract.generator.unit_waits import SpinForm, UnitWait
+from ros2cc_extract.generator.waits import (
+    actors_of,
+    foreign_wakes,
+    modelled_activities,
+    waits_of,
+)
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.model import Activity, Callback, Spec
 from ros2cc_extract.spec.partners import server_of
-
-
-@dataclass(frozen=True, kw_only=True)
-class UnitWait:
-    """
-    A step of a callback in the model: a wait, or a signal that ends waits of others.
-
-    :param place: of the callback that it is for; of its own where it is for none.
-    :param frees_thread: an ``await``.
-    :param is_for_callback: the callback at ``place`` ends it.
-    :param node: place of the node that a nested spin gives to the global executor.
-    :param lock: place of the lock that is waited for; ``None`` for none.
-    :param held: places of the locks that are held meanwhile.
-    :param resource: place of what is waited for, or gets a signal.
-    :param is_signal: it is no wait.
-    :param wakers: places of the callbacks that give signals to the resource.
-    """
-
-    place: int
-    kind: WaitKind
-    frees_thread: bool
-    is_for_callback: bool
-    spin: NestedSpin | None = None
-    node: int = 0
-    lock: int | None = None
-    held: frozenset[int] = frozenset()
-    resource: int | None = None
-    is_signal: bool = False
-    may_skip: bool = False
-    is_open: bool = False
-    wakers: tuple[int, ...] = ()
-
-    @property
-    def needs_signal(self) -> bool:
-        """A wait for a signal."""
-        return self.resource is not None and not self.is_signal
-
-    @property
-    def is_absent(self) -> bool:
-        """For a service that nobody may ever offer."""
-        return self.kind is WaitKind.ABSENT
-
-    @property
-    def is_foreign(self) -> bool:
-        """For a future that a thread of the user's own makes done."""
-        return self.kind is WaitKind.FOREIGN
-
-    @property
-    def spun(self) -> int:
-        """Number of the executor that is spun, 0 for none."""
-        return self.spin.spun.value if self.spin else 0
-
-    @property
-    def end(self) -> int:
-        """Number of what ends a nested spin."""
-        return self.spin.end.value if self.spin else 0
-
-    @property
-    def is_timed(self) -> bool:
-        """A nested spin that also ends by itself."""
-        return self.spin is not None and self.spin.is_timed
-
-    @property
-    def refusal(self) -> int:
-        """Whether the executor refuses to be spun, by number."""
-        return self.spin.refusal.value if self.spin else 0
-
-
-@dataclass(frozen=True, order=True)
-class SpinForm:
-    """
-    How nested spins are told.
-
-    :param spun: number of the executor.
-    """
-
-    spun: int
-    is_for_callback: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,6 +63,24 @@ class UnitCallback:
     def needs(self) -> tuple[int, ...]:
         """Places of the callbacks it waits for."""
         return tuple(wait.place for wait in self.waits if not wait.is_signal)
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitActivity:
+    """
+    What runs beside the executor, on a thread of its own.
+
+    :param start: place of the resource whose signals start it; ``None`` from the beginning.
+    :param rests: its loop begins with a wait, at which it is at rest.
+    :param is_asked: all its waits are known, and whether they end is asked.
+    """
+
+    name: str
+    waits: tuple[UnitWait, ...]
+    loops: bool
+    start: int | None
+    rests: bool
+    is_asked: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,11 +127,17 @@ class Unit:
     locks: tuple[str, ...] = ()
     foreign_wakes: bool = False
     resources: tuple[UnitResource, ...] = ()
+    activities: tuple[UnitActivity, ...] = ()
+
+    @property
+    def actors(self) -> tuple[UnitCallback | UnitActivity, ...]:
+        """Callbacks, and what runs beside the executor, as the model numbers them."""
+        return (*self.callbacks, *self.activities)
 
     @property
     def num_waits(self) -> int:
         """The largest number of steps of one callback."""
-        return max(len(callback.waits) for callback in self.callbacks)
+        return max(len(actor.waits) for actor in self.actors)
 
     @property
     def has_resources(self) -> bool:
@@ -214,7 +167,7 @@ class Unit:
     @property
     def waits(self) -> tuple[UnitWait, ...]:
         """All steps of all callbacks."""
-        return tuple(wait for callback in self.callbacks for wait in callback.waits)
+        return tuple(wait for actor in self.actors for wait in actor.waits)
 
     @property
     def has_locks(self) -> bool:
@@ -281,7 +234,8 @@ class Unit:
     def related(self) -> frozenset[int]:
         """Places of the callbacks that wait for another one or are waited for."""
         waiting = {callback.index for callback in self.callbacks if callback.waits}
-        return frozenset(waiting.union(*(callback.needs for callback in self.callbacks)))
+        needed = (wait.place for wait in self.waits if not wait.is_signal)
+        return frozenset(waiting.union(needed))
 
     @property
     def once(self) -> bool:
@@ -308,7 +262,7 @@ class Unit:
         by_itself = self.max_cycle or 1
         if not self.num_waits:
             return by_itself
-        return by_itself + len(self.threads) + len(self.callbacks)
+        return by_itself + len(self.threads) + len(self.actors)
 
     @property
     def servers(self) -> tuple[str, ...]:
@@ -318,7 +272,11 @@ class Unit:
     @property
     def processes(self) -> tuple[str, ...]:
         """All instances in system order: executor, threads, groups, callbacks."""
-        return (*self.servers, *(callback.name for callback in self.callbacks))
+        return (
+            *self.servers,
+            *(activity.name for activity in self.activities),
+            *(c.name for c in self.callbacks),
+        )
 
     def group_of(self, callback: UnitCallback) -> UnitGroup:
         """The group of a callback of this unit."""
@@ -332,7 +290,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     groups = {group.name: index for index, group in enumerate(spec.groups)}
     nodes = {callback.node: 0 for callback in spec.callbacks}
     nodes = {node: index for index, node in enumerate(nodes)}
-    waits = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
+    waits = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     locks = tuple(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
     resources = resources_of(waits)
     return Unit(
@@ -369,15 +327,16 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
         max_cycle=max_cycle,
         locks=tuple(lock.name for lock in locks),
         foreign_wakes=foreign_wakes(spec),
-        resources=tuple(
-            UnitResource(
-                name=resource.name,
-                is_each=resource.is_each,
-                initial=resource.initial,
-                most=_most_signals(resource, waits, max_cycle),
+        activities=tuple(
+            _number_activity(
+                activity,
+                spec,
+                waits,
+                lambda wait: _number_wait(wait, places, nodes, locks, resources),
             )
-            for resource in resources
+            for activity in modelled_activities(spec)
         ),
+        resources=tuple(_number_resource(each, waits, max_cycle) for each in resources),
     )
 
 
@@ -391,7 +350,7 @@ def _number_wait(
     spun_node = wait.spin.node if wait.spin else None
     resource = None if wait.resource is None else resources.index(wait.resource)
     return UnitWait(
-        place=places[wait.needed],
+        place=places.get(wait.needed, 0),
         kind=wait.kind,
         frees_thread=wait.frees_thread,
         is_for_callback=wait.is_for_callback,
@@ -403,8 +362,52 @@ def _number_wait(
         is_signal=wait.is_signal,
         may_skip=wait.may_skip,
         is_open=wait.is_open,
-        wakers=tuple(places[name] for name in wait.wakers),
+        wakers=wait.wakers,
     )
+
+
+def _number_resource(
+    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], max_cycle: int | None
+) -> UnitResource:
+    return UnitResource(
+        name=resource.name,
+        is_each=resource.is_each,
+        initial=resource.initial,
+        most=_most_signals(resource, steps, max_cycle),
+    )
+
+
+def _number_activity(
+    activity: Activity,
+    spec: Spec,
+    steps: Mapping[str, Sequence[NamedWait]],
+    number: Callable[[NamedWait], UnitWait],
+) -> UnitActivity:
+    own = steps[activity.name]
+    return UnitActivity(
+        name=activity.name,
+        waits=tuple(map(number, own)),
+        loops=activity.loops,
+        start=_start_of(activity, spec, resources_of(steps)),
+        rests=activity.loops and _begins_with_wait(own, steps),
+        is_asked=_is_asked(own),
+    )
+
+
+def _start_of(activity: Activity, spec: Spec, resources: Sequence[Resource]) -> int | None:
+    start = start_of(activity, spec)
+    return resources.index(start) if start is not None and start in resources else None
+
+
+def _begins_with_wait(own: Sequence[NamedWait], steps: Mapping[str, Sequence[NamedWait]]) -> bool:
+    """True where the first step is a wait for a signal that somebody gives."""
+    resource = own[0].resource if own and not own[0].is_signal else None
+    return resource is not None and any(gives(other, resource) for other in steps.values())
+
+
+def _is_asked(own: Sequence[NamedWait]) -> bool:
+    waits = [step for step in own if not step.is_signal]
+    return bool(waits) and not any(step.is_open for step in waits)
 
 
 def resources_of(steps: Mapping[str, Sequence[NamedWait]]) -> tuple[Resource, ...]:

@@ -11,12 +11,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from ros2cc_extract.generator.resources import goes_by_wakers, resource_waits, signals_of
+from ros2cc_extract.generator.resources import (
+    Actor,
+    all_actors,
+    concerns_others,
+    goes_by_wakers,
+    is_foreign,
+    private_resource,
+    resource_waits,
+    signals_of,
+)
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.spins import is_open, is_part_of_spin, nested_spins
+from ros2cc_extract.generator.spins import is_open, is_part_of_spin, is_spin, nested_spins
 from ros2cc_extract.generator.steps import Lock, NamedWait, WaitKind
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Blocking
-from ros2cc_extract.spec.model import Callback, GroupType, Spec
+from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
 
@@ -25,7 +34,7 @@ _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
 _PAUSES = ('time.sleep', 'asyncio.sleep')
 
 
-def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+def waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     """
     List the waits that others end; one with a time-out ends by itself, unless it spins.
 
@@ -51,7 +60,7 @@ def waits_of(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
 
 
 def _with_signals(
-    waits: Iterable[NamedWait], signals: Iterable[NamedWait], spec: Spec, callback: Callback
+    waits: Iterable[NamedWait], signals: Iterable[NamedWait], spec: Spec, callback: Actor
 ) -> tuple[NamedWait, ...]:
     """Put each signal behind the waits that the callback has behind it then."""
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
@@ -63,12 +72,12 @@ def _with_signals(
     return tuple(sorted((*placed, *waits), key=lambda step: (step.origin, not step.is_signal)))
 
 
-def _for_others(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
-    spins = tuple(nested_spins(callback, spec))
+def _for_others(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
+    spins = tuple(nested_spins(callback, spec)) if isinstance(callback, Callback) else ()
     for place, block in enumerate(callback.blocking):
         held = _held_locks(block, callback, spec)
         of_block: list[NamedWait] = []
-        if not is_part_of_spin(block, callback):
+        if not _is_of_spin(block, callback):
             of_block.extend(_waits_for_callbacks(block, callback, spec))
         for spun, spin in spins:
             if spun is block and spin is not None:
@@ -83,24 +92,33 @@ def _for_others(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
             )
 
 
-def _for_absent(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+def _for_absent(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
+    if isinstance(callback, Activity):
+        return  # it is taken that somebody outside offers it
     for place, block in enumerate(callback.blocking):
         if is_absent(block, spec) and isinstance(block.on, str):
             held = _held_locks(block, callback, spec)
             yield NamedWait(block.on, WaitKind.ABSENT, held=held, origin=place, block=block)
 
 
-def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Iterator[NamedWait]:
+def _waits_for_callbacks(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     others = {other.name: other for other in spec.callbacks if other.name != callback.name}
     needed = others.get(block.on) if isinstance(block.on, str) else None
-    if is_foreign(block, spec):
+    if isinstance(callback, Activity) and _is_unknown(block, needed, spec):
+        resource = private_resource(block, callback)
+        yield NamedWait(
+            callback.name, WaitKind.HELD, resource=resource, may_skip=True, is_open=True
+        )
+        return
+    if is_foreign(block, spec) and isinstance(callback, Callback):
         yield NamedWait(callback.name, WaitKind.FOREIGN)
     elif goes_by_wakers(block, spec):
         yield from resource_waits(block, callback, spec)
         return
     if needed is None or block.seconds is not None or asks_the_graph(block):
         return
-    kind = WaitKind.AWAITED if block.call == 'await' else WaitKind.HELD
+    is_await = block.call == 'await' and isinstance(callback, Callback)
+    kind = WaitKind.AWAITED if is_await else WaitKind.HELD
     client = client_before(needed, spec.callbacks)
     if client is not None and client.name in others:
         yield NamedWait(client.name, kind)
@@ -108,7 +126,7 @@ def _waits_for_callbacks(block: Blocking, callback: Callback, spec: Spec) -> Ite
 
 
 def _with_locks(
-    waits: Iterable[NamedWait], callback: Callback, locks: frozenset[Lock]
+    waits: Iterable[NamedWait], callback: Actor, locks: frozenset[Lock]
 ) -> Iterator[NamedWait]:
     """Put the taking of each lock before the first of the waits that hold it."""
     before: tuple[Lock, ...] = ()
@@ -125,11 +143,12 @@ def _with_locks(
 
 def _contended_locks(spec: Spec) -> frozenset[Lock]:
     """Locks that some callback holds while it waits for others, and that another run takes."""
-    if not any(block.held for callback in spec.callbacks for block in callback.blocking):
+    actors = [a for a in all_actors(spec) if isinstance(a, Callback) or concerns_others(a, spec)]
+    if not any(block.held for actor in actors for block in actor.blocking):
         return frozenset()
     holders: dict[Lock, set[str]] = {}
     takers: dict[Lock, set[str]] = {}
-    for callback in spec.callbacks:
+    for callback in actors:
         waits = (*_for_others(callback, spec), *_for_absent(callback, spec))
         held = {lock for wait in waits for lock in wait.held}
         for lock in held:
@@ -146,7 +165,7 @@ def _contended_locks(spec: Spec) -> frozenset[Lock]:
     )
 
 
-def _taken_locks(callback: Callback) -> tuple[Lock, ...]:
+def _taken_locks(callback: Actor) -> tuple[Lock, ...]:
     """Locks that it waits for; one that it only tries to take does not hold it."""
     taken = (act.name for act in callback.locks if not act.tries)
     return tuple(
@@ -158,7 +177,7 @@ def _taken_locks(callback: Callback) -> tuple[Lock, ...]:
     )
 
 
-def _held_locks(block: Blocking, callback: Callback, spec: Spec) -> tuple[Lock, ...]:
+def _held_locks(block: Blocking, callback: Actor, spec: Spec) -> tuple[Lock, ...]:
     """
     Locks that are held over a wait and keep out whoever else takes them.
 
@@ -166,14 +185,39 @@ def _held_locks(block: Blocking, callback: Callback, spec: Spec) -> tuple[Lock, 
     none, and which thread goes on after an ``await``, or runs what a nested spin finds, is open.
     """
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
-    keeps_out = has_pool and block.call != 'await' and not is_part_of_spin(block, callback)
+    keeps_out = has_pool and block.call != 'await' and not _is_of_spin(block, callback)
     return tuple(_locks_of(block.held, callback, keeps_out))
 
 
-def _locks_of(held: Iterable[str], callback: Callback, keeps_out: bool) -> Iterator[Lock]:
+def _locks_of(held: Iterable[str], callback: Actor, keeps_out: bool) -> Iterator[Lock]:
     for name in held:
         if isinstance(callback.node, str) and (keeps_out or not name.endswith(RE_ENTRANT)):
             yield Lock(callback.node, name.removesuffix(RE_ENTRANT))
+
+
+def _is_of_spin(block: Blocking, actor: Actor) -> bool:
+    return isinstance(actor, Callback) and is_part_of_spin(block, actor)
+
+
+def _is_unknown(block: Blocking, partner: Callback | None, spec: Spec) -> bool:
+    """Tell whether nothing is said of what ends a wait of an activity; no spin of one is known."""
+    if is_spin(block):
+        return True
+    is_pause = block.call in _PAUSES or block.seconds is not None or asks_the_graph(block)
+    return not is_pause and partner is None and not goes_by_wakers(block, spec)
+
+
+def modelled_activities(spec: Spec) -> Iterator[Activity]:
+    """Give the activities of which something depends on, or that wait themselves."""
+    for activity in spec.activities:
+        if concerns_others(activity, spec) and any(waits_of(activity, spec)):
+            yield activity
+
+
+def actors_of(spec: Spec) -> Iterator[Actor]:
+    """Callbacks and activities, as models number them."""
+    yield from spec.callbacks
+    yield from modelled_activities(spec)
 
 
 def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
@@ -189,17 +233,6 @@ def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
         is_there = partner is not None and server_of(partner, spec.callbacks) is not None
         if not is_there if asks_the_graph(block) else partner is None:
             yield block
-
-
-def is_foreign(block: Blocking, spec: Spec) -> bool:
-    """
-    Tell whether only a thread of the user's own makes done what is awaited.
-
-    How the events executor goes on then was not read.
-    """
-    is_ours = executor_kind(spec) is not ExecutorKind.EVENTS
-    is_await = block.call == 'await' and block.seconds is None
-    return is_await and block.foreign and is_ours
 
 
 def foreign_wakes(spec: Spec) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.generator.steps import NamedWait
-from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence
@@ -13,7 +13,7 @@ from ros2cc_extract.verify.evidence import Evidence
 
 def doubts_in(run: Evidence, spec: Spec) -> str:
     """Say what a run that refutes a claim rests on and nobody knows."""
-    steps = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
+    steps = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     events = (event for moment in run.moments for event in moment.events)
     return ', '.join(dict.fromkeys(words for event in events for words in _doubts(event, steps)))
 

@@ -27,16 +27,16 @@ WORDS = {
     # Threads.
     'take': '{thread} takes {who} from the queue',
     'refuse': '{thread} is refused {who}: its group is closed',
-    'start': '{who} starts on {thread}[, inside {inside}]',
-    'end': '{who} ends on {thread}',
+    'start': '{who} starts[ on {thread}][, inside {inside}]',
+    'end': '{who} ends[ on {thread}]',
     'answer': '{who} answers',
     'raise': '{who} spins {executor}, which refuses as it spins already, and raises on {thread}',
     # Waits.
-    'wait': '{who} waits on {thread} for {needed}',
-    'wait lock': '{who} waits on {thread} for the lock of {needed}',
-    'wait service': '{who} waits on {thread} for the service of {needed}, which nobody here '
+    'wait': '{who} waits [on {thread} ]for {needed}',
+    'wait lock': '{who} waits [on {thread} ]for the lock of {needed}',
+    'wait service': '{who} waits [on {thread} ]for the service of {needed}, which nobody here '
     'offers',
-    'wait signal': '{who} waits on {thread} for {awaited}',
+    'wait signal': '{who} waits [on {thread} ]for {awaited}',
     'await': '{who} awaits {awaited} and leaves {thread}',
     'await outside': '{who} awaits what a thread outside {executor} makes done, and leaves '
     '{thread}',

@@ -16,7 +16,7 @@ from ros2cc_extract.checker.api import EdgeRef, Run, StateView
 from ros2cc_extract.generator.events import Annotation, FieldText, read_annotation
 from ros2cc_extract.generator.steps import gives
 from ros2cc_extract.generator.unit import resources_of
-from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.events import WORDS, Event
@@ -99,7 +99,7 @@ class Evidence:
 @dataclass(frozen=True)
 class Names:
     """
-    What stands for the n-th callback, thread and group of a model.
+    What stands for the n-th callback or activity, thread and group of a model.
 
     :param resources: what is waited for, each with the names of those who end waits for it.
     """
@@ -114,10 +114,11 @@ class Names:
     @staticmethod
     def of(spec: Spec) -> Names:
         """Names and places of a unit, in the order in which the model numbers them."""
-        steps = {callback.name: tuple(waits_of(callback, spec)) for callback in spec.callbacks}
-        places = {c.name: c.defined or c.source for c in spec.callbacks}
+        actors = tuple(actors_of(spec))
+        steps = {actor.name: tuple(waits_of(actor, spec)) for actor in actors}
+        places = {actor.name: actor.defined or actor.source for actor in actors}
         return Names(
-            tuple(callback.name for callback in spec.callbacks),
+            tuple(actor.name for actor in actors),
             spec.executor.threads,
             tuple(group.name for group in spec.groups),
             spec.executor.name,

@@ -116,7 +116,7 @@ def _derived(query: Query, found: Found, slicer: Slicer) -> QueryResult | None:
     if not slicer.has_threads_to_spare:
         return None
     if query.family is Family.DEADLOCK:
-        return _all_end(found, slicer.waiting)
+        return _all_end(found, slicer.asked)
     if query.family is Family.STARVATION:
         # A run of its own that is suspended keeps a callback from being started again.
         holders = slicer.holders(query.callbacks[0]) | (slicer.waiting & set(query.callbacks))

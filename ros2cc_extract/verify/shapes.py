@@ -159,7 +159,7 @@ class _Numbers:
 
     def of(self, wait: NamedWait) -> Shape:
         return (
-            self.places[wait.needed],
+            self.places.get(wait.needed),
             wait.kind,
             self._spin(wait),
             None if wait.lock is None else self.locks[wait.lock],

@@ -17,7 +17,7 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, runs_of_an_arrival
 from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
 from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
-from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
+from ros2cc_extract.generator.waits import actors_of, asks_the_graph, is_absent, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
 from ros2cc_extract.spec.partners import (
@@ -61,7 +61,17 @@ class Slicer:
     max_cycle: int
 
     def slice_for(self, query: Query) -> Names | None:
-        """Name the callbacks that ``query`` depends on; ``None`` where all of them may matter."""
+        """
+        Name the callbacks that ``query`` depends on; ``None`` where all of them may matter.
+
+        What depends on activities beside the executor is asked of the whole unit.
+        """
+        if not self._by_name.keys() >= set(query.callbacks):
+            return None
+        names = self._names_for(query)
+        return names if names is not None and names <= self._by_name.keys() else None
+
+    def _names_for(self, query: Query) -> Names | None:
         if self._has_spins_of_the_unit:
             return None
         if query.family in (*OF_ENDS, *OF_STANDSTILLS) and not self.has_threads_to_spare:
@@ -87,6 +97,8 @@ class Slicer:
         ):
             return None
         names = self._cone((*self.waiting, *query.callbacks), Rests.ON_END)
+        if not names <= self._by_name.keys():
+            return None
         threads = self.cut(names).spec.executor.threads
         is_full = len(threads) == self._threads
         return names if is_full or query.family is not Family.POOL_EXHAUSTION else None
@@ -116,17 +128,23 @@ class Slicer:
         A message or a timer that would set an event may also never come.
         """
         return all(
-            self._by_name[wait.needed].type is CallbackType.CLT
-            and wait.lock is None
-            and wait.resource is None
+            self._is_client(wait.needed) and wait.lock is None and wait.resource is None
             for name in self._cone(names, Rests.ON_END)
-            for wait in self._waits[name]
+            for wait in self._steps[name]
+            if not wait.is_signal
         )
 
     @cached_property
     def waiting(self) -> Names:
         """Whoever waits for another callback of the unit."""
         return frozenset(name for name, waits in self._waits.items() if waits)
+
+    @cached_property
+    def asked(self) -> Names:
+        """Whoever is asked whether it ends: of activities those of which all waits are known."""
+        open_ones = {name for name, own in self._steps.items() if any(w.is_open for w in own)}
+        beside = self._steps.keys() - self._by_name.keys() - open_ones
+        return self.waiting | {name for name in beside if _waits(self._steps[name])}
 
     @cached_property
     def _spinning(self) -> Names:
@@ -182,6 +200,7 @@ class Slicer:
         part = replace(
             spec,
             callbacks=callbacks,
+            activities=(),
             groups=tuple(group for group in spec.groups if group.name in groups),
             executor=replace(spec.executor, kind=executor_kind(spec).value, threads=threads),
         )
@@ -281,28 +300,38 @@ class Slicer:
 
     @cached_property
     def _waits(self) -> dict[str, tuple[NamedWait, ...]]:
-        spec = self._spec
-        return {callback.name: _waits(waits_of(callback, spec)) for callback in spec.callbacks}
+        return {
+            callback.name: _waits(self._steps[callback.name]) for callback in self._spec.callbacks
+        }
+
+    @cached_property
+    def _steps(self) -> dict[str, tuple[NamedWait, ...]]:
+        """Steps of callbacks and of activities."""
+        return {actor.name: tuple(waits_of(actor, self._spec)) for actor in actors_of(self._spec)}
+
+    def _is_client(self, name: str) -> bool:
+        callback = self._by_name.get(name)
+        return callback is not None and callback.type is CallbackType.CLT
 
     @cached_property
     def _sharers(self) -> dict[Resource | None, Names]:
         """Who gives signals to a resource; and who takes them away from others that wait."""
         found: dict[Resource | None, set[str]] = {}
-        for callback in self._spec.callbacks:
-            for step in waits_of(callback, self._spec):
+        for name, steps in self._steps.items():
+            for step in steps:
                 if step.resource is not None and (step.is_signal or step.resource.is_each):
-                    found.setdefault(step.resource, set()).add(callback.name)
+                    found.setdefault(step.resource, set()).add(name)
         return {resource: frozenset(names) for resource, names in found.items()}
 
     @cached_property
     def _callers(self) -> dict[str, Names]:
         """For each client those that wait for it, for each service its clients in the unit."""
         found: dict[str, set[str]] = {name: set() for name in self._by_name}
+        for name, steps in self._steps.items():
+            for wait in _waits(steps):
+                if wait.resource is None and self._is_client(wait.needed):
+                    found[wait.needed].add(name)
         for callback in self._spec.callbacks:
-            for wait in self._waits[callback.name]:
-                is_asked = wait.resource is None
-                if is_asked and self._by_name[wait.needed].type is CallbackType.CLT:
-                    found[wait.needed].add(callback.name)
             server = self._servers[callback.name]
             if server is not None:
                 found[server].add(callback.name)
@@ -312,7 +341,7 @@ class Slicer:
     def _lock_holders(self) -> dict[Lock | None, Names]:
         """Who keeps a lock over a wait."""
         found: dict[Lock | None, set[str]] = {}
-        for name, waits in self._waits.items():
+        for name, waits in self._steps.items():
             for wait in waits:
                 for lock in wait.held:
                     found.setdefault(lock, set()).add(name)
@@ -344,7 +373,9 @@ class Slicer:
             if cone.get(name, False) or (name in cone and not has_to_run):
                 continue
             cone[name] = has_to_run
-            callback = self._by_name[name]
+            callback = self._by_name.get(name)
+            if callback is None:
+                continue  # then there is no slice
             follows = rests is not Rests.ON_RUNS
             waiting.extend((needed, follows) for needed in self._needed(callback))
             waiting.extend((caller, False) for caller in self._callers[name])

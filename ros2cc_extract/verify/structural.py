@@ -109,6 +109,7 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
         spec=replace(
             spec,
             callbacks=callbacks,
+            activities=(),
             groups=tuple(group for group in spec.groups if group.name in groups),
             executor=replace(spec.executor, threads=threads),
             unresolved=(),

@@ -11,6 +11,8 @@ from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
+    Activity,
+    ActivityKind,
     Callback,
     CallbackGroup,
     CallbackType,
@@ -178,18 +180,45 @@ def random_waking_unit(random: Random, *, callbacks: int, groups: int, threads: 
     draw = random.choice((random_rclpy_unit, random_rclpy_unit, random_locking_unit))
     unit = draw(random, callbacks=callbacks, groups=groups, threads=threads)
     names = [callback.name for callback in unit.spec.callbacks]
+    threads_of_its_own = [f'w{number}' for number in range(random.choice((0, 0, 1, 1, 2)))]
+    names += threads_of_its_own
     served = tuple(_with_signals(callback, names, random) for callback in unit.spec.callbacks)
-    return replace(unit, spec=replace(unit.spec, callbacks=served))
+    activities = tuple(_activity(name, names, random) for name in threads_of_its_own)
+    return replace(unit, spec=replace(unit.spec, callbacks=served, activities=activities))
+
+
+def _activity(name: str, names: list[str], random: Random) -> Activity:
+    """A thread that waits, signals, takes locks, calls, is started by some or from the start."""
+    starters = [Waker(by=random.choice(names), after=random.choice((None, 0)))]
+    blocking = [
+        random.choice(
+            (
+                _signalled(names, random),
+                Blocking(call='client.call', on=random.choice(names)),
+                Blocking(call='Event.wait', held=random.choice(((), ('other',)))),
+            )
+        )
+        for _ in range(random.choice((0, 1, 1, 2)))
+    ]
+    return Activity(
+        name=name,
+        kind=ActivityKind.THREAD,
+        node=random.choice(('left', 'right')),
+        starts=tuple(starters) if random.random() < 0.5 else (),
+        loops=random.random() < 0.5,
+        blocking=tuple(blocking),
+        locks=(Act(name='other'),) if random.random() < 0.3 else (),
+    )
 
 
 def _with_signals(callback: Callback, names: list[str], random: Random) -> Callback:
-    waits = tuple(_signalled(callback, names, random) for _ in range(random.choice((0, 0, 1, 2))))
+    waits = tuple(_signalled(names, random) for _ in range(random.choice((0, 0, 1, 2))))
     blocking = [*callback.blocking, *waits]
     random.shuffle(blocking)
     return replace(callback, blocking=tuple(blocking[:2]), one_shot=random.random() < 0.2)
 
 
-def _signalled(callback: Callback, names: list[str], random: Random) -> Blocking:
+def _signalled(names: list[str], random: Random) -> Blocking:
     resource = random.choice(('done', 'queue'))
     needs = Needs.EACH if resource == 'queue' else random.choice((Needs.ONCE, Needs.ALL))
     wakers = tuple(

@@ -27,8 +27,8 @@ def unit(
         name, group = head.split()
         groups.append(group)
         rows.append(
-            f'{{name: {name}, type: TMR, callback_group: {group}, node: arm, '
-            f'{blocking or "blocking: []"}}}'
+            f'{{name: {name}, type: {"CLT" if name == "client" else "TMR"}, '
+            f'callback_group: {group}, node: arm, {blocking or "blocking: []"}}}'
         )
     types = {group: 'REENTRANT' if group.startswith('f') else 'EXCLUSIVE' for group in groups}
     text = f"""\
@@ -110,10 +110,19 @@ def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
     ]
 
 
-def test_a_semaphore_lets_as_many_through_as_it_has_at_first():
+def test_a_semaphore_that_nobody_gives_back_may_have_been_used_up_by_earlier_runs():
     one = blocking(wait('room', needs='each', more=', initial: 1'))
-    assert said(unit(f'drive a: {one}')) == []
-    assert said(unit(f'drive a: {one}\nturn b: {one}')) == ['dead-lock', 'drive', 'turn']
+    reason = 'it is not known whether Event.wait ends'
+    assert said(unit(f'drive a: {one}')) == [f'dead-lock: {reason}', f'drive: {reason}']
+
+
+def test_a_semaphore_that_is_given_back_lets_everybody_through():
+    def guarded(other: str) -> str:
+        by = ('by: drive, after: 1', 'by: turn, after: 1')
+        inside = wait('done', f'by: {other}')
+        return blocking(wait('room', *by, needs='each', more=', initial: 1'), inside)
+
+    assert said(unit(f'drive a: {guarded("tick")}\nturn b: {guarded("tick")}\ntick c')) == []
 
 
 def crossing(order_of_a: str, order_of_b: str) -> ClosedSpec:
@@ -250,3 +259,92 @@ def test_the_run_names_who_signals():
     assert run is not None
     words = [sentence.text for moment in run.moments for sentence in moment.sentences]
     assert 'a waits on t0 for b' in words or 'a waits on t1 for b' in words
+
+
+def beside(*activities: str) -> str:
+    return f'activities: [{", ".join(f"{{{each}}}" for each in activities)}]'
+
+
+FEEDER = 'name: feeder, kind: thread, loops: true'
+
+
+def test_a_thread_sets_what_a_callback_waits_for():
+    waits = blocking(wait('done', 'by: feeder'))
+    for kind in (SINGLE, MULTI, EVENTS):
+        closed = unit(f'drive a: {waits}', threads=1, kind=kind, activities=beside(FEEDER))
+        assert said(closed) == []
+
+
+def test_a_thread_feeds_a_queue_as_often_as_it_is_asked_for():
+    item = wait('queue', 'by: feeder', needs='each')
+    rows = f'drive a: {blocking(item, item)}\nturn b: {blocking(item)}'
+    assert said(unit(rows, activities=beside(FEEDER))) == []
+    once = 'name: feeder, kind: thread'
+    assert said(unit(rows, activities=beside(once))) == ['dead-lock', 'drive', 'turn']
+
+
+def test_a_thread_that_a_callback_starts_cannot_end_a_wait_before_it_is_started():
+    feeder = 'name: feeder, kind: thread, starts: [{by: turn, after: 0}]'
+    waits = blocking(wait('done', 'by: feeder'))
+    assert said(unit(f'drive a: {waits}\nturn b', activities=beside(feeder))) == []
+    assert said(unit(f'drive a: {waits}\nturn a', activities=beside(feeder))) == [
+        'dead-lock',
+        'drive',
+    ]
+
+
+@pytest.mark.parametrize(('group', 'stuck'), [('a', True), ('b', False)])
+def test_a_join_on_a_thread_that_waits_for_a_callback(group: str, stuck: bool):
+    """Who joins keeps its group closed, in which the callback is."""
+    worker = 'name: worker, kind: thread, starts: [{by: drive, after: 0}], ' + blocking(
+        wait('done', 'by: tick')
+    )
+    joins = blocking(wait('worker', 'by: worker').replace('Event.wait', 'Thread.join'))
+    closed = unit(f'drive a: {joins}\ntick {group}', activities=beside(worker))
+    assert said(closed) == (['dead-lock', 'drive', 'worker'] if stuck else [])
+
+
+def test_a_thread_that_needs_a_lock_that_is_held_while_it_is_waited_for():
+    worker = 'name: worker, kind: thread, node: arm, locks: [{name: lock}]'
+    held = 'by: worker, after: 0, held: [lock]'
+    waits = blocking(wait('done', held, more=LOCKED))
+    assert said(unit(f'drive a: {waits}', activities=beside(worker))) == [
+        'dead-lock',
+        'drive',
+        'worker',
+    ]
+
+
+def test_a_thread_calls_a_service_of_a_group_that_is_held():
+    calls = '{call: client.call, waits_for: client}'
+    worker = f'name: worker, kind: thread, {blocking(calls)}'
+    rows = 'drive a: ' + blocking(wait('done', 'by: worker')) + '\nclient a'
+    closed = unit(rows, activities=beside(worker))
+    assert said(closed) == ['dead-lock', 'drive', 'worker']
+    assert said(unit(rows.replace('client a', 'client b'), activities=beside(worker))) == []
+
+
+def test_a_loop_that_waits_first_is_at_rest_there():
+    item = wait('queue', 'by: tick, conditional: true', needs='each')
+    worker = f'name: worker, kind: thread, loops: true, {blocking(item)}'
+    assert said(unit('tick a', activities=beside(worker))) == []
+
+
+def test_a_loop_for_which_nobody_works_waits_for_ever():
+    worker = f'name: worker, kind: thread, loops: true, {blocking(wait("queue", needs="each"))}'
+    assert said(unit('tick a', activities=beside(worker))) == ['dead-lock', 'worker']
+
+
+def test_of_a_thread_of_which_nothing_is_known_only_what_needs_it_is_open():
+    worker = f'name: worker, kind: thread, {blocking("{call: input, source: arm.py:5}")}'
+    waits = blocking(wait('fed', 'by: worker'))
+    reason = 'it is not known whether input at arm.py:5 ends'
+    closed = unit(f'drive a: {waits}\nturn b: {DONE}\ntick c', activities=beside(worker))
+    assert said(closed) == [f'dead-lock: {reason}', f'drive: {reason}']
+    assert said(unit(f'turn b: {DONE}\ntick c', activities=beside(worker))) == []
+
+
+def test_activities_are_no_workers():
+    """Two threads beside a pool of one: whoever waits there holds up nobody."""
+    waiting = [f'name: w{n}, kind: thread, {blocking(wait("done", "by: tick"))}' for n in range(2)]
+    assert said(unit('tick a\nscan b', threads=1, activities=beside(*waiting))) == []
