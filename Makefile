@@ -13,7 +13,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts shapes waits conformance rclpy-tests lint schema paper screenshot clean
+.PHONY: demo test test-long texts shapes waits random-waits conformance rclpy-tests lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -64,7 +64,7 @@ waits: $(VENV)/developed
 	$(BIN)/python -m tests.shapes.page
 
 # Random programs that wait, on both distributions: who hangs is never said to end.
-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+random-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.random_waits.suite --python $(JAZZY)/bin/python --programs $(PROGRAMS)
 	$(BIN)/python -m tests.random_waits.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
 

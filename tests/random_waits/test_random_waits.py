@@ -1,4 +1,4 @@
-"""A short run of the random programs that wait; ``make waits`` runs many."""
+"""A short run of the random programs that wait; ``make random-waits`` runs many."""
 
 from __future__ import annotations
 

@@ -10,6 +10,7 @@ from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR
+from ros2cc_extract.spec.partners import is_client
 
 EXECUTOR = 'executor'
 _HIDING = frozenset({'entities', 'node', 'function'})
@@ -36,13 +37,15 @@ def is_not_served(context: Context) -> bool:
     """
     True where a program was followed to its end, and its node is in no executor.
 
-    A test may well call the functions of a node by itself.
+    A test may well call the functions of a node by itself; a client alone has nothing to run,
+    and a wait for its answer is told where it waits.
     """
     unit = context.unit
     kind = unit.executor.kind
     if not isinstance(kind, Unknown) or kind.reason != NO_EXECUTOR or unit.entry is None:
         return False
-    if not unit.nodes or not context.written or _is_test(unit.entry):
+    idle = all(is_client(callback) for callback in context.written)
+    if not unit.nodes or idle or _is_test(unit.entry):
         return False
     return not any(fact.fact in _HIDING for fact in unit.unresolved)
 

@@ -181,9 +181,17 @@ ENDLESS = {
 }
 
 
-@pytest.mark.parametrize('text', ENDLESS.values(), ids=list(ENDLESS))
-def test_a_program_without_end_is_cut_off_and_said_so(text: str) -> None:
-    assert [d.slug for d in scan_text(HEAD + text + SPIN).diagnostics] == ['not-followed']
+def test_calls_on_plain_data_without_end_are_left_and_the_rest_is_followed() -> None:
+    extraction = scan_text(HEAD + ENDLESS['exponential calls'] + SPIN)
+    assert [(unit.nodes, unit.executor.spun) for unit in extraction.units] == [
+        (('a',), 'rclpy.spin')
+    ]
+    assert extraction.diagnostics == ()
+
+
+def test_a_program_without_end_is_cut_off_and_said_so() -> None:
+    text = HEAD + ENDLESS['deep loops'] + SPIN
+    assert [d.slug for d in scan_text(text).diagnostics] == ['not-followed']
 
 
 @pytest.mark.parametrize(
