@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.done_before import is_done_before
 from ros2cc_extract.extract.static.relevance import noted_on, walk
 from ros2cc_extract.extract.static.values import Call, Const, Mystery
 from ros2cc_extract.places import Unknown
@@ -52,6 +53,8 @@ def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
     if name in _ALWAYS:
         return True
     if name in _OF_FUTURES:
+        if isinstance(call.text, ast.Call) and is_done_before(call.text, trees):
+            return False
         # ``rclpy.task.Future.result`` does not wait (rclpy 7.1.6, ``task.py``).
         is_plain = not call.args or _is_number(call.args[0])
         return is_plain and any(noted_on(tree, 'knows_futures', _knows_futures) for tree in trees)
