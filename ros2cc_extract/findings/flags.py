@@ -9,34 +9,41 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import TypeVar
 
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import kept_between, read_for
 from ros2cc_extract.spec.deeds import FLAG, Access
 from ros2cc_extract.spec.model import Activity, Callback
 
+_Doer = TypeVar('_Doer', Callback, Activity)
+
 
 def shared_by(context: Context) -> tuple[Callback, ...]:
+    """The callbacks somebody wrote, with their accesses as flags leave them."""
+    return as_shared(context.written, context)
+
+
+def as_shared(doers: tuple[_Doer, ...], context: Context) -> tuple[_Doer, ...]:
     """
-    The callbacks somebody wrote, with their accesses as flags leave them.
+    Callbacks, or threads, with their accesses as flags leave them.
 
     A flag that keeps others out stands among the locks and is no shared data itself; any other
     is shared data and no lock.
     """
-    flags = {lock for c in context.written for access in _accesses(c) for lock in access.locks}
+    everybody: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)
+    flags = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
     flags = {lock for lock in flags if lock.endswith(FLAG)}
     if not flags:
-        return context.written
+        return doers
     kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, context)}
     return tuple(
-        replace(
-            callback, reads=_judged(callback.reads, kept), writes=_judged(callback.writes, kept)
-        )
-        for callback in context.written
+        replace(doer, reads=_judged(doer.reads, kept), writes=_judged(doer.writes, kept))
+        for doer in doers
     )
 
 
-def _accesses(callback: Callback) -> tuple[Access, ...]:
+def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
     return (*callback.reads, *callback.writes)
 
 

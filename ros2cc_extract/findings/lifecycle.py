@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.spec.deeds import Access
-from ros2cc_extract.spec.model import Callback, EntityKind, When
+from ros2cc_extract.spec.model import Activity, Callback, EntityKind, When
 
 _FIRST = 'on_configure'
 
 
-def comes_before(access: Access, doer: Callback, other: Callback) -> bool:
+def comes_before(access: Access, doer: Callback | Activity, other: Callback | Activity) -> bool:
     """Whether ``doer`` is a transition that does this before ``other`` is made."""
+    if isinstance(doer, Activity) or isinstance(other, Activity):
+        return False
     if doer.entity is not EntityKind.LIFECYCLE_SERVICE or other.when is not When.CONFIGURE:
         return False
     made = [steps(act) for act in doer.changes if act.source == other.source]

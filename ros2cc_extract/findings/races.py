@@ -1,5 +1,5 @@
 """
-Shared state that callbacks which may overlap change without a common lock.
+Shared state that callbacks and threads which may overlap change without a common lock.
 
 A plain assignment is atomic in CPython; what breaks is *read, then write*: an update
 (``self.n += 1``) or a test followed by an assignment. So those weigh more; two updates in place
@@ -14,11 +14,12 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
-from ros2cc_extract.findings.flags import shared_by
+from ros2cc_extract.findings.beside import Doer, beside, node_of, repeats_freely, sharing
+from ros2cc_extract.findings.flags import as_shared, shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
-from ros2cc_extract.findings.overlap import interleaves, overlap
+from ros2cc_extract.findings.overlap import Overlap, interleaves, overlap
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import (
     is_operand,
@@ -28,10 +29,10 @@ from ros2cc_extract.findings.sections import (
     read_for,
 )
 from ros2cc_extract.findings.waits import WaitKind, kind_of
-from ros2cc_extract.findings.words import listing, shown
+from ros2cc_extract.findings.words import called, listing
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Access
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.verify.evidence import Evidence
 
 
@@ -48,17 +49,16 @@ class RaceKind(Enum):
 
 @dataclass(frozen=True)
 class Use:
-    """A write of an attribute by a callback, or a loop over it."""
+    """A write of an attribute by a callback or a thread, or a loop over it."""
 
-    callback: Callback
+    doer: Doer
     access: Access
 
     @property
     def place(self) -> Place:
         """Where it stands; the callback where the line is not known."""
-        callback = self.callback
-        known = self.access.source or callback.defined or callback.source
-        return known or Place(callback.name)
+        doer = self.doer
+        return self.access.source or doer.defined or doer.source or Place(doer.name)
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,7 @@ class Race:
     :param first: the write at which something gets lost, of the first attribute.
     :param others: the writes that may come in between, one per callback.
     :param run: a run of the model in which two of them overlap.
+    :param is_flag: what a thread and another test and write is a constant.
     """
 
     names: tuple[str, ...]
@@ -77,22 +78,31 @@ class Race:
     first: Use
     others: tuple[Use, ...]
     run: Evidence | None
+    is_flag: bool = False
 
     @property
     def is_outside_groups(self) -> bool:
         """True when one of the callbacks is in no group at all."""
-        return any(use.callback.groupless for use in (self.first, *self.others))
+        return any(
+            isinstance(use.doer, Callback) and use.doer.groupless
+            for use in (self.first, *self.others)
+        )
+
+    @property
+    def has_threads(self) -> bool:
+        """True when one of them is a thread of the program's own."""
+        return _is_of_threads(self.first, *self.others)
 
     @property
     def subjects(self) -> tuple[str, ...]:
         """The attributes and the callbacks, which identify the race."""
         callbacks = (self.first, *self.others)
-        return (*self.names, *dict.fromkeys(use.callback.name for use in callbacks))
+        return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
 
     def related(self) -> tuple[Remark, ...]:
         """The other writes; one function of several entities is told once."""
         remarks = (
-            Remark(use.place, f'{use.callback.display_name} writes {use.access.name} here')
+            Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
             for use in self.others
         )
         return tuple(dict.fromkeys(remarks))
@@ -109,16 +119,24 @@ class _Conflict:
 def races_of(context: Context) -> Iterator[Race]:
     """One race per attributes that the same callbacks change, in the order of first conflicts."""
     by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
-    for one, other in combinations(shared_by(context), 2):
-        if isinstance(one.node, str) and one.node == other.node:
+    threads = as_shared(sharing(context), context)
+    doers: tuple[Doer, ...] = (*shared_by(context), *threads)
+    for one, other in combinations(doers, 2):
+        node = node_of(one, context)
+        if node is not None and node == node_of(other, context):
             for conflict in _conflicts(one, other, context):
-                key = (one.node, conflict.first.access.name)
-                by_attribute.setdefault(key, []).append(conflict)
-    alike: dict[tuple[RaceKind, str, frozenset[str]], list[Race]] = {}
+                by_attribute.setdefault((node, conflict.first.access.name), []).append(conflict)
+    for thread in threads:
+        node = node_of(thread, context)
+        if node is not None and repeats_freely(thread, context):
+            for conflict in _of_two_alike(thread):
+                by_attribute.setdefault((node, conflict.first.access.name), []).append(conflict)
+    alike: dict[tuple[RaceKind, bool, str, frozenset[str]], list[Race]] = {}
     for (_, name), conflicts in by_attribute.items():
         race = _race(name, conflicts)
-        others = frozenset(use.callback.name for use in race.others)
-        alike.setdefault((race.kind, race.first.callback.name, others), []).append(race)
+        others = frozenset(use.doer.name for use in race.others)
+        key = (race.kind, race.is_flag, race.first.doer.name, others)
+        alike.setdefault(key, []).append(race)
     yield from map(_join, alike.values())
 
 
@@ -129,8 +147,10 @@ def _join(races: list[Race]) -> Race:
 
 def describe(race: Race) -> str:
     """Say what happens to the attributes."""
-    first = race.first.callback.display_name
-    others = shown(use.callback for use in race.others)
+    first = called(race.first.doer)
+    others = listing(called(use.doer) for use in race.others)
+    if race.others[0].doer.name == race.first.doer.name:
+        others = 'another thread that runs it'
     others = f'{others} of another entity' if others == first else others
     names = listing(race.names, limit=4)
     it = 'it' if len(race.names) == 1 else 'them'
@@ -138,8 +158,6 @@ def describe(race: Race) -> str:
     return {
         RaceKind.CHANGED_IN_LOOP: f'{first} goes over {names} in a loop, and {others} may change '
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
-        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
-        f'{it} to None in between: the use then ends in an exception',
         RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
         f'{it} to None in between: the use then ends in an exception',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
@@ -153,16 +171,37 @@ def describe(race: Race) -> str:
     }[race.kind]
 
 
-def _conflicts(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
+def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
+    if not _share_data(one, other):
+        return
+    together: Overlap | None = None
+    if isinstance(one, Callback) and isinstance(other, Callback):
+        together = overlap(one, other, context)
+        if together is None:
+            yield from _over_awaits(one, other, context)
+    elif (meeting := beside(one, other, context)) is not None:
+        together, (one, other) = Overlap(), meeting
+    if together is not None:
+        yield from _at_once(one, other, together)
+
+
+def _share_data(one: Doer, other: Doer) -> bool:
+    used = [{each.name for each in (*doer.reads, *doer.writes)} for doer in (one, other)]
+    written = {write.name for doer in (one, other) for write in doer.writes}
+    return not written.isdisjoint(used[0] & used[1])
+
+
+def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
+    """What two threads that run the same lose; that both store the same is no matter."""
+    for conflict in _at_once(thread, thread, Overlap()):
+        if conflict.kind in (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT):
+            yield conflict
+
+
+def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
     others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
-    if not written and not others:
-        return
-    together = overlap(one, other, context)
-    if together is None:
-        yield from _over_awaits(one, other, context)
-        return
     for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
             (Use(one, a), Use(other, b))
@@ -193,20 +232,20 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
 
 
 def _is_stale(first: Use, second: Use) -> bool:
-    write, callback = first.access, first.callback
-    read = read_for(write, callback) if write.rests and not write.in_place else None
+    write, doer = first.access, first.doer
+    read = read_for(write, doer) if write.rests and not write.in_place else None
     if read is None or is_other_item(write, second.access):
         return False
-    awaits = (b for b in callback.blocking if kind_of(b) is WaitKind.AWAIT)
+    awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
-    return over_await and not keep_apart(kept_between(read, write, callback), second.access.locks)
+    return over_await and not keep_apart(kept_between(read, write, doer), second.access.locks)
 
 
 # Their loops notice a change of size; those over a list see more or less, and raise nothing.
 _NOTICING = frozenset({'dict', 'set', 'deque'})
 
 
-def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
+def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     """Loops of one over a collection that the other changes in place, without a common lock."""
     for looper, changer in ((one, other), (other, one)):
         for read in looper.reads:
@@ -223,7 +262,7 @@ def _loops(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
                 )
 
 
-def uses_cleared(one: Callback, other: Callback) -> Iterator[tuple[Use, Use]]:
+def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     """Objects that one tests and then uses, and the other sets to ``None`` in between."""
     for user, clearer in ((one, other), (other, one)):
         clears = [write for write in clearer.writes if write.clears]
@@ -248,10 +287,10 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         if first.access.update and not first.access.in_place:
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
-        if not first.access.in_place and _is_read_before(first, second):
+        if not first.access.in_place and _is_read_before(first, second) and _rests(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
-        if first.access.in_place and _is_read_before(first, second):
+        if first.access.in_place and _is_read_before(first, second) and _rests(first, second):
             return RaceKind.CHECK_THEN_CHANGE, first, second
     if one.access.in_place and other.access.in_place:
         return None
@@ -262,46 +301,61 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     """A lock helps only who keeps it from what was read to what is written because of that."""
     for first, second in ((one, other), (other, one)):
         write = first.access
-        read = read_for(write, first.callback) if write.rests and not write.in_place else None
+        read = read_for(write, first.doer) if write.rests and not write.in_place else None
         if read is not None and not keep_apart(
-            kept_between(read, write, first.callback), second.access.locks
+            kept_between(read, write, first.doer), second.access.locks
         ):
             return RaceKind.CHECK_THEN_ACT, first, second
     return None
 
 
+def _rests(first: Use, second: Use) -> bool:
+    """Of threads, whose loops read a flag that they put down at their end, more is asked."""
+    return first.access.rests or not _is_of_threads(first, second)
+
+
+def _is_of_threads(*uses: Use) -> bool:
+    return any(isinstance(use.doer, Activity) for use in uses)
+
+
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
     write = first.access
-    changed_at = {steps(other) for other in first.callback.writes if other.in_place}
+    changed_at = {steps(other) for other in first.doer.writes if other.in_place}
     return any(
         read.name == write.name
         and not is_other_item(read, second.access)
         and (steps(read) < steps(write) or (write.in_place and is_operand(read, write)))
         and steps(read) not in changed_at
         and not keep_apart(read.locks, second.access.locks)
-        for read in first.callback.reads
+        for read in first.doer.reads
     )
+
+
+def _is_flag(conflict: _Conflict) -> bool:
+    """A thread and another test a flag and store a constant: no value is computed from it."""
+    return conflict.first.access.constant and _is_of_threads(conflict.first, conflict.other)
 
 
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
     worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
-    first = worst.first.callback.name
+    first = worst.first.doer.name
     uses = [
         use
         for conflict in conflicts
-        if first in (conflict.first.callback.name, conflict.other.callback.name)
+        if first in (conflict.first.doer.name, conflict.other.doer.name)
         for use in (conflict.first, conflict.other)
     ]
-    others = {use.callback.name: use for use in reversed(uses)}
+    others = {use.doer.name: use for use in reversed(uses)}
     others.pop(first, None)
-    order = dict.fromkeys(use.callback.name for use in uses)
+    order = dict.fromkeys(use.doer.name for use in uses)
     return Race(
         names=(name,),
         kind=worst.kind,
         first=worst.first,
-        others=tuple(others[callback] for callback in order if callback in others),
+        others=tuple(others[doer] for doer in order if doer in others) or (worst.other,),
         run=worst.run or next((c.run for c in conflicts if c.run), None),
+        is_flag=all(_is_flag(conflict) for conflict in conflicts if conflict.kind is worst.kind),
     )
 
 

@@ -32,11 +32,12 @@ class SelfRace:
     """
     One attribute that two runs of one callback disturb each other by.
 
-    :param use: where it shows.
+    :param use: where it shows; ``callback`` does it.
     :param waits: the callback waits between what it read or wrote first and ``use``.
     """
 
     kind: SelfRaceKind
+    callback: Callback
     use: Use
     waits: bool
 
@@ -62,12 +63,12 @@ def _races_on(writes: list[Access], callback: Callback) -> Iterator[SelfRace]:
     plain = [write for write in writes if not write.in_place]
     for write in plain:
         if write.update and not keep_apart(write.locks, write.locks):
-            yield SelfRace(SelfRaceKind.LOST_UPDATE, Use(callback, write), waits=False)
+            yield SelfRace(SelfRaceKind.LOST_UPDATE, callback, Use(callback, write), waits=False)
     stale = [found for write in plain if (found := _stale(write, plain, callback)) is not None]
     yield from sorted(stale, key=lambda race: not race.waits)
     for read in callback.reads:
         if _is_overwritten(read, plain, callback):
-            yield SelfRace(SelfRaceKind.OVERWRITTEN, Use(callback, read), waits=True)
+            yield SelfRace(SelfRaceKind.OVERWRITTEN, callback, Use(callback, read), waits=True)
 
 
 def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace | None:
@@ -80,7 +81,7 @@ def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace 
         return None
     at_once = is_operand(read, write)
     kind = SelfRaceKind.LOST_UPDATE if at_once else SelfRaceKind.STALE_READ
-    return SelfRace(kind, Use(callback, write), _waits(read, write, callback))
+    return SelfRace(kind, callback, Use(callback, write), _waits(read, write, callback))
 
 
 def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, CallbackGroup, Executor
 
 
 def group_words(group: CallbackGroup) -> str:
@@ -27,6 +27,17 @@ def listing(names: Iterable[str], limit: int = 6) -> str:
 def shown(callbacks: Iterable[Callback]) -> str:
     """List callbacks by the names of their functions."""
     return listing(callback.display_name for callback in callbacks)
+
+
+def called(doer: Callback | Activity) -> str:
+    """A callback by its function; a thread by its name, and its function where that differs."""
+    if isinstance(doer, Callback) or doer.kind is ActivityKind.MAIN:
+        return doer.display_name
+    words = f'{_THREADS.get(doer.kind, "thread")} {doer.name}'
+    return words if doer.display_name == doer.name else f'{words} ({doer.display_name})'
+
+
+_THREADS = {ActivityKind.TIMER: 'timer thread', ActivityKind.POOL: 'pool thread'}
 
 
 def plural(number: int, noun: str) -> str:

@@ -111,6 +111,7 @@ class Access:
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored.
+    :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param later: true for the use of an object where something was called since it was tested.
     """
 
@@ -124,6 +125,7 @@ class Access:
     item: str | None = None
     rests: bool = False
     clears: bool = False
+    constant: bool = False
     later: bool = False
     chain: tuple[Place, ...] = ()
 

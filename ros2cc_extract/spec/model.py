@@ -250,8 +250,10 @@ class Activity:
     :param kind: ``MAIN`` is the code of the program after it has started a thread that spins.
     :param starts: who starts it and where, as wakers; empty for what runs from the beginning.
     :param count: how many of them may run at a time.
+    :param conditional: a branch may skip its start.
     :param daemon: the program ends without waiting for it.
     :param loops: it never ends by itself.
+    :param ends_first: the set-up waits for its end, before anything spins.
     :param source: where it is started; ``defined`` is its function.
     """
 
@@ -262,8 +264,10 @@ class Activity:
     cls: str | None = None
     starts: tuple[Waker, ...] = ()
     count: int | Unknown = 1
+    conditional: bool = False
     daemon: bool = False
     loops: bool = False
+    ends_first: bool = False
     unresolved: Unknown | None = None
     source: Place | None = None
     defined: Place | None = None

@@ -125,6 +125,7 @@ ACCESS = record(
                 ('item', 'item', optional(TEXT)),
                 ('rests', 'rests', FLAG),
                 ('clears', 'clears', FLAG),
+                ('constant', 'constant', FLAG),
                 ('later', 'later', FLAG),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
@@ -268,7 +269,15 @@ ACTIVITY = record(
             (('class', 'cls', optional(TEXT)), ('starts', 'starts', listing(WAKER))),
         ),
         Open(('count',), 'count', COUNT, ('count', 'unknown'), 'count_', 1),
-        *plain_rows(Activity, (('daemon', 'daemon', FLAG), ('loops', 'loops', FLAG))),
+        *plain_rows(
+            Activity,
+            (
+                ('conditional', 'conditional', FLAG),
+                ('daemon', 'daemon', FLAG),
+                ('loops', 'loops', FLAG),
+                ('ends_first', 'ends_first', FLAG),
+            ),
+        ),
         Resolution(),
         *plain_rows(
             Activity,

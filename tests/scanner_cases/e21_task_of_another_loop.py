@@ -43,6 +43,6 @@ def main():
 #     reads Bridge.loop rests later @24
 #     writes Bridge.seen @20
 #   activity thread run_forever daemon loops
-#   activity thread send (Bridge.send) started by on_text conditional @22 count=?
+#   activity thread send (Bridge.send) started by on_text conditional @22 conditional count=?
 #     blocks asyncio.sleep 0.1 s @27
 #     writes Bridge.sent update @28

@@ -93,19 +93,19 @@ if __name__ == '__main__':
 #   group no_group REENTRANT groupless
 #   timer by_goal in a_default every 1
 #     reads A.asking @29
-#     writes A.asking rests under A.asking (flag) @31
+#     writes A.asking rests constant under A.asking (flag) @31
 #     writes A.steps under A.asking (flag) @32
 #     writes A.steps @34
 #     changes done_callback @33
 #   timer by_arm in a_default every 1
 #     reads A.busy under lock @43
-#     writes A.busy rests under lock, A.busy (flag) @44
+#     writes A.busy rests constant under lock, A.busy (flag) @44
 #     writes A.steps under lock, A.busy (flag) @45
 #     writes A.steps under lock @46
 #     locks lock @42
 #   timer on_some_ways in a_default every 1
 #     reads A.asking @49>53
-#     writes A.asking rests under A.asking (flag) @49>55
+#     writes A.asking rests constant under A.asking (flag) @49>55
 #     writes A.steps @50
 #   timer by_object in a_default every 1
 #     reads A.handle @59
@@ -114,7 +114,7 @@ if __name__ == '__main__':
 #   client ask_client in a_default key=ask
 #   action_server f_action_server in a_default (A.on_goal) key=f
 #     reads A.busy under lock @66
-#     writes A.busy rests under lock, A.busy (flag) @68
+#     writes A.busy rests constant under lock, A.busy (flag) @68
 #     locks lock @65
 #   action_execute execute in no_group key=f
 #     writes A.steps under A.busy (flag) @72

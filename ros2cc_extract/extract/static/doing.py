@@ -44,6 +44,7 @@ class ActivityState:
     :param place: where it is started.
     :param runners: the threads or futures that stand for it; who waits on one waits for its end.
     :param starts: who starts it.
+    :param ends_first: the set-up waits for its end.
     :param serves: it spins an executor; for ever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param site: equal for one start that is met again.
@@ -60,6 +61,7 @@ class ActivityState:
     count: int | Unknown = 1
     daemon: bool = False
     loops: bool = False
+    ends_first: bool = False
     serves: bool = False
     is_executor: bool = False
     nodes: set[int] = field(default_factory=set)

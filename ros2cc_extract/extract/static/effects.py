@@ -103,6 +103,7 @@ class Effects(Waits):
             rests=is_used or (rests and not is_read),
             later=is_used and reading.has_called_since(name, self.world.path),
             clears=kind is AccessKind.WRITE and reading.stored == NONE,
+            constant=kind is AccessKind.WRITE and rests and isinstance(reading.stored, Const),
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if is_read else deeds.writes

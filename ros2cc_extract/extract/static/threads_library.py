@@ -220,11 +220,20 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
 }
 
 
+def _note_end(machine: Machine, thread: Value) -> None:
+    """The set-up has waited for the end of a thread, before anything spins."""
+    world = machine.world
+    if world.deeds is None and not world.after_spin:
+        for activity in world.activities:
+            activity.ends_first = activity.ends_first or thread in activity.runners
+
+
 def _join(machine: Machine, receiver: Value, call: Call) -> Value:
     """What the thread spun is spun no more where the program has waited for its end."""
     world = machine.world
     if not world.in_callback and not world.in_thread and not call.args and not call.keywords:
         world.spins_over = len(world.spins)
+        _note_end(machine, receiver)
     return _blocking('Thread.join', 0, 'timeout')(machine, receiver, call)
 
 

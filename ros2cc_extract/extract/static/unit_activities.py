@@ -89,8 +89,10 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
         cls=owner.class_name if owner is not None and isinstance(owner.cls, Class) else None,
         starts=tuple(_starts(state, names, waits)),
         count=state.count,
+        conditional=_is_conditional(state),
         daemon=state.daemon,
         loops=state.loops,
+        ends_first=state.ends_first,
         unresolved=facts.unresolved,
         source=state.place,
         defined=facts.defined,
@@ -101,6 +103,12 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
         publishes=tuple(deeds.publishes),
         changes=tuple(deeds.changes),
     )
+
+
+def _is_conditional(state: ActivityState) -> bool:
+    """Whether a branch of whoever starts it may skip that."""
+    starts = [start for start in state.starts if start.by is not None]
+    return all(start.conditional for start in starts) if starts else bool(state.path)
 
 
 def _starts(state: ActivityState, names: dict[int, str], waits: UnitWaits) -> Iterable[Waker]:

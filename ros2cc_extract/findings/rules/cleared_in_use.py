@@ -12,6 +12,7 @@ from ros2cc_extract.findings.races import RaceKind, Use, races_of, uses_cleared
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.lost_update import hit_of
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
+from ros2cc_extract.spec.model import Callback
 
 HELP = (
     'take a copy first (x = self.x; if x is not None: x.…), or hold one lock around the test and '
@@ -23,7 +24,7 @@ def find(context: Context) -> Iterator[Hit]:
     told: set[tuple[str, str]] = set()
     for race in races_of(context):
         if race.kind is RaceKind.CLEARED_IN_USE:
-            told |= {(race.first.callback.name, name) for name in race.names}
+            told |= {(race.first.doer.name, name) for name in race.names}
             hit = hit_of(race, help_text=HELP)
             yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
     for callback in shared_by(context):
@@ -33,11 +34,11 @@ def find(context: Context) -> Iterator[Hit]:
             }
             for name, use in uses.items():
                 if (callback.name, name) not in told:
-                    yield _of_itself(use, context)
+                    yield _of_itself(callback, use, context)
 
 
-def _of_itself(use: Use, context: Context) -> Hit:
-    callback, name = use.callback, use.access.name
+def _of_itself(callback: Callback, use: Use, context: Context) -> Hit:
+    name = use.access.name
     return Hit(
         place=use.place,
         message=f'{callback.display_name} tests {name} and then uses it, and another run of it '

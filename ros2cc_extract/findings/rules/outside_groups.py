@@ -31,7 +31,8 @@ def _reminder(race: Race) -> str:
 
 
 def _callbacks(race: Race) -> tuple[Callback, ...]:
-    return tuple(use.callback for use in (race.first, *race.others))
+    doers = (use.doer for use in (race.first, *race.others))
+    return tuple(doer for doer in doers if isinstance(doer, Callback))
 
 
 RULE = Rule(

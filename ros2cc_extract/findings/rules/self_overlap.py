@@ -32,7 +32,7 @@ def find(context: Context) -> Iterator[Hit]:
     losing = list(_losing(context))
     told = set(_told_of_others(context)) if losing else set()
     for race in losing:
-        name, callback = race.use.access.name, race.use.callback.name
+        name, callback = race.use.access.name, race.callback.name
         if not told & {(name, race.use.place), (name, callback)}:
             yield _hit(race, context)
 
@@ -52,12 +52,12 @@ def _told_of_others(context: Context) -> Iterator[tuple[str, Place | str]]:
         if race.kind in (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT):
             for name in race.names:
                 yield name, race.first.place
-                yield name, race.first.callback.name
-                yield from ((name, use.callback.name) for use in race.others)
+                yield name, race.first.doer.name
+                yield from ((name, use.doer.name) for use in race.others)
 
 
 def _hit(race: SelfRace, context: Context) -> Hit:
-    callback, name = race.use.callback, race.use.access.name
+    callback, name = race.callback, race.use.access.name
     default = 'when messages come together'
     when = _TWICE.get(callback.entity, default) if callback.entity else default
     is_less = race.kind is SelfRaceKind.STALE_READ and not race.waits

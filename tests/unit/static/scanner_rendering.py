@@ -126,7 +126,11 @@ def _activity(activity: Activity) -> str:
     function = (activity.function or '').partition('.')[2]
     words += [f'({function})'] if function and function != activity.name else []
     words += [f'started by {_waker(start)}' for start in activity.starts]
-    words += [name for name in ('daemon', 'loops') if getattr(activity, name)]
+    words += [
+        name
+        for name in ('conditional', 'daemon', 'loops', 'ends_first')
+        if getattr(activity, name)
+    ]
     words += [_count(activity.count)] if activity.count != 1 else []
     words += ['UNRESOLVED'] if activity.unresolved else []
     return ' '.join(words)
@@ -191,6 +195,7 @@ def _access(access: Access) -> str:
     update += f' iterates {access.iterates}' if access.iterates else ''
     update += f' item {access.item}' if access.item else ''
     update += (' rests' if access.rests else '') + (' clears' if access.clears else '')
+    update += ' constant' if access.constant else ''
     update += ' later' if access.later else ''
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'
