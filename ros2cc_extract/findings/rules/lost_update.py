@@ -46,9 +46,9 @@ RULE = Rule(
     'only a note: the two may mean different items. A loop over a dictionary, set or deque that '
     'another callback changes meanwhile ends in a RuntimeError. Threads that the program starts, '
     'timers and tasks of pools among them, and `main` beside a thread that spins count as '
-    'callbacks do, on any executor. Not told is what is done before the start of a thread or after '
-    'its join, and where branches may leave out both. A flag that one tests and both set to '
-    'constants is only a note there.',
+    'callbacks do, on any executor. Not told is what is done before the start of a thread or '
+    'after its join, and where branches may leave out both. A flag that one tests and both set '
+    'to constants is only a note there.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between reading and writing. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '
