@@ -101,8 +101,10 @@ def may_be_used_up(block: Blocking, spec: Spec) -> bool:
     The model lets data arrive too seldom for that. Whoever gives back what it takes itself uses
     up nothing.
     """
+    if block.initial <= 0:
+        return False
     waiting = {actor.name for actor in all_actors(spec) if block in actor.blocking}
-    return block.initial > 0 and waiting.isdisjoint(waker.by for waker in block.wakers)
+    return waiting.isdisjoint(waker.by for waker in block.wakers)
 
 
 def _known(spec: Spec) -> set[str]:
@@ -125,6 +127,8 @@ def signals_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
                 yield _signal(start, waker, callback)
     for waiting in all_actors(spec):
         for block in waiting.blocking:
+            if all(waker.by != callback.name for waker in block.wakers):
+                continue
             is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
             is_wait = goes_by_wakers(block, spec) and not is_spin
             if not is_wait or not any(resource_waits(block, waiting, spec)):

@@ -9,7 +9,9 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec, close
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.yaml_io import read_specs
 from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
 
@@ -348,3 +350,22 @@ def test_activities_are_no_workers():
     """Two threads beside a pool of one: whoever waits there holds up nobody."""
     waiting = [f'name: w{n}, kind: thread, {blocking(wait("done", "by: tick"))}' for n in range(2)]
     assert said(unit('tick a\nscan b', threads=1, activities=beside(*waiting))) == []
+
+
+def test_waits_without_a_start_value_are_not_compared_with_all_others(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    """A unit of many waits is numbered in a second, and not in minutes."""
+    waits = blocking(*(wait(f'done{n}', 'by: c0') for n in range(20)))
+    closed = unit('\n'.join(f'c{n} f{n}: {waits}' for n in range(20)))
+    compared = 0
+    equal = Blocking.__eq__
+
+    def counting(one: Blocking, other: object) -> bool:
+        nonlocal compared
+        compared += 1
+        return equal(one, other)
+
+    monkeypatch.setattr(Blocking, '__eq__', counting)
+    number_unit(closed, 1)
+    assert compared <= 20 * 20
