@@ -178,10 +178,16 @@ def _is_beside(access: Access, doer: Doer, other: Doer) -> bool:
 
 
 def _ends_before(block: Blocking, doer: Doer, other: Doer) -> bool:
-    """Whether ``other`` has ended behind this wait; for ``main``, the thread that spins."""
+    """
+    Whether ``other`` has ended behind this wait; for ``main``, the thread that spins.
+
+    What ``main`` waits for before it goes on comes before what it does then, as far as is known.
+    """
     if isinstance(other, Activity):
         return _joins(block, other)
     is_main = isinstance(doer, Activity) and doer.kind is ActivityKind.MAIN
+    if is_main and any(waker.by == other.name for waker in block.wakers):
+        return True
     by_outside = any(waker.by == OUTSIDE for waker in block.wakers)
     return is_main and by_outside and block.call == 'Thread.join'
 

@@ -150,6 +150,12 @@ def test_main_has_joined_the_thread_that_spins() -> None:
     assert races(replace(late, blocking=()), callbacks=(TICK,)) == ['CC301:30 warning']
 
 
+def test_what_main_has_waited_for_comes_first() -> None:
+    wait = Blocking(call='Event.wait', source=at(80), wakers=(Waker(by='tick'),))
+    late = thread('main', KIND.MAIN, writes=writes('Arm.count', 85), blocking=(wait,))
+    assert races(late, callbacks=(TICK,)) == []
+
+
 def test_two_threads_race_and_tasks_of_pools_may_take_turns() -> None:
     other = thread('other', writes=writes('Arm.count', 70))
     assert races(WORK, other, callbacks=()) == ['CC301:60 warning']
