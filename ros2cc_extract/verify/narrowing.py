@@ -50,7 +50,7 @@ def narrow(
     for last in (False, True):
         part = slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
         if part is not None:
-            found = part if found is None else _joined(found, part)
+            found = part if found is None else joined(found, part)
         if found is not None:
             found = _derive(found, left, slicer)
             left = [q for q in left if _is_undecided(found.results.get(key_of(q)))]
@@ -58,7 +58,7 @@ def narrow(
     rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
     if rest or found is None:
         whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, limits)
-        found = whole if found is None else _joined(found, whole)
+        found = whole if found is None else joined(found, whole)
     complete = not any(map(_is_open, found.results.values()))
     return replace(found, check=replace(found.check, complete=complete))
 
@@ -89,7 +89,7 @@ def _is_open(result: QueryResult) -> bool:
     return result.verdict is Verdict.UNDECIDED and not result.in_doubt
 
 
-def _joined(found: Found, part: Found) -> Found:
+def joined(found: Found, part: Found) -> Found:
     """Add what a slice, or the whole unit, has decided."""
     results = dict(found.results)
     for key, result in part.results.items():

@@ -32,13 +32,14 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.arrivals import TWO_ARRIVALS, needs_two_arrivals
 from ros2cc_extract.verify.asking import Found, Key, key_of
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
 from ros2cc_extract.verify.doubts import doubts_in
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.load import demands_of, load_of
-from ros2cc_extract.verify.narrowing import narrow
+from ros2cc_extract.verify.narrowing import joined, narrow
 from ros2cc_extract.verify.reading import limited_reading
 from ros2cc_extract.verify.results import QueryResult as QueryResult
 from ros2cc_extract.verify.results import Verification as Verification
@@ -99,11 +100,13 @@ def verify_unit(
     if options.text is build.Text.COMPACT:
         # It resets its variables itself: looking for dead ones costs time and finds no state less.
         options = replace(options, reduction=False)
-    search = partial(_search, options=options, progress=progress)
-    if options.max_cycle is not None and _may_be_sliced(options):
-        found = narrow(closed, queries, options.max_cycle, search, options.limits, shelf)
-    else:
-        found = search(closed, [key_of(query) for query in queries], options.limits)
+    of_two = [q for q in queries if needs_two_arrivals(q, closed.spec, options.profile)]
+    if options.max_cycle != 1:
+        of_two = []
+    found = _ask([q for q in queries if q not in of_two], closed, options, progress, shelf)
+    if of_two:
+        twice = replace(options, max_cycle=TWO_ARRIVALS)
+        found = joined(found, _ask(of_two, closed, twice, progress, shelf))
     left_out = left_out_of_deadlocks(closed.spec, options.profile)
     results = tuple(
         _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
@@ -120,6 +123,20 @@ def verify_unit(
         assumptions=closed.assumptions,
         notes=_caveats(closed, options, found),
     )
+
+
+def _ask(
+    queries: Sequence[build.Query],
+    closed: ClosedSpec,
+    options: Options,
+    progress: OnProgress | None,
+    shelf: Shelf,
+) -> Found:
+    """Ask slices where they may decide, else the whole unit."""
+    search = partial(_search, options=options, progress=progress)
+    if options.max_cycle is not None and _may_be_sliced(options):
+        return narrow(closed, queries, options.max_cycle, search, options.limits, shelf)
+    return search(closed, [key_of(query) for query in queries], options.limits)
 
 
 def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryResult:
