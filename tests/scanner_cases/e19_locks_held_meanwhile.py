@@ -75,7 +75,6 @@ if __name__ == '__main__':
 #     locks lock @30
 #     locks lock#2 holding lock @31>15
 #     locks again @32
-#     locks again @32
 #     locks lock holding again @33>38
 #     locks lock holding again, lock @33>39
 #     locks again @34

@@ -41,6 +41,7 @@ from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
+_RE_ENTRANT = ('rlock', 'condition')
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
@@ -195,6 +196,9 @@ class Effects(Waits):
                 and option.state.kind in _LOCKS
             ):
                 name = self._lock_name(option, option.state.kind)
+                if name in self.world.held and option.state.kind in _RE_ENTRANT:
+                    self.world.held = (*self.world.held, name)
+                    continue  # its holder takes it once more and waits for nobody
                 act = Act(
                     name=name,
                     source=place,

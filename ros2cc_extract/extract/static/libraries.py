@@ -6,6 +6,7 @@ import sys
 
 from ros2cc_extract.extract.static import again, rclpy_api
 from ros2cc_extract.extract.static.activities import run_in_thread
+from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.futures_library import is_pool, note_leaving
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -45,6 +46,11 @@ _HARMLESS = (
     'diagnostic_updater.',
     'launch',
 )
+
+
+_HANDED_ON = 'it is handed to code that is not followed'
+# Things looked at in what is given away; a graph of objects may be large.
+_MOST_GIVEN = 200
 
 
 class Libraries(Machine):
@@ -121,14 +127,31 @@ class Libraries(Machine):
                     # Whoever is given a spin runs it, with what is handed along.
                     run_in_thread(self, option, Call(call.place, call.args[index + 1 :]))
                 else:
-                    self._give_away(option, call.place)
+                    self.give_away(option, _HANDED_ON, call.place)
 
-    def _give_away(self, value: Value, place: Place) -> None:
-        """Unknown code that is given an event, a queue …, or a method of one, may end waits."""
-        thing = value.receiver if isinstance(value, Native) else value
-        if isinstance(thing, Instance) and isinstance(thing.state, (PlainState, ThreadState)):
-            why = Unknown('it is handed to code that is not followed', place)
-            self.world.given.setdefault(id(thing), why)
+    def give_away(self, value: Value, reason: str, place: Place) -> None:
+        """
+        Note that code that is not followed has an event, a queue …, or a method of one.
+
+        It may end waits then, and so it may with what is inside of a list, a tuple or an object.
+        """
+        waiting, seen = list(options_of(value)), set[int]()
+        while waiting and len(seen) < _MOST_GIVEN:
+            thing = waiting.pop()
+            thing = thing.receiver if isinstance(thing, Native) and thing.receiver else thing
+            if id(thing) in seen:
+                continue
+            seen.add(id(thing))
+            if isinstance(thing, Instance) and isinstance(thing.state, (PlainState, ThreadState)):
+                self.world.given.setdefault(id(thing), Unknown(reason, place))
+            elif isinstance(thing, Sequence):
+                waiting.extend(each for item in thing.items for each in options_of(item))
+            elif isinstance(thing, Mapping):
+                values = thing.entries.values()
+                waiting.extend(each for item in values for each in options_of(item))
+            elif isinstance(thing, Instance) and thing.state is None:
+                held = (item for item in thing.slots.values() if isinstance(item, Value))
+                waiting.extend(each for item in held for each in options_of(item))
 
     def _is_standard(self, name: str) -> bool:
         return name.partition('.')[0] in sys.stdlib_module_names

@@ -360,6 +360,10 @@ class Machine(ABC):
         """Something is done to ``thing`` that may end a wait for it."""
 
     @abstractmethod
+    def give_away(self, value: Value, reason: str, place: Place) -> None:
+        """Code that is not followed has ``value`` now, and may end waits for it."""
+
+    @abstractmethod
     def note_lock_method(self, owner: Value, name: str) -> None:
         """A method of ``owner`` has run, which may be a lock made by hand."""
 

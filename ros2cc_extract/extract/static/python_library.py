@@ -412,6 +412,15 @@ _FUNCTIONS: dict[str, Handler] = {
 }
 
 
+def _import_module(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``importlib.import_module('pkg.mod')``; a relative name needs its package."""
+    name = call.argument(0, 'name')
+    text = name.value if isinstance(name, Const) else None
+    if isinstance(text, str) and not text.startswith('.'):
+        return machine.import_module(text, call.place)
+    return machine.mystery('a module whose name is computed', call.place, 'import_module()')
+
+
 def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     current = machine.world.current
     if current is None or not current.node.state.on_asyncio:
@@ -456,6 +465,7 @@ TABLE = Library(
     },
     functions={
         **_FUNCTIONS,
+        'importlib.import_module': _import_module,
         'asyncio.sleep': _asyncio_sleep,
         'asyncio.get_event_loop': _event_loop,
         'asyncio.new_event_loop': _event_loop,

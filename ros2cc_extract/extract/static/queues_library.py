@@ -39,12 +39,21 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
 def _put(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and _may_be_full(receiver) and _waits(call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
+    _give_items(machine, call)
     machine.note_wake(receiver, Word.PUT, call.place)
     return NONE
 
 
+def _give_items(machine: Machine, call: Call) -> None:
+    """What is taken out of a queue is not known: whoever takes it may have what was put in."""
+    for item in (*call.args[:1], *call.keywords.values()):
+        machine.give_away(item, 'it is put into a queue', call.place)
+
+
 def _without_waiting(word: Word) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if word is Word.PUT:
+            _give_items(machine, call)
         machine.note_wake(receiver, word, call.place)
         return machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
