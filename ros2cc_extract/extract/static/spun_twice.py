@@ -37,6 +37,8 @@ def are_concurrent(world: World, first: Spin, second: Spin) -> bool:
         return False
     if first.thread == second.thread:
         return False
+    if first.place == second.place:
+        return False  # the same call, followed once more
     if list(world.spins.values()).index(first) < second.over:
         return False
     if first.thread == 0:
