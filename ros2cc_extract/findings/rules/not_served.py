@@ -47,6 +47,8 @@ def is_not_served(context: Context) -> bool:
     idle = all(is_client(callback) for callback in context.written)
     if not unit.nodes or idle or _is_test(unit.entry):
         return False
+    if kind.at is None or kind.at.file != unit.entry.rpartition(':')[0]:
+        return False  # a framework made it, and serves it in ways of its own
     return not any(fact.fact in _HIDING for fact in unit.unresolved)
 
 
