@@ -1,5 +1,5 @@
 """Deeds: waits for what is outside of the program, and for what could not be followed."""
-
+# live: no, the module tools is not there
 import socket
 import subprocess
 import threading
