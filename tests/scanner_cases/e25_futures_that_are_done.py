@@ -1,5 +1,5 @@
 """Deeds: the result of an unknown future is no wait where the text tells that it is done."""
-
+# live: no, the module tools is not there
 import asyncio
 
 import rclpy

@@ -16,7 +16,7 @@ class A(Node):
         self.lock = threading.Lock()
         self.busy = False
         self.asking = False
-        self.handle = None
+        self.accepted = None
         self.steps = 0
         self.client = self.create_client(Trigger, 'ask')
         self.create_timer(1.0, self.by_goal)
@@ -56,9 +56,9 @@ class A(Node):
         return True
 
     def by_object(self):
-        if self.handle is not None:
+        if self.accepted is not None:
             self.get_logger().info('busy')
-        self.handle = object()
+        self.accepted = object()
         self.steps = 8
 
     def on_goal(self, request):
@@ -108,8 +108,8 @@ if __name__ == '__main__':
 #     writes A.asking rests constant under A.asking (flag) @49>55
 #     writes A.steps @50
 #   timer by_object in a_default every 1
-#     reads A.handle @59
-#     writes A.handle @61
+#     reads A.accepted @59
+#     writes A.accepted @61
 #     writes A.steps @62
 #   client ask_client in a_default key=ask
 #   action_server f_action_server in a_default (A.on_goal) key=f
