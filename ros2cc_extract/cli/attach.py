@@ -24,9 +24,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='FILE',
         help=f'specification file (default {DEFAULT_OUTPUT})',
     )
+    parser.add_argument(
+        '--other-user',
+        action='store_true',
+        help='enter a process of another user too (as root; docs/live.md says what that trusts)',
+    )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.extract.live.attach import attach_process
 
-    return attach_process(args.pid, args.output, stderr)
+    return attach_process(args.pid, args.output, stderr, other_user=args.other_user)

@@ -14,7 +14,7 @@ else:
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = 'ros2cc_extract'
-LEAVES = {'errors', 'places', 'diagnostics', 'version', 'crew', 'cachefile'}
+LEAVES = {'errors', 'places', 'diagnostics', 'version', 'crew', 'cachefile', 'files', 'trust'}
 ALLOWED = {
     'cli': {'*'},
     'ros': {'*'},

@@ -9,12 +9,14 @@ nothing behind.
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
+import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -23,10 +25,13 @@ from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.recording import read_recording
 from ros2cc_extract.extract.live.run import check_file, report_losses, write_specs_to
+from ros2cc_extract.files import read_regular
+from ros2cc_extract.trust import open_to_others, user_of_process
 
 EXIT_CLEAN, EXIT_ERROR = 0, 2
 # The main thread runs our lines as soon as it is back from C; an executor wakes at every event.
 PATIENCE_S = 15.0
+MOST_TOLD_BYTES = 10_000
 _LOOK_EVERY_S = 0.05
 _EXTRA = 'pip install "ros2cc-extract[attach]"'
 _PTRACE_SCOPE = Path('/proc/sys/kernel/yama/ptrace_scope')
@@ -67,21 +72,21 @@ del _record
 """
 
 
-def attach_process(pid: int, output: Path, stderr: TextIO) -> int:
+def attach_process(pid: int, output: Path, stderr: TextIO, *, other_user: bool = False) -> int:
     """
     Write the specification of a running process.
 
+    :param other_user: enter a process of another user too, which root may.
     :return: 0; 2 when the process holds no node in an rclpy executor.
-    :raises InputError: when there is no such process, or it does not answer.
+    :raises InputError: when there is no such process, it is another user's, or does not answer.
     :raises ToolNotFoundError: when nothing here can run code in it.
     """
     check_file(output)
     _check_process(pid)
+    user = _user_to_enter(pid, other_user=other_user)
     ways = injectors()
-    with tempfile.TemporaryDirectory(prefix='ros2cc-attach-') as directory:
-        # The process may belong to another user.
-        Path(directory).chmod(0o777)
-        recording = read_recording(_record(pid, Path(directory), ways), Path.cwd())
+    with private_folder() as folder:
+        recording = read_recording(_record(pid, user, folder, ways), Path.cwd())
     report_losses([recording], stderr)
     specs = specs_of(recording)
     if not specs:
@@ -104,6 +109,51 @@ def _check_process(pid: int) -> None:
         ) from None
     except OverflowError:
         raise InputError(f'{pid} is no process number') from None
+
+
+def _user_to_enter(pid: int, *, other_user: bool) -> int:
+    """
+    Who gets to read the script: ourselves, or whom we were asked to serve.
+
+    :raises InputError: when that is another user and nobody asked for it.
+    """
+    try:
+        user = user_of_process(pid)
+    except OSError:
+        raise InputError(f'there is no process {pid}') from None
+    if user is None:
+        raise InputError(f'process {pid} changes between users, and is not entered')
+    if user != os.geteuid() and not other_user:
+        raise InputError(
+            f'process {pid} belongs to user {user}, and you are user {os.geteuid()}',
+            None,
+            f'run as that user, or add --other-user: what user {user} can make of the answer is '
+            'then read by you',
+        )
+    return user
+
+
+@contextlib.contextmanager
+def private_folder() -> Iterator[Path]:
+    """
+    Make a folder that nobody else can enter, or put another in the place of.
+
+    :raises InputError: when the folder for temporary files lets others do so.
+    """
+    parent = Path(tempfile.gettempdir())
+    replaceable = open_to_others(parent)
+    if replaceable is not None:
+        raise InputError(
+            f'{replaceable} lets other users replace what is handed to the process',
+            None,
+            'set TMPDIR to a folder of your own',
+        )
+    folder = tempfile.mkdtemp(prefix='ros2cc-attach-', dir=parent)
+    try:
+        yield Path(folder)
+    finally:
+        # Not by TemporaryDirectory, which may change modes behind links (CVE-2023-6597).
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def injectors() -> tuple[Injector, ...]:
@@ -152,11 +202,15 @@ def refuse_what_would_end(pid: int) -> None:
         raise OSError(f'{program.resolve().name} is no Python interpreter that lets others in')
 
 
-def _record(pid: int, directory: Path, ways: Sequence[Injector]) -> Path:
-    recording = directory / f'{pid}.json'
-    script = directory / 'record.py'
-    folder = str(Path(__file__).resolve().parent)
-    script.write_text(_LINES.format(folder=folder, path=str(recording)), encoding='utf-8')
+def _record(pid: int, user: int, folder: Path, ways: Sequence[Injector]) -> Path:
+    recording = folder / f'{pid}.json'
+    script = folder / 'record.py'
+    package = str(Path(__file__).resolve().parent)
+    script.write_text(_LINES.format(folder=package, path=str(recording)), encoding='utf-8')
+    if user != os.geteuid():
+        # From here on it is theirs: they may write there, and nothing there is followed by us.
+        script.chmod(0o644)
+        os.chown(folder, user, -1)
     inject(pid, script, ways)
     return _await(recording, pid)
 
@@ -185,7 +239,7 @@ def _await(recording: Path, pid: int) -> Path:
     deadline = time.monotonic() + PATIENCE_S
     while not recording.exists():
         if failure.exists():
-            raise InputError(f'process {pid} could not be recorded: {failure.read_text()}')
+            raise InputError(f'process {pid} could not be recorded: {_told_by(failure)}')
         if time.monotonic() > deadline:
             raise InputError(
                 f'process {pid} does not answer: its main thread runs no Python',
@@ -194,6 +248,13 @@ def _await(recording: Path, pid: int) -> Path:
             )
         time.sleep(_LOOK_EVERY_S)
     return recording
+
+
+def _told_by(failure: Path) -> str:
+    try:
+        return ascii(read_regular(failure, MOST_TOLD_BYTES, follow=False).decode(errors='replace'))
+    except OSError as error:
+        return f'{error.strerror}'
 
 
 def _mend(refused: Container[str]) -> str:

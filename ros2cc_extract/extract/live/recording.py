@@ -14,11 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.files import read_regular
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Distribution, Measured
 
 FORMAT = 'ros2cc live recording'
 VERSION = 1
+MOST_BYTES = 256 * 1024 * 1024
 MEND = 'record the process again with this version of the tool'
 
 
@@ -147,7 +149,7 @@ def read_recording(path: Path, shown_from: Path) -> Recording:
     :raises InputError: when the file cannot be read or is none of ours.
     """
     try:
-        data = json.loads(path.read_text(encoding='utf-8'))
+        data = json.loads(read_regular(path, MOST_BYTES))
     except OSError as error:
         raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
     except ValueError as error:

@@ -1,0 +1,50 @@
+"""
+Which files nobody but this user, and root, can have changed.
+
+What is handed to another process, or believed because we wrote it ourselves, must not be
+replaceable: not by its own mode, and not by a rename in a folder above it.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = 0
+
+
+def open_to_others(folder: Path) -> Path | None:
+    """
+    Give the folder, or the nearest above it, in which another user could rename things.
+
+    A sticky folder, such as ``/tmp``, lets nobody rename what is not his own.
+
+    :raises OSError: when one of them cannot be looked at.
+    """
+    own = os.geteuid()
+    for each in _upwards(folder.resolve(strict=True)):
+        status = each.stat()
+        by_others = status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+        if status.st_uid not in (own, ROOT) or (by_others and not status.st_mode & stat.S_ISVTX):
+            return each
+    return None
+
+
+def _upwards(folder: Path) -> Iterator[Path]:
+    yield folder
+    yield from folder.parents
+
+
+def user_of_process(pid: int) -> int | None:
+    """
+    Give the user as whom a process acts; ``None`` when its user numbers differ (proc(5), status).
+
+    :raises OSError: when there is no such process.
+    """
+    for line in Path(f'/proc/{pid}/status').read_text(errors='replace').splitlines():
+        if line.startswith('Uid:'):
+            users = set(map(int, line.split()[1:]))
+            return users.pop() if len(users) == 1 else None
+    return None
