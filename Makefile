@@ -13,7 +13,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts shapes waits random-waits conformance rclpy-tests lint schema paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -38,6 +38,11 @@ texts: $(VENV)/developed
 	@mkdir -p build
 	$(call compare_texts,paper) --reduced-states 100000000 --memory-mb 8000
 	$(call compare_texts,rclpy)
+
+# Slices of random units of every kind of entity: the verdicts of the whole. Goes on where it was cut.
+slices: $(VENV)/developed
+	@mkdir -p build
+	$(BIN)/python tests/property/compared_slices.py --units $(UNITS) --record build/slices.jsonl
 
 # Random node programs on real executors of both distributions: each trace a path of its model.
 PROGRAMS ?= 1000
@@ -83,6 +88,10 @@ fuzz: $(VENV)/developed
 fuzz-guided: $(VENV)/developed
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[fuzz]'
 	$(BIN)/python scripts/fuzz-scanner --runs $(FUZZ_RUNS) --atheris
+
+# What strangers may do to us, in the numbers of record: hostile files, caches, repositories, users.
+attack: $(VENV)/developed $(JAZZY)/installed
+	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' tests/attack $(PYTEST_FLAGS)
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .

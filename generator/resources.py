@@ -8,18 +8,22 @@ it may stay until a waker that is known ends it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.generator.spins import is_part_of_spin
 from ros2cc_extract.generator.steps import NamedWait, Resource, WaitKind
+from ros2cc_extract.once import once
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs, Waker
-from ros2cc_extract.spec.model import Activity, Callback, CallbackType, Spec
+from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before
 
 Actor = Callback | Activity
 #: Whose names stand for nobody of the unit.
 _BY_ITSELF = (OUTSIDE, TIME)
+# Waits for the end of a run, which nobody can wait for before it has been started: a thread that
+# was not refuses to be joined, and a future of a job is made with the job.
+_FOR_RUNS = ('Thread.join', 'Process.join', 'Future.result', 'Future.exception', 'futures.wait')
 
 
 def all_actors(spec: Spec) -> tuple[Actor, ...]:
@@ -36,9 +40,14 @@ def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
     is_told = block.resource is not None or block.wakers or block.escapes is not None
     if not is_told or is_foreign(block, spec):
         return False
-    asked = next((c for c in spec.callbacks if c.name == block.on), None)
+    asked = _by_name(spec).get(block.on) if isinstance(block.on, str) else None
     is_client = asked is not None and asked.type is CallbackType.CLT
     return not is_client or asked is None or client_before(asked, spec.callbacks) is not None
+
+
+@once
+def _by_name(spec: Spec) -> Mapping[str, Callback]:
+    return {callback.name: callback for callback in spec.callbacks}
 
 
 def is_foreign(block: Blocking, spec: Spec) -> bool:
@@ -54,7 +63,7 @@ def is_foreign(block: Blocking, spec: Spec) -> bool:
 
 def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     """Give the waits that stand for one; several where every waker is needed."""
-    if block.seconds is not None or any(waker.by in _BY_ITSELF for waker in block.wakers):
+    if block.seconds is not None or _ends_by_itself(block):
         return
     is_await = block.call == 'await' and isinstance(callback, Callback)
     kind = WaitKind.AWAITED if is_await else WaitKind.HELD
@@ -63,16 +72,40 @@ def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[Nam
     client = None if is_open else _asked_before(block, callback, spec)
     if client is not None:
         yield NamedWait(client.name, kind)
+    if not is_open and _must_run_once_more(block, callback, spec):
+        by = tuple(dict.fromkeys(waker.by for waker in block.wakers))
+        yield NamedWait(callback.name, kind, resource=private_resource(block, callback), wakers=by)
+        return
     for resource, wakers in _resources_of(block, callback, spec):
         by = tuple(dict.fromkeys(waker.by for waker in wakers if waker.by in known))
         yield NamedWait(
             by[0] if by else callback.name,
             kind,
             resource=resource,
+            begun=_begun(block, wakers, spec),
             may_skip=is_open,
             is_open=is_open,
             wakers=by,
         )
+
+
+def _ends_by_itself(block: Blocking) -> bool:
+    """Tell whether time or somebody outside ends it; and all of them where all are needed."""
+    by_itself = [waker.by in _BY_ITSELF for waker in block.wakers]
+    return all(by_itself) and bool(by_itself) if block.needs is Needs.ALL else any(by_itself)
+
+
+def _begun(block: Blocking, wakers: tuple[Waker, ...], spec: Spec) -> tuple[Resource, ...]:
+    """Give the starts of what ends a wait by its own end; none where it may be there before."""
+    if block.call not in _FOR_RUNS or any(waker.after is not None for waker in wakers):
+        return ()
+    ended = {waker.by for waker in wakers}
+    runs = [activity for activity in spec.activities if activity.name in ended]
+    if any(start.after is None for run in runs for start in run.starts):
+        return ()  # it is handed over before, and begins when its starter has ended
+    starts = [start_of(run, spec) for run in runs]
+    found = tuple(start for start in starts if start is not None)
+    return found if len(found) == len(ended) else ()
 
 
 def ends_outside(block: Blocking, spec: Spec) -> bool:
@@ -83,13 +116,12 @@ def ends_outside(block: Blocking, spec: Spec) -> bool:
 
 def is_left_open(block: Blocking, spec: Spec) -> bool:
     """Tell whether it is not known of a wait who may end it."""
-    by = {waker.by for waker in block.wakers}
-    is_timed = block.seconds is not None or not by.isdisjoint(_BY_ITSELF)
+    is_timed = block.seconds is not None or _ends_by_itself(block)
     return goes_by_wakers(block, spec) and not is_timed and _is_open(block, spec)
 
 
 def _is_open(block: Blocking, spec: Spec) -> bool:
-    known = _known(spec)
+    known = _known(spec).union(_BY_ITSELF)
     is_unknown = block.escapes is not None or any(w.by not in known for w in block.wakers)
     return is_unknown or may_be_used_up(block, spec)
 
@@ -107,10 +139,11 @@ def may_be_used_up(block: Blocking, spec: Spec) -> bool:
     return waiting.isdisjoint(waker.by for waker in block.wakers)
 
 
-def _known(spec: Spec) -> set[str]:
+@once
+def _known(spec: Spec) -> frozenset[str]:
     """Names of those whose signals the model has."""
     activities = (a.name for a in spec.activities if a.unresolved is None)
-    return {*(callback.name for callback in spec.callbacks), *activities}
+    return frozenset((*(callback.name for callback in spec.callbacks), *activities))
 
 
 def signals_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
@@ -119,26 +152,33 @@ def signals_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
 
     It starts activities by signals too.
     """
-    seen: set[object] = set()
+    for resource, waker in _signals(spec).get(callback.name, ()):
+        yield _signal(resource, waker, callback)
+
+
+@once
+def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
+    """What each callback and activity ends, starts of activities first."""
+    found: dict[str, list[tuple[Resource, Waker]]] = {}
     for activity in spec.activities:
         start = start_of(activity, spec)
         for waker in activity.starts:
-            if start is not None and waker.by == callback.name:
-                yield _signal(start, waker, callback)
+            if start is not None:
+                found.setdefault(waker.by, []).append((start, waker))
+    seen: set[object] = set()
     for waiting in all_actors(spec):
         for block in waiting.blocking:
-            if all(waker.by != callback.name for waker in block.wakers):
-                continue
             is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
-            is_wait = goes_by_wakers(block, spec) and not is_spin
+            is_wait = block.wakers and goes_by_wakers(block, spec) and not is_spin
             if not is_wait or not any(resource_waits(block, waiting, spec)):
                 continue
             for resource, wakers in _resources_of(block, waiting, spec):
                 for waker in wakers:
-                    key = (resource, waker.after, waker.source, waker.held)
-                    if waker.by == callback.name and key not in seen:
+                    key = (waker.by, resource, waker.after, waker.source, waker.held)
+                    if key not in seen:
                         seen.add(key)
-                        yield _signal(resource, waker, callback)
+                        found.setdefault(waker.by, []).append((resource, waker))
+    return found
 
 
 def start_of(activity: Activity, spec: Spec) -> Resource | None:
@@ -158,10 +198,15 @@ def concerns_others(activity: Activity, spec: Spec) -> bool:
     """Tell whether an activity waits, takes locks, ends a wait or starts another one."""
     if activity.unresolved is not None:
         return False
+    return bool(activity.blocking or activity.locks) or activity.name in _wake_or_start(spec)
+
+
+@once
+def _wake_or_start(spec: Spec) -> frozenset[str]:
+    """Who ends waits of others, or starts activities."""
     blocks = (block for actor in all_actors(spec) for block in actor.blocking)
     wakers = {w.by for block in blocks if goes_by_wakers(block, spec) for w in block.wakers}
-    starters = {waker.by for other in spec.activities for waker in other.starts}
-    return bool(activity.blocking or activity.locks) or activity.name in wakers | starters
+    return frozenset(wakers | {waker.by for other in spec.activities for waker in other.starts})
 
 
 def _signal(resource: Resource, waker: Waker, callback: Actor) -> NamedWait:
@@ -184,7 +229,7 @@ def _resources_of(
     if name is None:
         name = f'{callback.name} {callback.blocking.index(block)}'
     if block.needs is Needs.ALL:
-        for waker in block.wakers:
+        for waker in (each for each in block.wakers if each.by not in _BY_ITSELF):
             after = 'end' if waker.after is None else waker.after
             yield Resource(f'{name} by {waker.by} {after}', is_each=False), (waker,)
         if block.wakers:
@@ -192,6 +237,22 @@ def _resources_of(
     is_each = block.needs is Needs.EACH
     has_some = is_each and not may_be_used_up(block, spec)
     yield Resource(name, is_each, block.initial if has_some else 0), block.wakers
+
+
+def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:
+    """
+    Tell whether nobody ends a wait before who waits, in an exclusive group, runs once more.
+
+    So does a feedback callback that waits for what comes with the result: its client takes both.
+    """
+    if not isinstance(callback, Callback) or not block.wakers:
+        return False
+    by_name = {c.name: c for c in spec.callbacks}
+    wakers = [by_name.get(waker.by) for waker in block.wakers]
+    is_exclusive = spec.group_of(callback).type is GroupType.EXCLUSIVE
+    return is_exclusive and all(
+        waker is not None and client_before(waker, spec.callbacks) == callback for waker in wakers
+    )
 
 
 def private_resource(block: Blocking, callback: Actor) -> Resource:

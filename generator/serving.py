@@ -16,11 +16,14 @@ class ExecutorKind(Enum):
     EVENTS = 'EventsExecutor'
 
 
+_OF_NAME = {kind.value: kind for kind in ExecutorKind}
+
+
 def executor_kind(spec: Spec) -> ExecutorKind:
     """Name the executor; a class of the user's own counts as the one with as many threads."""
-    for kind in ExecutorKind:
-        if spec.executor.kind == kind.value:
-            return kind
+    kind = _OF_NAME.get(spec.executor.kind) if isinstance(spec.executor.kind, str) else None
+    if kind is not None:
+        return kind
     is_single = len(spec.executor.threads) == 1
     return ExecutorKind.SINGLE_THREADED if is_single else ExecutorKind.MULTI_THREADED
 

@@ -58,6 +58,7 @@ class NamedWait:
     :param lock: what it waits for, to keep it over the next wait if that holds it.
     :param held: locks that are held meanwhile, outermost first.
     :param resource: that it waits for, or gives a signal to.
+    :param begun: starts of which one must have been given: what is waited for is not there before.
     :param may_skip: a branch may skip it; of a signal, then nobody knows whether it comes.
     :param is_open: somebody whom the model does not have may end it, or nobody does.
     :param origin: place in the specification, with ``block`` or ``waker``.
@@ -69,6 +70,7 @@ class NamedWait:
     lock: Lock | None = None
     held: tuple[Lock, ...] = ()
     resource: Resource | None = None
+    begun: tuple[Resource, ...] = ()
     may_skip: bool = False
     is_open: bool = False
     origin: int = field(default=0, compare=False)

@@ -160,6 +160,11 @@ class Unit:
         return any(w.is_open or (w.is_signal and w.may_skip) for w in self.waits)
 
     @property
+    def has_begun(self) -> bool:
+        """True when a callback waits for the end of what others start."""
+        return any(wait.begun for wait in self.waits)
+
+    @property
     def has_awaits(self) -> bool:
         """True when a callback suspends itself."""
         return any(wait.frees_thread for wait in self.waits)
@@ -359,6 +364,7 @@ def _number_wait(
         lock=locks.index(wait.lock) if wait.lock else None,
         held=frozenset(map(locks.index, wait.held)),
         resource=resource,
+        begun=frozenset(resources.index(each) for each in wait.begun if each in resources),
         is_signal=wait.is_signal,
         may_skip=wait.may_skip,
         is_open=wait.is_open,

@@ -20,6 +20,7 @@ class UnitWait:
     :param lock: place of the lock that is waited for; ``None`` for none.
     :param held: places of the locks that are held meanwhile.
     :param resource: place of what is waited for, or gets a signal.
+    :param begun: places of the starts without which what is waited for is not there.
     :param is_signal: it is no wait.
     :param wakers: names of those that give signals to the resource.
     """
@@ -33,6 +34,7 @@ class UnitWait:
     lock: int | None = None
     held: frozenset[int] = frozenset()
     resource: int | None = None
+    begun: frozenset[int] = frozenset()
     is_signal: bool = False
     may_skip: bool = False
     is_open: bool = False

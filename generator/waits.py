@@ -24,6 +24,7 @@ from ros2cc_extract.generator.resources import (
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.generator.spins import is_open, is_part_of_spin, is_spin, nested_spins
 from ros2cc_extract.generator.steps import Lock, NamedWait, WaitKind
+from ros2cc_extract.once import known_of, once
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
@@ -34,7 +35,7 @@ _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
 _PAUSES = ('time.sleep', 'asyncio.sleep')
 
 
-def waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
+def waits_of(callback: Actor, spec: Spec) -> tuple[NamedWait, ...]:
     """
     List the waits that others end; one with a time-out ends by itself, unless it spins.
 
@@ -42,6 +43,15 @@ def waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     what it does afterwards: what else may hold the callback is then seen without it. Signals for
     waits of others stand among the waits.
     """
+    known = known_of(spec).setdefault(waits_of, {})
+    if id(callback) not in known:
+        # Kept with its callback, lest another one gets its number.
+        known[id(callback)] = callback, tuple(_waits_of(callback, spec))
+    found: tuple[NamedWait, ...] = known[id(callback)][1]
+    return found
+
+
+def _waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     others, absent = tuple(_for_others(callback, spec)), tuple(_for_absent(callback, spec))
     signals = tuple(signals_of(callback, spec))
     if signals:
@@ -104,7 +114,7 @@ def _for_absent(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
 def _waits_for_callbacks(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     others = {other.name: other for other in spec.callbacks if other.name != callback.name}
     needed = others.get(block.on) if isinstance(block.on, str) else None
-    if isinstance(callback, Activity) and _is_unknown(block, needed, spec):
+    if isinstance(callback, Activity) and is_unknown(block, callback, spec):
         resource = private_resource(block, callback)
         yield NamedWait(
             callback.name, WaitKind.HELD, resource=resource, may_skip=True, is_open=True
@@ -141,6 +151,7 @@ def _with_locks(
         before = held
 
 
+@once
 def _contended_locks(spec: Spec) -> frozenset[Lock]:
     """Locks that some callback holds while it waits for others, and that another run takes."""
     actors = [a for a in all_actors(spec) if isinstance(a, Callback) or concerns_others(a, spec)]
@@ -199,12 +210,14 @@ def _is_of_spin(block: Blocking, actor: Actor) -> bool:
     return isinstance(actor, Callback) and is_part_of_spin(block, actor)
 
 
-def _is_unknown(block: Blocking, partner: Callback | None, spec: Spec) -> bool:
+def is_unknown(block: Blocking, activity: Activity, spec: Spec) -> bool:
     """Tell whether nothing is said of what ends a wait of an activity; no spin of one is known."""
     if is_spin(block):
         return True
+    others = {other.name for other in spec.callbacks if other.name != activity.name}
+    has_partner = isinstance(block.on, str) and block.on in others
     is_pause = block.call in _PAUSES or block.seconds is not None or asks_the_graph(block)
-    return not is_pause and partner is None and not goes_by_wakers(block, spec)
+    return not is_pause and not has_partner and not goes_by_wakers(block, spec)
 
 
 def modelled_activities(spec: Spec) -> Iterator[Activity]:
@@ -251,12 +264,20 @@ def is_absent(block: Blocking, spec: Spec) -> bool:
 
     Where a callback waits for an answer of that client, somebody outside answers, and is there.
     """
-    client = next((c for c in spec.callbacks if c.name == block.on), None)
-    if client is None or not asks_the_graph(block) or block.seconds is not None:
+    if not asks_the_graph(block) or block.seconds is not None:
         return False
-    asks = (b for c in spec.callbacks for b in c.blocking if b.on == block.on)
-    is_asked = any(not asks_the_graph(b) for b in asks)
+    client = next((c for c in spec.callbacks if c.name == block.on), None)
+    if client is None:
+        return False
+    is_asked = client.name in _asked_for_answers(spec)
     return is_client(client) and not is_asked and server_of(client, spec.callbacks) is None
+
+
+@once
+def _asked_for_answers(spec: Spec) -> frozenset[str]:
+    """Of whom callbacks wait for more than that somebody is there."""
+    blocks = (block for callback in spec.callbacks for block in callback.blocking)
+    return frozenset(b.on for b in blocks if isinstance(b.on, str) and not asks_the_graph(b))
 
 
 def asks_the_graph(block: Blocking) -> bool:

@@ -16,7 +16,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 Request = TypeVar('Request')
 Answer = TypeVar('Answer')
 Done = Callable[[int], None]
+Prctl = Callable[[int, int], int]
+_PR_SET_PDEATHSIG = 1
 
 
 def usable_cores(wanted: int | None = None) -> int:
@@ -56,9 +58,20 @@ class Crew(Generic[Request, Answer]):
     def __enter__(self) -> Crew[Request, Answer]:
         if self.size > 1:
             with _no_interrupts():
-                for _ in range(self.size):
-                    self._start_child()
+                self._start_children()
         return self
+
+    def _start_children(self) -> None:
+        prctl = _prctl()
+        try:
+            for _ in range(self.size):
+                self._start_child(prctl)
+        except OSError:  # no more processes, descriptors or memory: those that are there do it
+            self.size = len(self._children)
+        if self.size == 1:
+            self._end()
+        if self.size < 2:
+            self._children, self._lines, self.size = [], [], 1
 
     def __exit__(self, *_: object) -> None:
         try:
@@ -72,9 +85,12 @@ class Crew(Generic[Request, Answer]):
             for line in self._lines:
                 if line is not None:
                     line.close()
-            for child in self._children:
+            while self._children:
+                child = self._children[-1]
                 child.kill()
                 child.join()
+                child.close()
+                self._children.pop()
 
     def ask(
         self,
@@ -156,29 +172,72 @@ class Crew(Generic[Request, Answer]):
             return None
         return answer
 
-    def _start_child(self) -> None:
+    def _start_child(self, prctl: Prctl | None) -> None:
         import multiprocessing
 
         context = multiprocessing.get_context('fork')
         here, there = context.Pipe()
-        child = context.Process(target=_serve, args=(there, here, self._answer), daemon=True)
-        child.start()
-        there.close()
+        of_parent = [line for line in (*self._lines, here) if line is not None]
+        work = (there, of_parent, self._answer, (prctl, os.getpid()))
+        child = context.Process(target=_serve, args=work, daemon=True)
+        try:
+            child.start()
+        except OSError:
+            here.close()
+            raise
+        finally:
+            there.close()
         self._children.append(child)
         self._lines.append(here)
 
 
-def _serve(line: Connection, parents: Connection, answer: Callable[[Request], Answer]) -> None:
-    """Answer until the parent hangs up; an interrupt is the parent's to handle."""
+def _serve(
+    line: Connection,
+    of_parent: Sequence[Connection],
+    answer: Callable[[Request], Answer],
+    parent: tuple[Prctl | None, int],
+) -> None:
+    """
+    Answer until the parent hangs up, or is no more; an interrupt is the parent's to handle.
+
+    :param of_parent: the parent's ends of all lines: nobody hangs up while a child holds one.
+    """
+    end_with_parent(*parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    parents.close()
+    for each in of_parent:
+        each.close()
     while True:
         try:
-            request = line.recv()
+            line.send_bytes(_packed(answer, line.recv()))
         except (EOFError, OSError):
             return
-        line.send_bytes(_packed(answer, request))
+
+
+def end_with_parent(prctl: Prctl | None, parent: int) -> None:
+    """Have the system end this process, which ``parent`` has just forked, when that one ends."""
+    if prctl is not None:
+        prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:  # it has ended before
+            os._exit(0)
+
+
+def ends_with_us() -> Callable[[], None]:
+    """For ``preexec_fn`` of ``subprocess``: the program ends when this process does."""
+    prctl, parent = _prctl(), os.getpid()
+    return lambda: end_with_parent(prctl, parent)
+
+
+def _prctl() -> Prctl | None:
+    """The call of Linux by which a process says what it wants to be told; see ``prctl(2)``."""
+    try:
+        import ctypes
+
+        return cast(Prctl, ctypes.CDLL(None).prctl)
+    except (ImportError, OSError, AttributeError):
+        return None
 
 
 def _packed(answer: Callable[[Request], Answer], request: Request) -> bytes:

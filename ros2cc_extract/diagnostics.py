@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from enum import Enum
 
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, shown_name
 
 
 class Severity(Enum):
@@ -19,15 +20,19 @@ class Severity(Enum):
 UNREAD = frozenset(
     {
         'unreadable-file',
+        'unreadable-folder',
         'file-too-large',
         'binary-file',
         'undecodable-file',
         'syntax-error',
         'python-2',
         'nested-too-deeply',
+        'internal-error',
     }
 )
 """Slugs of files that could not be read: nothing in them was looked at."""
+BARRED = frozenset({'unreadable-file', 'unreadable-folder'})
+"""Those that the system did not let us read."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,3 +50,18 @@ class Diagnostic:
     place: Place
     message: str
     help: str = ''
+
+
+def unreadable_folder(error: OSError, shown: str | None = None) -> Diagnostic:
+    """
+    Tell of a folder that cannot be looked into: it weighs as a file that is not read.
+
+    :param shown: its path as shown to the user; as it was opened by default.
+    """
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='unreadable-folder',
+        place=Place(shown or shown_name(os.fsdecode(error.filename))),
+        message=f'cannot be looked into: {error.strerror or error}',
+        help='what is in it is not judged',
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 
 
@@ -36,6 +37,14 @@ class Place:
         if file and _is_count(middle):
             return Place(file, int(middle), int(last))
         return Place(head, int(last))
+
+
+def shown_name(path: str) -> str:
+    """A path as text that every format can hold: bytes that are no UTF-8 stand as ``\\xff``."""
+    try:
+        return os.fsencode(path).decode('utf-8', 'backslashreplace')
+    except UnicodeEncodeError:
+        return path.encode('utf-8', 'backslashreplace').decode()
 
 
 @dataclass(frozen=True)

@@ -23,13 +23,21 @@ def open_to_others(folder: Path) -> Path | None:
 
     :raises OSError: when one of them cannot be looked at.
     """
-    own = os.geteuid()
     for each in _upwards(folder.resolve(strict=True)):
         status = each.stat()
-        by_others = status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-        if status.st_uid not in (own, ROOT) or (by_others and not status.st_mode & stat.S_ISVTX):
+        if changeable_by_others(status) and not (is_own(status) and status.st_mode & stat.S_ISVTX):
             return each
     return None
+
+
+def changeable_by_others(status: os.stat_result) -> bool:
+    """Whether another user than this one and root owns a file or may write into it."""
+    return not is_own(status) or bool(status.st_mode & (stat.S_IWGRP | stat.S_IWOTH))
+
+
+def is_own(status: os.stat_result) -> bool:
+    """Whether a file belongs to this user, or to root, who needs no rights."""
+    return status.st_uid in (os.geteuid(), ROOT)
 
 
 def _upwards(folder: Path) -> Iterator[Path]:

@@ -9,8 +9,8 @@ from functools import cached_property, partial
 from pathlib import Path
 
 from ros2cc_extract.checker import engines
-from ros2cc_extract.checker.limits import Deadline, Limits, Progress, peak_mb
-from ros2cc_extract.checker.network import Network
+from ros2cc_extract.checker.limits import Limits, Progress, peak_mb
+from ros2cc_extract.checker.network import Network, Property
 from ros2cc_extract.checker.replay import Replayer
 from ros2cc_extract.checker.run import EdgeRef, Run, StateView, Step
 from ros2cc_extract.checker.search import (
@@ -24,12 +24,12 @@ from ros2cc_extract.checker.uppaal.document import read_document
 from ros2cc_extract.checker.uppaal.elaborate import Elaboration, elaborate
 from ros2cc_extract.checker.uppaal.queryfile import Query, clean, first_line, read_query_file
 from ros2cc_extract.errors import InputError, ModelFormatError
+from ros2cc_extract.files import read_named
 from ros2cc_extract.places import Place
 
 __all__ = [
     'Answer',
     'CheckResult',
-    'Deadline',
     'EdgeRef',
     'EngineKind',
     'Fairness',
@@ -44,9 +44,12 @@ __all__ = [
     'Verdict',
     'check',
     'load_model',
+    'model_text',
     'read_model',
     'read_queries',
 ]
+
+MOST_MODEL_BYTES = 64_000_000
 
 
 _TOO_DEEP = 'functions and expressions nest too deep'
@@ -158,13 +161,16 @@ def load_model(path: Path) -> Model:
     :raises InputError: the file cannot be read.
     :raises ModelFormatError: it is no model of the supported subset.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise InputError(
-            f'cannot be read: {error.strerror}', Place(path.as_posix()), 'give a readable file'
-        ) from None
-    return _model(data, path.as_posix(), None)
+    return _model(model_text(path), path.as_posix(), None)
+
+
+def model_text(path: Path) -> bytes:
+    """
+    Read a model file as it is.
+
+    :raises InputError: the file cannot be read.
+    """
+    return read_named(path, MOST_MODEL_BYTES, 'give a readable file')
 
 
 def read_model(text: str, name: str) -> Model:
@@ -231,6 +237,34 @@ def check(
         raise ModelFormatError(_TOO_DEEP, Place(model.name), _MEND_DEEP) from None
 
 
+def _properties(model: Model, queries: Sequence[Query], limits: Limits) -> list[Property] | None:
+    """Read all queries, which a large unit has by the hundred thousand; None: the time is over."""
+    unnamed = Place('query', 1)
+    properties = []
+    for query in queries:
+        if limits.is_over:
+            return None
+        properties.append(model.elaboration.query(query.formula, query.place or unnamed))
+    return properties
+
+
+def _unsearched(queries: Sequence[Query], limits: Limits, engine: engines.Engine) -> CheckResult:
+    reason = limits.deadline.reason if limits.deadline else None
+    return CheckResult(
+        engine=engine.name,
+        note=engine.note,
+        states=0,
+        transitions=0,
+        seconds=0.0,
+        peak_mb=peak_mb(),
+        complete=False,
+        answers=tuple(
+            Answer(query=query, verdict=Verdict.UNDECIDED, reason=reason, seconds=0.0, replay=None)
+            for query in queries
+        ),
+    )
+
+
 def _check(
     model: Model,
     queries: Sequence[Query],
@@ -241,10 +275,11 @@ def _check(
     progress: Callable[[Progress], None] | None,
     jobs: int,
 ) -> CheckResult:
-    unnamed = Place('query', 1)
-    properties = [model.elaboration.query(q.formula, q.place or unnamed) for q in queries]
-    network = model.network
     chosen = engines.choose(engine.value)
+    properties = _properties(model, queries, limits)
+    if properties is None:
+        return _unsearched(queries, limits, chosen)
+    network = model.network
     result = chosen.search(
         network,
         properties,

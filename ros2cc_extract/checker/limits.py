@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ros2cc_extract.deadline import Deadline
+
 _MEMINFO = Path('/proc/meminfo')
 _STATM = Path('/proc/self/statm')
 _PAGE_BYTES = resource.getpagesize()
@@ -16,24 +18,6 @@ _MB = 1024 * 1024
 _STEP_MB = 4
 #: Part of the memory that the exploration may take when lassos are looked for later.
 WITH_LASSOS = 0.8
-
-
-@dataclass(frozen=True)
-class Deadline:
-    """
-    When several searches together have to end.
-
-    :param at: by ``time.monotonic``.
-    :param reason: to give up then.
-    """
-
-    at: float
-    reason: str
-
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing more is to begin."""
-        return time.monotonic() > self.at
 
 
 @dataclass(frozen=True, kw_only=True)

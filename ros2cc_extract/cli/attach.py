@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         'The process goes on as it was. What is measured, traced, or told with its place of '
         'creation\nneeds `run` or `env` from the start. Needs Python 3.14 on both sides, or: '
-        'pip install "ros2cc-extract[attach]"'
+        'pip install "hypno>=1.1"'
     )
     parser.add_argument('pid', type=int, metavar='PID', help='process id of the node')
     parser.add_argument(

@@ -20,8 +20,6 @@ from ros2cc_extract.cli.main import (
     EXIT_CLEAN,
     EXIT_ERROR,
     EXIT_FINDINGS,
-    EXIT_INTERRUPTED,
-    EXIT_TERMINATED,
     EXIT_UNDECIDED,
 )
 from ros2cc_extract.cli.termination import termination_as_interrupt
@@ -76,8 +74,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=number_of_seconds,
         default=DEFAULT_MAX_SECONDS,
         metavar='S',
-        help='verify all units together for S seconds at most (default %(default)g); what is '
-        'open then is undecided',
+        help='scan and verify all together for S seconds at most (default %(default)g); what '
+        'is open then is undecided',
     )
 
 
@@ -100,7 +98,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     _tell(args, outcome, job, stdout)
     if outcome.interrupted:
         print('interrupted: what was not verified by then is undecided', file=stderr)
-        return EXIT_TERMINATED if termination.is_asked else EXIT_INTERRUPTED
+        return termination.status
     return _status(args, outcome)
 
 
@@ -204,12 +202,14 @@ def _append_step_summary(checked: Checked) -> None:
 
 
 def _status(args: argparse.Namespace, outcome: Outcome) -> int:
-    from ros2cc_extract.cli.sources import nothing_read
+    from ros2cc_extract.cli.sources import has_barred, nothing_read
 
     if nothing_read(args.paths, outcome.extraction):
         return EXIT_ERROR
     if outcome.has_findings:
         return EXIT_FINDINGS
+    if args.strict and has_barred(outcome.extraction.diagnostics):
+        return EXIT_ERROR
     unresolved = args.strict and _is_unresolved(outcome)
     return EXIT_UNDECIDED if unresolved or outcome.is_undecided else EXIT_CLEAN
 

@@ -6,10 +6,11 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from ros2cc_extract.cli.main import PROGRAM
 from ros2cc_extract.errors import InputError, did_you_mean
+from ros2cc_extract.files import DISK, read_named
 from ros2cc_extract.findings.registry import BY_CODE
 from ros2cc_extract.findings.requirements import Requirement, read_requirements
 from ros2cc_extract.findings.selection import Selection
@@ -24,6 +25,8 @@ else:
 FILE = 'pyproject.toml'
 TABLE = 'ros2cc'
 REQUIREMENTS = ('never_together', 'can_overlap', 'never_starves')
+MOST_BYTES = 8_000_000
+LONGEST_S = 1e9
 KEYS = (*REQUIREMENTS, 'ignore', 'per_path', 'assume', 'baseline', 'timeout')
 
 
@@ -52,8 +55,8 @@ def load_config(start: Path) -> Config:
     folder = start if start.is_dir() else start.parent
     for candidate in (folder.resolve(), *folder.resolve().parents):
         path = candidate / FILE
-        if path.is_file():
-            table = _table(path)
+        if DISK.is_file(path):
+            table = _parse(path)
             if table is not None:
                 return _config(table, path)
     return Config(root=Path.cwd())
@@ -65,10 +68,7 @@ def read_config(path: Path) -> Config:
 
     :raises InputError: as ``load_config``; also when the file cannot be read or has no table.
     """
-    try:
-        table = _parse(path.read_text(encoding='utf-8'), path)
-    except (OSError, UnicodeDecodeError):
-        raise InputError('cannot be read', Place(str(path)), 'name a TOML file') from None
+    table = _parse(path, 'name a TOML file')
     if table is None:
         raise InputError(f'no table [tool.{TABLE}]', Place(str(path)), 'add one')
     return _config(table, path)
@@ -81,19 +81,15 @@ def assumptions_of(config: Config, given: Sequence[str]) -> Assumptions:
     return read_assumptions([*config.assumptions, *given])
 
 
-def _table(path: Path) -> Mapping[str, Any] | None:
+def _parse(path: Path, mend: str = 'mend the file') -> Mapping[str, Any] | None:
     try:
-        return _parse(path.read_text(encoding='utf-8'), path)
-    except (OSError, UnicodeDecodeError):
-        return None
-
-
-def _parse(text: str, path: Path) -> Mapping[str, Any] | None:
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f'no TOML: {error}', Place(str(path)), 'mend the file') from None
-    table = data.get('tool', {}).get(TABLE)
+        data = tomllib.loads(read_named(path, MOST_BYTES, mend).decode('utf-8'))
+    except UnicodeDecodeError:
+        raise InputError('no TOML: no UTF-8 text', Place(str(path)), mend) from None
+    except ValueError as error:  # also of a number or a date that Python has not
+        raise InputError(f'no TOML: {error}', Place(str(path)), mend) from None
+    tool = data.get('tool', {})
+    table = tool.get(TABLE) if isinstance(tool, dict) else None
     if table is not None and not isinstance(table, dict):
         raise _malformed(path, TABLE, 'a table')
     return table
@@ -111,7 +107,7 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
     if baseline is not None and not isinstance(baseline, str):
         raise _malformed(path, 'baseline', 'a path')
     timeout = table.get('timeout')
-    if timeout is not None and not (isinstance(timeout, int | float) and timeout > 0):
+    if timeout is not None and not _is_seconds(timeout):
         raise _malformed(path, 'timeout', 'a number of seconds')
     return Config(
         root=path.parent,
@@ -124,6 +120,11 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
         baseline=path.parent / baseline if baseline is not None else None,
         timeout=timeout,
     )
+
+
+def _is_seconds(value: object) -> bool:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_number and 0 < cast(float, value) <= LONGEST_S
 
 
 def _per_path(value: object, path: Path) -> tuple[tuple[str, tuple[str, ...]], ...]:

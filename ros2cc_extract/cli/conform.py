@@ -54,6 +54,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.conform.unit import compare, pair_units
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.places import Place
+    from ros2cc_extract.shown import one_line
 
     traces = read_traces(args.trace)
     units = load_units(args.spec, stderr)
@@ -64,7 +65,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     statuses = []
     for trace, executor, spec in pairs:
         comparison = compare(trace, executor, spec, states=args.max_states or STATES)
-        stdout.writelines(f'{line}\n' for line in _lines(comparison, trace, args.events))
+        stdout.writelines(f'{one_line(line)}\n' for line in _lines(comparison, trace, args.events))
         statuses.append(_status(comparison))
     return max(statuses, key=(EXIT_CLEAN, EXIT_UNDECIDED, EXIT_FINDINGS).index)
 

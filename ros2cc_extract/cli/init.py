@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ros2cc_extract.ros.packages import Package
 
 SNIPPETS = 'ros2cc_extract.ros.snippets'
+SOURCE = '@SOURCE@'
 OF_REPOSITORY = {
     'pre_commit': ('pre-commit-config.yaml', '.pre-commit-config.yaml'),
     'github': ('github-workflow.yml', '.github/workflows/ros2cc.yml'),
@@ -37,6 +38,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='DIR',
         help='a ROS 2 package (default: the current folder)',
     )
+    parser.add_argument(
+        '--install',
+        metavar='SOURCE',
+        help='what the job installs: a commit of the repository, or a wheel (default: what was '
+        'installed here)',
+    )
     for name, what in (
         ('--pre-commit', 'hooks for pre-commit'),
         ('--github', 'a job for GitHub Actions'),
@@ -52,10 +59,11 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     package = read_package(args.folder)
     wanted = [name for name in OF_REPOSITORY if getattr(args, name)]
-    for target in (_test_of(package), *_of_repository(package, wanted)):
+    for target in (_test_of(package), *_of_repository(package, wanted, args.install)):
         _write(target, stdout, stderr)
     for advice in _advice(package):
-        print(advice, file=stderr)
+        for line in advice.splitlines():
+            print(line, file=stderr)
     return EXIT_CLEAN
 
 
@@ -63,12 +71,17 @@ def _test_of(package: Package) -> Target:
     return Target(package.folder / 'test' / 'test_ros2cc.py', _snippet('test_ros2cc.txt'))
 
 
-def _of_repository(package: Package, wanted: list[str]) -> list[Target]:
+def _of_repository(package: Package, wanted: list[str], source: str | None) -> list[Target]:
     top = _repository(package.folder)
-    return [
-        Target(top / path, _snippet(name))
-        for name, path in (OF_REPOSITORY[each] for each in wanted)
-    ]
+    found = []
+    for name, path in (OF_REPOSITORY[each] for each in wanted):
+        text = _snippet(name)
+        if SOURCE in text:
+            from ros2cc_extract.ros.origin import pinned_source
+
+            text = text.replace(SOURCE, pinned_source(source))
+        found.append(Target(top / path, text))
+    return found
 
 
 def _repository(folder: Path) -> Path:

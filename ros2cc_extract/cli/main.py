@@ -13,11 +13,15 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Protocol, TextIO, cast
 
+from ros2cc_extract.cli.streams import as_utf_8, silence, with_streams
+from ros2cc_extract.cli.termination import termination_as_interrupt
 from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
 from ros2cc_extract.places import Place
+from ros2cc_extract.shown import Shown, raw
 from ros2cc_extract.version import __version__
 
 PROGRAM = 'ros2cc-extract'
@@ -38,7 +42,10 @@ COMMANDS = {
     'merge': 'join a specification from source with one from a live run',
 }
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
-EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
+EXIT_INTERRUPTED = 130
+WRITES_DATA = ('spec', 'merge')
+HEARS_ITSELF = ('check', 'run', 'attach')
+"""Requests to end: they tell what is known by then, or hand them on to what they have begun."""
 LONGEST_MESSAGE = 300
 
 
@@ -53,9 +60,16 @@ class Command(Protocol):
 
 
 def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
-    """Run the tool; everything it says goes to the two streams."""
+    """Run the tool; everything it says goes to the two streams, as text that does nothing."""
+    told, complaints = Shown(stdout), Shown(stderr, by_lines=True)
+    return _run(list(argv), cast(TextIO, told), cast(TextIO, complaints))
+
+
+def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     try:
-        return _dispatch(list(argv), stdout, stderr)
+        status = _dispatch(argv, stdout, stderr)
+        stdout.flush()
+        return status
     except Ros2ccError as error:
         print(f'{PROGRAM}: error: {error}', file=stderr)
         return EXIT_ERROR
@@ -63,8 +77,14 @@ def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM}: interrupted', file=stderr)
         return EXIT_INTERRUPTED
     except BrokenPipeError:
-        _silence(stdout)
+        silence(raw(stdout))
         return EXIT_CLEAN
+    except OSError as error:
+        print(f'{PROGRAM}: error: {_refusal(error)}', file=stderr)
+        return EXIT_ERROR
+    except MemoryError:
+        print(f'{PROGRAM}: error: there is not enough memory', file=stderr)
+        return EXIT_ERROR
     except RecursionError:
         print(f'{PROGRAM}: error: the input is nested too deeply', file=stderr)
         return EXIT_ERROR
@@ -73,13 +93,14 @@ def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM}: internal error: {type(error).__name__}: {told}', file=stderr)
         print('this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where', file=stderr)
         if os.environ.get('ROS2CC_TRACEBACK'):
-            traceback.print_exception(error, file=stderr)
+            for line in ''.join(traceback.format_exception(error)).splitlines():
+                print(line, file=stderr)
         return EXIT_ERROR
 
 
 def entry_point() -> None:
     """Run as the console script."""
-    sys.exit(main(sys.argv[1:], sys.stdout, sys.stderr))
+    sys.exit(with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr)))
 
 
 def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
@@ -103,9 +124,33 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         args = parser.parse_args(argv)
     except SystemExit as exit_:
         return EXIT_CLEAN if not exit_.code else EXIT_ERROR
-    status = command.run(args, stdout, stderr)
-    stdout.flush()
+    if name in WRITES_DATA or getattr(args, 'output_format', 'text') != 'text':
+        as_utf_8(raw(stdout))
+    with termination_as_interrupt() if name not in HEARS_ITSELF else nullcontext() as request:
+        try:
+            status = command.run(args, stdout, stderr)
+        except KeyboardInterrupt:
+            if request is None or not request.is_asked:
+                raise
+            print(f'{PROGRAM}: interrupted', file=stderr)
+            return request.status
     return status
+
+
+def _refusal(error: OSError) -> str:
+    """What the system does not let us do, as far as it is not told where it happens."""
+    reason = error.strerror or str(error) or type(error).__name__
+    if not _has_folder():
+        return 'the current folder is not there any more'
+    return f'{os.fsdecode(error.filename)}: {reason}' if error.filename else reason
+
+
+def _has_folder() -> bool:
+    try:
+        Path.cwd()
+    except OSError:
+        return False
+    return True
 
 
 def _ask_for_the_command(word: str) -> None:
@@ -134,12 +179,6 @@ commands:
 `{PROGRAM} COMMAND --help` tells more. Exit status: 0 clean, 1 findings, 2 usage or input
 error, 3 undecided.
 """
-
-
-def _silence(stream: TextIO) -> None:
-    """Keep the interpreter from complaining about the closed pipe once more at exit."""
-    with Path(os.devnull).open('w', encoding='utf-8') as devnull:
-        os.dup2(devnull.fileno(), stream.fileno())
 
 
 if __name__ == '__main__':

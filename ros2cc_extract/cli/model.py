@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.arguments import add_model_arguments, add_unit_arguments, policy_of
 from ros2cc_extract.cli.main import EXIT_CLEAN
+from ros2cc_extract.shown import one_line
 
 if TYPE_CHECKING:
     from ros2cc_extract.generator.build import RenderedModel
@@ -55,7 +56,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         files = {**model_files(rendered), **(_drawings(rendered) if args.svg else {})}
         for name, text in files.items():
             write_atomically(folder / name, text)
-            print(folder / name, file=stdout)
+            print(one_line(str(folder / name)), file=stdout)
     return EXIT_CLEAN
 
 

@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TextIO
 
+from ros2cc_extract.cli.streams import ESCAPED
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 
@@ -44,7 +45,7 @@ def write_atomically(path: Path, text: str) -> None:
         raise _refused(path, error) from None
     temporary = Path(name)
     try:
-        with os.fdopen(descriptor, 'w', encoding='utf-8') as stream:
+        with os.fdopen(descriptor, 'w', encoding='utf-8', errors=ESCAPED) as stream:
             stream.write(text)
         temporary.chmod(0o666 & ~_umask())
         temporary.replace(path)

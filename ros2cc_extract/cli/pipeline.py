@@ -13,8 +13,12 @@ from ros2cc_extract.cli.config import Config
 from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.cli.sources import scan_sources
 from ros2cc_extract.cli.verifying import Examined, Task, examine_all
+from ros2cc_extract.deadline import Deadline, Patience, deadline_in
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.source import SIZE_LIMIT_BYTES
+from ros2cc_extract.files import DISK, Files
+from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.baseline import compare
 from ros2cc_extract.findings.collect import all_findings, is_unread
 from ros2cc_extract.findings.model import Finding
@@ -24,10 +28,13 @@ from ros2cc_extract.findings.selection import select
 from ros2cc_extract.findings.suppress import suppress
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.assume import Assumptions, assume
-from ros2cc_extract.spec.close import ClosedSpec, Policy, close
+from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.rates import with_arrivals
 from ros2cc_extract.verify.unit import Options, Verification
+
+SCANNING = 0.75
+"""Share of the time after which nothing more is scanned."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +45,9 @@ class Job:
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
     :param keeps_runs: the run behind every verdict is wanted.
-    :param max_seconds: for the verification of all units together.
+    :param max_seconds: for scanning all files and verifying all units together.
+    :param files: those of the disk, or of another revision.
+    :param noticed: what is known already, such as folders that cannot be looked into.
     """
 
     paths: Sequence[Path]
@@ -51,6 +60,8 @@ class Job:
     cached: bool = True
     keeps_runs: bool = False
     max_seconds: float | None = None
+    files: Files = DISK
+    noticed: tuple[Diagnostic, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,8 +104,10 @@ class Outcome:
 
     @property
     def is_undecided(self) -> bool:
-        """True when a limit left a verdict open."""
-        return any(verification.is_undecided for verification in self.verifications)
+        """True when a limit left a verdict open, or a file."""
+        return bool(self.extraction.cut) or any(
+            verification.is_undecided for verification in self.verifications
+        )
 
     @property
     def undecided_waits(self) -> tuple[Finding, ...]:
@@ -110,15 +123,27 @@ class Outcome:
         )
 
 
+def _has_callbacks(unit: Spec) -> bool:
+    """Whether there is any that somebody wrote, or that somebody waits for."""
+    waited = waited_for(unit)
+    return any(not each.builtin or each.name in waited for each in unit.callbacks)
+
+
 def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
+    deadline = None if job.max_seconds is None else deadline_in(job.max_seconds)
     extraction = scan_sources(
-        job.paths, stderr, cached=job.cached, lists_builtin=job.policy.builtin
+        job.paths,
+        stderr,
+        cached=job.cached,
+        lists_builtin=job.policy.builtin,
+        files=job.files,
+        patience=_patience(deadline, job.max_seconds),
     )
     units = tuple(
         assume(unit, job.assumptions)
         for unit in extraction.units
-        if job.policy.builtin or not all(callback.builtin for callback in unit.callbacks)
+        if job.policy.builtin or _has_callbacks(unit)
     )
     closed = tuple(close(unit, job.policy) for unit in units)
     tasks = [
@@ -127,13 +152,15 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     ]
     with bar(stderr, 'verifying') as meter:
         folder = default_cache_folder() if job.cached else None
-        examination = examine_all(tasks, folder, meter, job.max_seconds)
+        is_over = extraction.interrupted
+        examination = examine_all(tasks, folder, meter, deadline, interrupted=is_over)
     examined = examination.units
     defects = tuple(_defects(units, examined))
-    extraction = replace(extraction, diagnostics=(*extraction.diagnostics, *defects))
+    noticed = (*job.noticed, *extraction.diagnostics, *defects)
+    extraction = replace(extraction, diagnostics=noticed)
     findings = (
         *all_findings(
-            [each.findings for each in examined],
+            [*(each.findings for each in examined), findings_across(units)],
             extraction.diagnostics,
             {unit.rclpy for unit in units},
         ),
@@ -141,7 +168,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     )
     root = job.root.as_posix()
     selected = select(findings, job.config.selection, root)
-    sources = _sources({*extraction.files_seen, *_files_shown(selected)})
+    sources = _sources(job.files, {*extraction.files_seen, *_files_shown(selected)})
     suppressed = suppress(selected, sources, extraction.files_seen)
     compared = compare(suppressed.kept, job.known, root)
     return Outcome(
@@ -154,6 +181,14 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         sources=sources,
         interrupted=examination.interrupted,
     )
+
+
+def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:
+    """Scanning leaves some time to verify what was found."""
+    if deadline is None or seconds is None:
+        return Patience(keeps_interrupted=True)
+    scanning = replace(deadline, at=deadline.at - (1 - SCANNING) * seconds)
+    return Patience(scanning, keeps_interrupted=True)
 
 
 def _defects(units: Sequence[Spec], examined: Sequence[Examined]) -> Iterator[Diagnostic]:
@@ -177,11 +212,12 @@ def _files_shown(findings: Sequence[Finding]) -> set[str]:
     return {place.file for place in places}
 
 
-def _sources(files: Collection[str]) -> dict[str, str]:
+def _sources(files: Files, names: Collection[str]) -> dict[str, str]:
     texts = {}
-    for file in sorted(files):
+    for name in sorted(names):
         try:
-            texts[file] = Path(file).read_text(encoding='utf-8', errors='replace')
-        except OSError:
+            data = files.read(Path(name), SIZE_LIMIT_BYTES)
+        except (OSError, ValueError):  # not there, or no name that a file can have
             continue
+        texts[name] = data.decode(errors='replace').replace('\r\n', '\n').replace('\r', '\n')
     return texts

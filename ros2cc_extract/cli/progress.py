@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from time import monotonic
 from typing import TYPE_CHECKING, TextIO
 
+from ros2cc_extract.shown import one_line, raw
+
 if TYPE_CHECKING:
     from rich.progress import Progress as Drawn
     from rich.progress import TaskID
@@ -47,7 +49,9 @@ class Bar(Meter):
 
         def tell(progress: Progress) -> None:
             states = f'{progress.states:,} states, {progress.seconds:.0f} s'
-            self._drawn.update(self._task, description=f'{self._title} {title}: {states}')
+            self._drawn.update(
+                self._task, description=f'{self._title} {one_line(title)}: {states}'
+            )
             self._draw(False)
 
         return tell
@@ -68,8 +72,8 @@ def bar(stderr: TextIO, title: str) -> Iterator[Meter]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-    columns = (TextColumn('{task.description}'), BarColumn(), MofNCompleteColumn())
-    console = Console(file=stderr)
+    columns = (TextColumn('{task.description}', markup=False), BarColumn(), MofNCompleteColumn())
+    console = Console(file=raw(stderr))
     with Progress(*columns, console=console, transient=True, auto_refresh=False) as drawn:
         yield Bar(drawn, drawn.add_task(title, total=None), title)
 
@@ -81,8 +85,10 @@ def search_progress(stderr: TextIO, title: str) -> Iterator[SearchProgress | Non
         yield None
         return
     from rich.console import Console
+    from rich.markup import escape
 
-    with Console(file=stderr).status(f'verifying {title}') as status:
+    told = f'verifying {escape(one_line(title))}'
+    with Console(file=raw(stderr)).status(told) as status:
         yield lambda progress: status.update(
-            f'verifying {title}: {progress.states:,} states, {progress.seconds:.0f} s'
+            f'{told}: {progress.states:,} states, {progress.seconds:.0f} s'
         )

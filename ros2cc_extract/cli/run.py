@@ -109,12 +109,13 @@ def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
 
 def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
     """Tell whether a live unit is made in the files that were scanned, or is one of theirs."""
+    from ros2cc_extract.files import real_path
     from ros2cc_extract.merge import match_units
 
     callbacks = [callback for callback in unit.callbacks if not callback.builtin]
     places = [place for callback in callbacks for place in (callback.source, callback.defined)]
-    files = {Path(place.file).resolve() for place in (unit.executor.source, *places) if place}
-    within = source.resolve()
+    files = {real_path(place.file) for place in (unit.executor.source, *places) if place}
+    within = real_path(source)
     is_within = any(file == within or within in file.parents for file in files)
     return is_within or bool(match_units(scanned, [unit])[0])
 

@@ -9,10 +9,12 @@ from pathlib import Path
 from typing import TextIO
 
 from ros2cc_extract.cli.progress import bar
-from ros2cc_extract.diagnostics import UNREAD, Diagnostic, Severity
+from ros2cc_extract.deadline import PATIENT, Patience
+from ros2cc_extract.diagnostics import BARRED, UNREAD, Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.places import Place
+from ros2cc_extract.files import DISK, Files, read_named, read_stream, real_path
+from ros2cc_extract.places import Place, shown_name
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
@@ -31,31 +33,45 @@ FOREIGN_SUFFIXES = (
 )
 """Of files that nobody means as Python, though one of plain words would parse."""
 STANDARD_INPUT = Path('-')
+MOST_BYTES = 64_000_000
 RECORDING_SUFFIX = '.json'
 NOT_FOLLOWED = 'not-followed'
 """Slug of what may hide callbacks and stands in no unit."""
 
 
 def scan_sources(
-    paths: Sequence[Path], stderr: TextIO, *, cached: bool = True, lists_builtin: bool = False
+    paths: Sequence[Path],
+    stderr: TextIO,
+    *,
+    cached: bool = True,
+    lists_builtin: bool = False,
+    files: Files = DISK,
+    patience: Patience = PATIENT,
 ) -> Extraction:
     """
     Scan Python files and directories, with progress.
 
     :param cached: take an earlier result when no file has changed since.
     :param lists_builtin: also list what rclpy makes by itself for every node.
+    :param files: those of the disk, or of another revision.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither
     the published format nor a model has a place for them.
     """
-    from ros2cc_extract.cachefile import default_cache_folder
     from ros2cc_extract.extract.static.api import scan
 
     for path in paths:
-        _refuse_foreign(path)
+        _refuse_foreign(path, files)
+    folder = _cache_folder(stderr) if cached else None
     with bar(stderr, 'reading') as meter:
-        folder = default_cache_folder() if cached else None
-        extraction = scan(paths, progress=meter.step, cache=folder, lists_builtin=lists_builtin)
+        extraction = scan(
+            paths,
+            progress=meter.step,
+            cache=folder,
+            lists_builtin=lists_builtin,
+            files=files,
+            patience=patience,
+        )
     left_out = [unit for unit in extraction.units if not unit.callbacks]
     for unit in left_out:
         in_sight = ' in sight' if _missing(unit) else ''
@@ -67,14 +83,29 @@ def scan_sources(
     )
 
 
-def _refuse_foreign(path: Path) -> None:
+def _cache_folder(stderr: TextIO) -> Path | None:
+    """Where earlier results are kept; nothing is read from where others could have put it."""
+    from ros2cc_extract.cachefile import default_cache_folder, who_can_change
+
+    folder = default_cache_folder()
+    others = who_can_change(folder) if folder is not None else None
+    if others is not None:
+        told = f'{folder}: not used as a cache, as other users can change {others}'
+        print(f'{told}; let XDG_CACHE_HOME name a folder that is yours alone', file=stderr)
+        return None
+    return folder
+
+
+def _refuse_foreign(path: Path, files: Files) -> None:
     """
     Ask again about a file that its name says to be no Python; scripts need not end in ``.py``.
 
     :raises InputError: then.
     """
     suffix = path.suffix.lower()
-    if path.is_dir() or not path.exists() or suffix not in (*SPEC_SUFFIXES, *FOREIGN_SUFFIXES):
+    if suffix not in (*SPEC_SUFFIXES, *FOREIGN_SUFFIXES):
+        return
+    if files.is_folder(path) or not files.exists(path):
         return
     if suffix in SPEC_SUFFIXES:
         raise InputError(
@@ -106,7 +137,7 @@ def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tu
     """
     Read a YAML file or a recording of the live hook, or scan anything else as source.
 
-    What comes through a pipe, ``-`` or a named one, is YAML.
+    What comes through a pipe, ``-`` or one without a suffix in its name, is YAML.
 
     :param lists_builtin: of source also list what rclpy makes by itself.
     :raises InputError: when there is no unit in it.
@@ -115,7 +146,7 @@ def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tu
         from ros2cc_extract.spec.yaml_io import read_specs
 
         return read_specs(_read_standard_input(), '<stdin>')
-    if path.suffix in SPEC_SUFFIXES or path.is_fifo():
+    if path.suffix in SPEC_SUFFIXES or (not path.suffix and path.is_fifo()):
         from ros2cc_extract.spec.yaml_io import load_specs
 
         return load_specs(path)
@@ -133,7 +164,7 @@ def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tu
 
 def _read_standard_input() -> str:
     try:
-        return sys.stdin.buffer.read().decode('utf-8')
+        return read_stream(sys.stdin.buffer, MOST_BYTES, '<stdin>').decode('utf-8')
     except UnicodeDecodeError as error:
         raise InputError(f'no UTF-8 text (byte {error.start})', Place('<stdin>')) from None
 
@@ -145,11 +176,9 @@ def read_input(path: Path) -> str:
     :raises InputError: when it is not there, or no text.
     """
     try:
-        return path.read_text(encoding='utf-8')
+        return read_named(path, MOST_BYTES).decode('utf-8')
     except UnicodeDecodeError:
         raise InputError('no UTF-8 text', Place(str(path))) from None
-    except OSError as error:
-        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from None
 
 
 def print_diagnostics(diagnostics: Sequence[Diagnostic], stderr: TextIO) -> None:
@@ -165,14 +194,19 @@ def has_unread(diagnostics: Sequence[Diagnostic]) -> bool:
     return any(diagnostic.slug in UNREAD for diagnostic in diagnostics)
 
 
+def has_barred(diagnostics: Sequence[Diagnostic]) -> bool:
+    """True when the system did not let us read a file, or look into a folder."""
+    return any(diagnostic.slug in BARRED for diagnostic in diagnostics)
+
+
 def nothing_read(paths: Sequence[Path], extraction: Extraction) -> bool:
     """True when nothing of what one of ``paths`` names could be read: no file, or none at all."""
     unread = {d.place.file for d in extraction.diagnostics if d.slug in UNREAD}
     if not unread:
         return False
-    seen = {file: Path(file).resolve() for file in extraction.files_seen}
+    seen = {file: real_path(file) for file in {*extraction.files_seen, *unread}}
     for path in paths:
-        whole = path.resolve()
+        whole = real_path(shown_name(str(path)))
         mine = {file for file, at in seen.items() if whole in (at, *at.parents)}
         if mine and mine <= unread:
             return True

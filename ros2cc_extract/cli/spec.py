@@ -41,6 +41,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         stdout.write(_schema())
         return EXIT_CLEAN
     from ros2cc_extract.cli.sources import (
+        has_barred,
         has_unread,
         nothing_read,
         print_diagnostics,
@@ -63,6 +64,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         return EXIT_ERROR
     if has_drift:
         return EXIT_FINDINGS
+    if args.strict and has_barred(extraction.diagnostics):
+        return EXIT_ERROR
     unresolved = any(unit.unresolved for unit in extraction.units)
     unresolved = unresolved or has_unread(extraction.diagnostics)
     return EXIT_UNDECIDED if args.strict and unresolved else EXIT_CLEAN

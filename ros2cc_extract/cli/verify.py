@@ -180,9 +180,10 @@ def _print_text(
 ) -> None:
     from ros2cc_extract.report.style import console_for
     from ros2cc_extract.report.verdict_text import print_evidence, print_table
+    from ros2cc_extract.shown import printable
 
     console = console_for(stdout)
-    for verification in verifications:
+    for verification in map(printable, verifications):
         console.print(f'model {verification.model}', style='bold')
         print_table(verification, console, details=True)
         print_evidence(_shown(verification, args.trace), console, changes=args.trace)

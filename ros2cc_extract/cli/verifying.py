@@ -1,32 +1,32 @@
 """
 Verdicts and findings of many units: from the cache, or on all cores.
 
-What travels between processes and into the cache is plain data. A run that nobody has asked
-for stays behind; whoever asks for it later has the unit verified once more.
+What travels between processes is plain data, and what the cache keeps is JSON. A run that nobody
+has asked for stays behind; whoever asks for it later has the unit verified once more.
 """
 
 from __future__ import annotations
 
 import hashlib
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property, partial
+from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
 
-import ros2cc_extract.generator.build as generator
-from ros2cc_extract.cachefile import code_version, load_value, store_value, tidy
-from ros2cc_extract.checker.api import Deadline
+from ros2cc_extract.cachefile import load_value, store_value, tidy, tool_version
 from ros2cc_extract.cli.progress import Meter
 from ros2cc_extract.crew import Crew, usable_cores
+from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
 from ros2cc_extract.findings.collect import findings_of_unit
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.packing import Packer
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.known import Shelf
+from ros2cc_extract.verify.results import NotKept
 from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
 from ros2cc_extract.verify.unit import (
     Checker,
@@ -36,7 +36,6 @@ from ros2cc_extract.verify.unit import (
     Verification,
     verify_unit,
 )
-from ros2cc_extract.version import __version__
 
 LONGEST_JUDGEMENT_S = 10.0
 FEWEST_TO_SHARE = 4
@@ -76,7 +75,7 @@ class Task:
     @property
     def key(self) -> str:
         """Equal where nothing differs on which the answer depends."""
-        text = '\0'.join((__version__, *_code(), repr(self)))
+        text = f'{tool_version()}\0{self!r}'
         return hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()
 
 
@@ -99,6 +98,33 @@ class Examined:
 
 
 @dataclass(frozen=True)
+class Kept:
+    """
+    What the cache keeps of a unit.
+
+    :param judged: ``None`` where it is what is shown.
+    """
+
+    shown: Verification
+    judged: Verification | None
+    findings: tuple[Finding, ...]
+
+    @staticmethod
+    def of(examined: Examined) -> Kept:
+        """Write the same verdicts once."""
+        shown, judged = examined.shown, examined.judged
+        return Kept(shown, None if judged is shown else judged, examined.findings)
+
+    @property
+    def examined(self) -> Examined:
+        """The unit as it was kept."""
+        return Examined(self.shown, self.judged or self.shown, self.findings)
+
+
+_KEPT: Packer[Kept] = Packer(Kept)
+
+
+@dataclass(frozen=True)
 class Examination:
     """
     All units.
@@ -111,20 +137,26 @@ class Examination:
 
 
 def examine_all(
-    tasks: Sequence[Task], folder: Path | None, meter: Meter, seconds: float | None = None
+    tasks: Sequence[Task],
+    folder: Path | None,
+    meter: Meter,
+    deadline: Deadline | None = None,
+    *,
+    interrupted: bool = False,
 ) -> Examination:
     """
     Verify every unit and find what there is to find, small units first.
 
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
-    :param seconds: for all of them; what is not decided by then is undecided.
+    :param deadline: for all of them; what is not decided by then is undecided.
+    :param interrupted: somebody has ended it before: only what the cache knows is told.
     """
-    deadline = _deadline(seconds)
     engines = {task.options.engine.value for task in tasks}
-    shelf = Shelf(folder, '\0'.join((__version__, *_code(), *sorted(engines))))
+    shelf = Shelf(folder, '\0'.join((tool_version(), *sorted(engines))))
     found = {n: known for n, task in enumerate(tasks) if (known := _load(task, folder))}
     left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
+    left = [] if interrupted else left
     size = min(usable_cores(), len(left)) if len(left) >= FEWEST_TO_SHARE else 1
     finished = count(len(found))
     meter.step(next(finished), len(tasks))
@@ -138,7 +170,6 @@ def examine_all(
         _store(task, examined, folder)
         return examined
 
-    interrupted = False
     try:
         with Crew(answer, size) as crew:
             for place, (given, _) in crew.each(left):
@@ -153,13 +184,6 @@ def examine_all(
         for number, task in enumerate(tasks)
     )
     return Examination(tuple(units), interrupted)
-
-
-def _deadline(seconds: float | None) -> Deadline | None:
-    if seconds is None:
-        return None
-    reason = f'the limit of {seconds:g} s for all units was reached; see --max-seconds'
-    return Deadline(time.monotonic() + seconds, reason)
 
 
 def _unasked(task: Task, reason: str) -> Examined:
@@ -193,17 +217,29 @@ def examine(
 def _examine(
     task: Task, watch: OnProgress | None, deadline: Deadline | None, shelf: Shelf
 ) -> Examined:
-    shown = verify_unit(task.closed, _until(deadline, task.options), watch, shelf)
+    shown = _verify_in_time(task.closed, task.options, watch, deadline, shelf)
     judged = shown
     if task.judging:
-        judged = verify_unit(task.closed, _until(deadline, task.judging), watch, shelf)
+        judged = _verify_in_time(task.closed, task.judging, watch, deadline, shelf)
     findings = findings_of_unit(task.unit, judged)
     kept = _kept(shown, task.keeps_runs)
     return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
 
 
-def _until(deadline: Deadline | None, options: Options) -> Options:
-    return replace(options, limits=replace(options.limits, deadline=deadline))
+def _verify_in_time(
+    closed: ClosedSpec,
+    options: Options,
+    watch: OnProgress | None,
+    deadline: Deadline | None,
+    shelf: Shelf,
+) -> Verification:
+    """Searches look at the clock, and tell what they know; what else takes long is ended."""
+    options = replace(options, limits=replace(options.limits, deadline=deadline))
+    try:
+        with ended_by(deadline):
+            return verify_unit(closed, options, watch, shelf)
+    except TimeOverError:
+        return undecided_unit(closed, options, deadline.reason if deadline else '')
 
 
 def _kept(verification: Verification, with_runs: bool) -> Verification:
@@ -215,11 +251,7 @@ def _kept(verification: Verification, with_runs: bool) -> Verification:
 def _kept_result(result: QueryResult, with_runs: bool) -> QueryResult:
     if with_runs:
         return replace(result, seconds=0.0, run=result.evidence)
-    return replace(result, seconds=0.0, run=_left_behind if result.run else None)
-
-
-def _left_behind() -> Evidence:
-    raise AssertionError('runs that were left behind are replaced before anybody asks')
+    return replace(result, seconds=0.0, run=NotKept.RUN if result.run else None)
 
 
 def _with_runs(examined: Examined, task: Task, shelf: Shelf) -> Examined:
@@ -243,7 +275,7 @@ class _Again:
         """The same verdicts, with runs to ask for."""
         results = tuple(
             replace(result, run=partial(self._run, number))
-            if result.run is _left_behind
+            if result.run is NotKept.RUN
             else result
             for number, result in enumerate(verification.results)
         )
@@ -271,22 +303,12 @@ _LOST = Evidence(
 def _load(task: Task, folder: Path | None) -> Examined | None:
     if folder is None or task.options.checker is not Checker.EMBEDDED:
         return None
-    value = load_value(folder / f'{task.key}.verdicts')
-    return value if isinstance(value, Examined) else None
+    kept = load_value(folder / f'{task.key}.verdicts', _KEPT)
+    return kept.examined if kept is not None else None
 
 
 def _store(task: Task, examined: Examined, folder: Path | None) -> None:
     if folder is None or task.options.checker is not Checker.EMBEDDED:
         return
     if examined.is_final:
-        store_value(folder / f'{task.key}.verdicts', examined)
-
-
-@cache
-def _code() -> tuple[str, ...]:
-    """The tool's own files: a changed one may say something else."""
-    package = Path(__file__).resolve().parents[1]
-    templates = Path(generator.__file__).resolve().parent
-    roots = (package, templates)
-    folders = {folder for root in roots for folder in root.rglob('*') if folder.is_dir()}
-    return tuple(code_version(sorted({*roots, *(f for f in folders if f.name != '__pycache__')})))
+        store_value(folder / f'{task.key}.verdicts', Kept.of(examined), _KEPT)

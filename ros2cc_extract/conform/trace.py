@@ -10,8 +10,10 @@ from types import NoneType
 from typing import Any
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.files import read_named
 from ros2cc_extract.places import Place
 
+MOST_BYTES = 1_000_000_000
 FORMAT = 'ros2cc trace'
 VERSION = 1
 EXECUTOR = 'executor'
@@ -77,9 +79,7 @@ def read_traces(path: Path) -> tuple[Trace, ...]:
     :raises InputError: when it cannot be read or is no trace.
     """
     try:
-        text = path.read_text(encoding='utf-8')
-    except OSError as error:
-        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
+        text = read_named(path, MOST_BYTES).decode('utf-8')
     except UnicodeDecodeError:
         raise InputError('is no trace (no UTF-8 text)', Place(str(path)), _MEND) from None
     lines = list(_lines(text, path))

@@ -16,8 +16,12 @@ class Extraction:
     :param units: one per executor, in the order of the files and of the lines in them.
     :param diagnostics: sorted by place.
     :param files_seen: every file that was read, as shown to the user.
+    :param cut: why not all was followed to its end; empty where it was.
+    :param interrupted: somebody has ended it.
     """
 
     units: tuple[Spec, ...]
     diagnostics: tuple[Diagnostic, ...]
     files_seen: tuple[str, ...]
+    cut: str = ''
+    interrupted: bool = False

@@ -25,6 +25,11 @@ def with_assumptions(finding: Finding, unit: Spec) -> Finding:
     if executor.assumed and executor.source and ' follows from parameter ' in executor.assumed:
         remarks += (Remark(executor.source, f'assumed: {executor.assumed}'),)
     waits = [b for c in concerned for b in c.blocking if b.source == finding.place]
+    remarks += tuple(
+        Remark(wait.source, f'assumed: {wait.assumed}')
+        for wait in waits
+        if wait.assumed and wait.source
+    )
     conditions = list(dict.fromkeys(wait.only_if for wait in waits))
     if len(conditions) == 1 and conditions[0]:
         is_error = finding.severity is Severity.ERROR

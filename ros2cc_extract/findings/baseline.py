@@ -16,6 +16,7 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.places import Place
+from ros2cc_extract.shown import json_text
 
 VERSION = 1
 _MEND = 'write it anew by --write-baseline'
@@ -50,7 +51,7 @@ def write_baseline(findings: Iterable[Finding], root: str = '') -> str:
     ]
     entries.sort(key=lambda entry: (entry['path'], entry['code'], entry['fingerprint']))
     data = {'ros2cc_baseline': VERSION, 'findings': entries}
-    return json.dumps(data, indent=2, ensure_ascii=False) + '\n'
+    return json_text(data)
 
 
 def read_baseline(text: str, file: str) -> frozenset[str]:

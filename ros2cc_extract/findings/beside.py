@@ -12,14 +12,12 @@ from dataclasses import replace
 
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import overlap, overlaps_itself
-from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.workers import workers_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, EntityKind
-
-Doer = Callback | Activity
 
 
 def sharing(context: Context) -> tuple[Activity, ...]:
@@ -161,20 +159,21 @@ def _joins(block: Blocking, thread: Activity) -> bool:
 
 def _meeting(doer: Doer, other: Doer) -> Doer:
     """``doer`` with what it may do while ``other`` runs, or is about to."""
-    return replace(
-        doer,
-        reads=tuple(read for read in doer.reads if _is_beside(read, doer, other)),
-        writes=tuple(write for write in doer.writes if _is_beside(write, doer, other)),
-    )
+    starts = other.starts if isinstance(other, Activity) else ()
+    starts = tuple(start for start in starts if start.by == doer.name)
+    ends = [steps(block) for block in doer.blocking if _ends_before(block, doer, other)]
+    over = min(ends, default=None)
 
-
-def _is_beside(access: Access, doer: Doer, other: Doer) -> bool:
-    if isinstance(other, Activity):
-        starts = [start for start in other.starts if start.by == doer.name]
+    def is_beside(access: Access) -> bool:
         if starts and not any(_is_behind(access, start, doer) for start in starts):
             return False
-    joins = [block for block in doer.blocking if _ends_before(block, doer, other)]
-    return not any(steps(block) < steps(access) for block in joins)
+        return over is None or not over < steps(access)
+
+    return replace(
+        doer,
+        reads=tuple(read for read in doer.reads if is_beside(read)),
+        writes=tuple(write for write in doer.writes if is_beside(write)),
+    )
 
 
 def _ends_before(block: Blocking, doer: Doer, other: Doer) -> bool:

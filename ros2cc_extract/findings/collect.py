@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.assumptions import with_assumptions
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.registry import BY_SLUG, RULES
@@ -38,7 +39,8 @@ def findings_of(
     verdicts = verifications or [None] * len(units)
     pairs = zip(with_arrivals(units), verdicts, strict=True)
     releases = {unit.rclpy for unit in units}
-    return all_findings([findings_of_unit(*pair) for pair in pairs], diagnostics, releases)
+    found = [*(findings_of_unit(*pair) for pair in pairs), findings_across(units)]
+    return all_findings(found, diagnostics, releases)
 
 
 def all_findings(

@@ -23,7 +23,7 @@ def fingerprints(findings: Iterable[Finding], root: str = '') -> list[str]:
     for finding in findings:
         file = relative(finding.place.file, root)
         parts = (finding.code, file, finding.unit or '', *finding.subjects)
-        digest = hashlib.sha256('\0'.join(parts).encode()).hexdigest()[:32]
+        digest = hashlib.sha256('\0'.join(parts).encode('utf-8', 'surrogatepass')).hexdigest()[:32]
         seen[digest] += 1
         found.append(f'{digest}:{seen[digest]}')
     return found

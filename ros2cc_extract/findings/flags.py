@@ -13,8 +13,9 @@ from typing import TypeVar
 
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import kept_between, read_for
+from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.deeds import FLAG, Access
-from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.model import Activity, Callback, Executor
 
 _Doer = TypeVar('_Doer', Callback, Activity)
 
@@ -70,15 +71,28 @@ def _keeps_out(flag: str, context: Context) -> bool:
         *context.unit.activities,
     )
     uses = [(one, write) for one in everybody for write in one.writes if write.name == name]
-    setters = [(one, write) for one, write in uses if write.rests]
-    if not setters or not all(flag in write.locks for _, write in uses):
+    if not all(flag in write.locks for _, write in uses):
         return False
+    setters = [(one, write) for one, write in uses if write.rests]
+    if not setters:
+        return _is_put_up_in_turn(context.unit.executor)
     groups = {
         context.exclusive_group(one) if isinstance(one, Callback) else None for one, _ in setters
     }
     if len(groups) == 1 and None not in groups:
         return True
     return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _is_put_up_in_turn(executor: Executor) -> bool:
+    """
+    Whether a goal that was accepted runs before the next one is looked at.
+
+    Then a flag that the goal callback finds down is down when execute puts it up. Source: rclpy
+    7.1.6 and 9.1.2, ``executors.py`` (``_wait_for_ready_callbacks`` yields tasks before it waits),
+    ``action/server.py`` (one goal is taken at a time); the events executor keeps another order.
+    """
+    return is_one_thread(executor) and honours_groups(executor)
 
 
 def _locks_of(callback: Callback | Activity, write: Access) -> frozenset[str]:

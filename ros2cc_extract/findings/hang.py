@@ -26,7 +26,7 @@ class Standstill:
 
     :param since: index of the moment in which it began.
     :param needed: who ends it, in words; ``enders`` are their names.
-    :param thread: that it holds; ``None`` for an ``await``.
+    :param thread: that it holds; ``None`` for an ``await``, and where no executor has it.
     :param spins: true where it serves others on that thread meanwhile.
     :param is_for_lock: ``needed`` holds the lock that is waited for.
     :param wait: which of the waits of ``who`` in the model.
@@ -40,15 +40,17 @@ class Standstill:
     is_for_lock: bool = False
     enders: tuple[str, ...] = ()
     wait: int | None = None
+    is_await: bool = False
 
     @property
     def words(self) -> str:
         """Say who waits for what."""
-        if self.thread is None:
+        if self.is_await:
             return f'{self.who} awaits {self.needed}'
         verb = 'spins' if self.spins else 'waits'
+        on_thread = f' on {self.thread}' if self.thread is not None else ''
         what = f'the lock of {self.needed}' if self.is_for_lock else self.needed
-        return f'{self.who} {verb} on {self.thread} for {what}'
+        return f'{self.who} {verb}{on_thread} for {what}'
 
 
 def show_hang(
@@ -93,7 +95,8 @@ def open_waits(moments: Sequence[Moment]) -> list[Standstill]:
 
 def _standstill(event: Event, since: int) -> Standstill:
     assert event.who is not None and event.awaited is not None, 'a wait of one for another'
-    thread = None if event.kind == _AWAIT else event.thread
+    is_await = event.kind == _AWAIT
+    thread = None if is_await else event.thread
     return Standstill(
         event.who,
         event.awaited,
@@ -103,6 +106,7 @@ def _standstill(event: Event, since: int) -> Standstill:
         event.is_for_lock,
         event.enders,
         event.wait,
+        is_await,
     )
 
 

@@ -9,29 +9,33 @@ A plain assignment is atomic in CPython; what breaks is *read, then write*: an u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
-from ros2cc_extract.findings.beside import Doer, beside, node_of, repeats_freely, sharing
+from ros2cc_extract.findings.beside import beside, node_of, repeats_freely, sharing
 from ros2cc_extract.findings.flags import as_shared, shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import Overlap, interleaves, overlap
-from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.sections import (
     is_operand,
     is_other_item,
     keep_apart,
     kept_between,
     read_for,
+    reads_of,
+    writes_of,
 )
+from ros2cc_extract.findings.shared_names import node_classes, shared_part
 from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.words import called, listing
+from ros2cc_extract.once import once
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.deeds import ADDS, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.verify.evidence import Evidence
 
@@ -116,21 +120,47 @@ class _Conflict:
     run: Evidence | None
 
 
-def races_of(context: Context) -> Iterator[Race]:
+@once
+def races_of(context: Context) -> tuple[Race, ...]:
     """One race per attributes that the same callbacks change, in the order of first conflicts."""
     by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
     threads = as_shared(sharing(context), context)
     doers: tuple[Doer, ...] = (*shared_by(context), *threads)
     for one, other in combinations(doers, 2):
-        node = node_of(one, context)
-        if node is not None and node == node_of(other, context):
-            for conflict in _conflicts(one, other, context):
-                by_attribute.setdefault((node, conflict.first.access.name), []).append(conflict)
+        for owner, conflict in _of_pair(one, other, context):
+            by_attribute.setdefault((owner, conflict.first.access.name), []).append(conflict)
     for thread in threads:
         node = node_of(thread, context)
         if node is not None and repeats_freely(thread, context):
             for conflict in _of_two_alike(thread):
                 by_attribute.setdefault((node, conflict.first.access.name), []).append(conflict)
+    return tuple(_joined(by_attribute))
+
+
+def races_across(pairs: Iterable[tuple[Doer, Doer]]) -> Iterator[Race]:
+    """Races of doers whose executors run at the same time, each on a thread of its own."""
+    by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
+    for one, other in pairs:
+        if _share_data(one, other):
+            for conflict in _at_once(one, other, Overlap()):
+                by_attribute.setdefault(('', conflict.first.access.name), []).append(conflict)
+    yield from _joined(by_attribute)
+
+
+def _of_pair(one: Doer, other: Doer, context: Context) -> Iterator[tuple[str, _Conflict]]:
+    """What two disturb each other by; of two nodes only what is no part of a node."""
+    nodes = node_of(one, context), node_of(other, context)
+    if None in nodes or not _share_data(one, other):
+        return
+    if nodes[0] != nodes[1]:
+        classes = node_classes((context.unit,))
+        one, other = shared_part(one, classes), shared_part(other, classes)
+    of_one = nodes[0] if nodes[0] == nodes[1] else None
+    for conflict in _conflicts(one, other, context):
+        yield of_one or '', conflict
+
+
+def _joined(by_attribute: Mapping[tuple[str, str], list[_Conflict]]) -> Iterator[Race]:
     alike: dict[tuple[RaceKind, bool, str, frozenset[str]], list[Race]] = {}
     for (_, name), conflicts in by_attribute.items():
         race = _race(name, conflicts)
@@ -186,9 +216,13 @@ def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
 
 
 def _share_data(one: Doer, other: Doer) -> bool:
-    used = [{each.name for each in (*doer.reads, *doer.writes)} for doer in (one, other)]
-    written = {write.name for doer in (one, other) for write in doer.writes}
-    return not written.isdisjoint(used[0] & used[1])
+    written = (writes_of(one).keys(), writes_of(other).keys())
+    read = (reads_of(one).keys(), reads_of(other).keys())
+    return not (
+        written[0].isdisjoint(written[1])
+        and written[0].isdisjoint(read[1])
+        and written[1].isdisjoint(read[0])
+    )
 
 
 def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
@@ -205,10 +239,9 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
             (Use(one, a), Use(other, b))
-            for a in one.writes
-            for b in other.writes
-            if a.name == b.name == name
-            and not is_other_item(a, b)
+            for a in writes_of(one).get(name, ())
+            for b in writes_of(other).get(name, ())
+            if not is_other_item(a, b)
             and not comes_before(a, one, other)
             and not comes_before(b, other, one)
         ]
@@ -265,16 +298,16 @@ def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
 def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     """Objects that one tests and then uses, and the other sets to ``None`` in between."""
     for user, clearer in ((one, other), (other, one)):
-        clears = [write for write in clearer.writes if write.clears]
+        cleared = writes_of(clearer)
         for use in (*user.reads, *(write for write in user.writes if write.in_place)):
+            clears = [write for write in cleared.get(use.name, ()) if write.clears]
             tested = read_for(use, user) if use.rests and clears else None
             if tested is not None:
                 kept = kept_between(tested, use, user)
                 yield from (
                     (Use(user, use), Use(clearer, write))
                     for write in clears
-                    if write.name == use.name
-                    and not keep_apart(kept, write.locks)
+                    if not keep_apart(kept, write.locks)
                     and not comes_before(use, user, clearer)
                     and not comes_before(write, clearer, user)
                 )
@@ -287,10 +320,12 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         if first.access.update and not first.access.in_place:
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
-        if not first.access.in_place and _is_read_before(first, second) and _rests(first, second):
+        is_told = not first.access.in_place and first.access.rests
+        if is_told and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
-        if first.access.in_place and _is_read_before(first, second) and _rests(first, second):
+        is_told = first.access.in_place and not _leaves_enough(first, second)
+        if is_told and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
     if one.access.in_place and other.access.in_place:
         return None
@@ -309,9 +344,9 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     return None
 
 
-def _rests(first: Use, second: Use) -> bool:
-    """Of threads, whose loops read a flag that they put down at their end, more is asked."""
-    return first.access.rests or not _is_of_threads(first, second)
+def _leaves_enough(first: Use, second: Use) -> bool:
+    """Who takes an item out because there is one finds one, whatever others put in."""
+    return first.access.moves == TAKES and second.access.moves == ADDS
 
 
 def _is_of_threads(*uses: Use) -> bool:
@@ -321,15 +356,19 @@ def _is_of_threads(*uses: Use) -> bool:
 def _is_read_before(first: Use, second: Use) -> bool:
     """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
     write = first.access
-    changed_at = {steps(other) for other in first.doer.writes if other.in_place}
+    end, changed_at = steps(write), _changed_at(first.doer)
     return any(
-        read.name == write.name
-        and not is_other_item(read, second.access)
-        and (steps(read) < steps(write) or (write.in_place and is_operand(read, write)))
-        and steps(read) not in changed_at
+        not is_other_item(read, second.access)
+        and (at < end or (write.in_place and is_operand(read, write)))
+        and at not in changed_at
         and not keep_apart(read.locks, second.access.locks)
-        for read in first.doer.reads
+        for at, read in reads_of(first.doer).get(write.name, ())
     )
+
+
+@once
+def _changed_at(doer: Doer) -> frozenset[tuple[Place, ...]]:
+    return frozenset(steps(write) for write in doer.writes if write.in_place)
 
 
 def _is_flag(conflict: _Conflict) -> bool:

@@ -14,10 +14,13 @@ from functools import cached_property
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec
+from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
 from ros2cc_extract.spec.releases import Release
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.unit import Verification
+
+Doer = Callback | Activity
+"""Who waits, reads and writes: a callback, or a thread of the program's own."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,16 @@ class Context:
     def by_name(self) -> dict[str, Callback]:
         """Every callback by its name."""
         return {callback.name: callback for callback in self.unit.callbacks}
+
+    @cached_property
+    def doers(self) -> tuple[Doer, ...]:
+        """The callbacks somebody wrote, and what runs beside the executor."""
+        return (*self.written, *self.unit.activities)
+
+    @cached_property
+    def doer_by_name(self) -> dict[str, Doer]:
+        """Every callback and every activity by its name."""
+        return {**self.by_name, **{each.name: each for each in self.unit.activities}}
 
     @cached_property
     def groups(self) -> dict[str, CallbackGroup]:

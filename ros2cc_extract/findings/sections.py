@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ros2cc_extract.findings.order import steps
+from ros2cc_extract.once import known_of, once
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import SHARED, Access
 from ros2cc_extract.spec.model import Activity, Callback
 
@@ -21,10 +23,13 @@ def kept_between(first: Access, last: Access, callback: Callback | Activity) -> 
     A lock that the callback takes again on its way to ``last`` was given back in between, unless
     ``last`` holds it twice, as an ``RLock`` can be.
     """
+    if not last.locks:
+        return ()
+    begin, end = steps(first), steps(last)
     anew = {
         act.name
         for act in callback.locks
-        if steps(first) < steps(act) < steps(last) and act.chain == last.chain[: len(act.chain)]
+        if begin < steps(act) < end and act.chain == last.chain[: len(act.chain)]
     }
     return tuple(
         lock
@@ -36,16 +41,46 @@ def kept_between(first: Access, last: Access, callback: Callback | Activity) -> 
 
 def read_for(deed: Access, doer: Callback | Activity) -> Access | None:
     """The last read before a deed that rests on one; ``None`` if the doer has stored since."""
+    known = known_of(doer).setdefault(read_for, {})
+    if id(deed) not in known:
+        # Kept with its deed, lest another one gets its number.
+        known[id(deed)] = deed, _read_for(deed, doer)
+    found: Access | None = known[id(deed)][1]
+    return found
+
+
+def _read_for(deed: Access, doer: Callback | Activity) -> Access | None:
+    end = steps(deed)
     reads = [
-        read
-        for read in doer.reads
-        if read.name == deed.name and (steps(read) < steps(deed) or is_operand(read, deed))
+        (at, read)
+        for at, read in reads_of(doer).get(deed.name, ())
+        if at < end or is_operand(read, deed)
     ]
-    last = max(reads, key=steps, default=None)
-    stored = (write for write in doer.writes if write.name == deed.name and not write.in_place)
-    if last is None or any(steps(last) < steps(write) < steps(deed) for write in stored):
+    if not reads:
         return None
-    return last
+    begin, last = max(reads, key=lambda pair: pair[0])
+    stored = (write for write in writes_of(doer).get(deed.name, ()) if not write.in_place)
+    return None if any(begin < steps(write) < end for write in stored) else last
+
+
+@once
+def reads_of(
+    doer: Callback | Activity,
+) -> Mapping[str, Sequence[tuple[tuple[Place, ...], Access]]]:
+    """Its reads by name, each with the way to it."""
+    found: dict[str, list[tuple[tuple[Place, ...], Access]]] = {}
+    for read in doer.reads:
+        found.setdefault(read.name, []).append((steps(read), read))
+    return found
+
+
+@once
+def writes_of(doer: Callback | Activity) -> Mapping[str, Sequence[Access]]:
+    """Its writes by name."""
+    found: dict[str, list[Access]] = {}
+    for write in doer.writes:
+        found.setdefault(write.name, []).append(write)
+    return found
 
 
 def keep_apart(one: Sequence[str], other: Sequence[str]) -> bool:

@@ -42,31 +42,38 @@ class SelfRace:
     waits: bool
 
 
-def self_races_of(callback: Callback) -> Iterator[SelfRace]:
-    """The worst one of each attribute."""
+def self_races_of(callback: Callback, shared: frozenset[str] = frozenset()) -> Iterator[SelfRace]:
+    """
+    The worst one of each attribute.
+
+    :param shared: attributes in which others store values too. Who reads such a one back reckons
+        with that; what nobody else stores is taken for what the same run has written.
+    """
     for name in dict.fromkeys(access.name for access in callback.writes):
         writes = [access for access in callback.writes if access.name == name]
-        found = next(_races_on(writes, callback), None)
+        found = next(_races_on(writes, callback, name in shared), None)
         if found is not None:
             yield found
 
 
-def self_races_over_awaits(callback: Callback) -> Iterator[SelfRace]:
+def self_races_over_awaits(
+    callback: Callback, shared: frozenset[str] = frozenset()
+) -> Iterator[SelfRace]:
     """The same of a coroutine on one thread: another run begins only while this one awaits."""
     awaits = tuple(block for block in callback.blocking if kind_of(block) is WaitKind.AWAIT)
     if awaits:
         alone = replace(callback, blocking=awaits)
-        yield from (race for race in self_races_of(alone) if race.waits)
+        yield from (race for race in self_races_of(alone, shared) if race.waits)
 
 
-def _races_on(writes: list[Access], callback: Callback) -> Iterator[SelfRace]:
+def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iterator[SelfRace]:
     plain = [write for write in writes if not write.in_place]
     for write in plain:
         if write.update and not keep_apart(write.locks, write.locks):
             yield SelfRace(SelfRaceKind.LOST_UPDATE, callback, Use(callback, write), waits=False)
     stale = [found for write in plain if (found := _stale(write, plain, callback)) is not None]
     yield from sorted(stale, key=lambda race: not race.waits)
-    for read in callback.reads:
+    for read in () if is_shared else callback.reads:
         if _is_overwritten(read, plain, callback):
             yield SelfRace(SelfRaceKind.OVERWRITTEN, callback, Use(callback, read), waits=True)
 
@@ -88,7 +95,7 @@ def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> b
     """Whether a run reads, after a wait, what it has written before."""
     own = [w for w in writes if w.name == read.name and steps(w) < steps(read) and not w.update]
     last = max(own, key=steps, default=None)
-    if last is None or not _waits(last, read, callback):
+    if last is None or read.compared or not _waits(last, read, callback):
         return False
     return not keep_apart(kept_between(last, read, callback), last.locks)
 

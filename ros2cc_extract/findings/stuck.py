@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.hang import Standstill, open_waits
-from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.waits import Wait, WaitKind, kind_of
-from ros2cc_extract.findings.words import group_words, listing, plural
+from ros2cc_extract.findings.rule import Context, Doer
+from ros2cc_extract.findings.waits import AnyWait, WaitKind, kind_of
+from ros2cc_extract.findings.words import called, group_words, listing, plural
 from ros2cc_extract.findings.workers import is_one_thread
 from ros2cc_extract.spec.deeds import Blocking, Needs
-from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.spec.partners import is_client, server_of
-from ros2cc_extract.verify.caveats import block_at
+from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.partners import client_before, is_client, server_of
+from ros2cc_extract.verify.caveats import block_at, taking_at
 from ros2cc_extract.verify.evidence import Evidence
 
 
@@ -26,12 +26,12 @@ class Stuck:
     :param enders: names of those that could end it, and of the service that answers a client.
     """
 
-    wait: Wait
+    wait: AnyWait
     standstill: Standstill
     enders: tuple[str, ...]
 
     @property
-    def callback(self) -> Callback:
+    def doer(self) -> Doer:
         """Who waits."""
         return self.wait.caller
 
@@ -48,11 +48,11 @@ def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
     """Give all that stands still at the end of a run, in the order in which it began to."""
     found = []
     for standstill in open_waits(run.moments):
-        callback = context.by_name.get(standstill.who)
-        block = _block(callback, standstill, context) if callback is not None else None
-        if callback is not None and block is not None:
+        doer = context.doer_by_name.get(standstill.who)
+        block = _block(doer, standstill, context) if doer is not None else None
+        if doer is not None and block is not None:
             enders = tuple(_with_servers(standstill.enders, context))
-            found.append(Stuck(Wait(callback, block, kind_of(block)), standstill, enders))
+            found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders))
     return found
 
 
@@ -65,49 +65,75 @@ def _with_servers(names: Iterable[str], context: Context) -> Iterator[str]:
             yield server.name
 
 
-def _block(callback: Callback, standstill: Standstill, context: Context) -> Blocking | None:
-    """Give the wait of the source; of the taking of a lock the first wait that is known."""
-    block = block_at(context.unit, callback, standstill.wait)
-    waits = (b for b in callback.blocking if kind_of(b) is not WaitKind.SLEEP)
+def _block(doer: Doer, standstill: Standstill, context: Context) -> Blocking | None:
+    """Give the wait of the source, or where it takes the lock; else the first that is known."""
+    block = block_at(context.unit, doer, standstill.wait)
+    if block is None and standstill.is_for_lock:
+        block = taking_at(context.unit, doer, standstill.wait)
+    waits = (b for b in doer.blocking if kind_of(b) is not WaitKind.SLEEP)
     return block or next(waits, None)
 
 
 def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     """Say why nobody ends a wait: the first cause that holds for all that could."""
-    enders = [context.by_name[name] for name in stuck.enders if name in context.by_name]
+    enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
     if not enders:
-        return 'nobody ends that wait'
-    waiting = [each for each in others if each.callback in enders and each is not stuck]
+        return _why_nobody(stuck, context)
+    waiting = [each for each in others if each.doer in enders and each is not stuck]
     if waiting:
         return listing(_waits_too(each) for each in waiting)
-    if is_one_thread(context.unit.executor):
-        on_it = stuck.callback.display_name
-        return f'{_names(enders)} cannot run: {on_it} holds the only thread of the executor'
-    shut = [ender for ender in enders if _keeper(ender, others, context) is not None]
-    if len(shut) == len(enders) or any(is_client(ender) for ender in shut):
+    served = [ender for ender in enders if isinstance(ender, Callback)]
+    holder = next((each.doer for each in others if isinstance(each.doer, Callback)), None)
+    if served and holder is not None and is_one_thread(context.unit.executor):
+        on_it = stuck.doer if isinstance(stuck.doer, Callback) else holder
+        keeps = f'{called(on_it)} holds the only thread of the executor'
+        return f'{_names(served)} cannot run: {keeps}'
+    shut = [ender for ender in served if _keeper(ender, others, context) is not None]
+    if shut and (len(shut) == len(enders) or any(is_client(ender) for ender in shut)):
         return listing(_shut_out(ender, others, context) for ender in shut)
-    if _is_full(others, context):
+    if served and _is_full(others, context):
         threads = plural(len(context.unit.executor.threads), 'thread')
         return f'no thread is left to run {_names(enders)}: {threads} in all, and each waits'
+    late = [each for each in enders if isinstance(each, Activity) and _follows(each)]
+    if len(late) == len(enders):
+        starters = dict.fromkeys(start.by for each in late for start in each.starts)
+        return f'{_names(late)} begins only when {listing(starters)} has ended, on one thread'
     early = 'comes too early, or is used up by another wait'
     if stuck.wait.block.needs is not Needs.EACH:
         early = 'is not sure to come'
     return f'what {_names(enders)} does for it {early}'
 
 
-def _names(callbacks: Sequence[Callback]) -> str:
-    return listing(callback.display_name for callback in callbacks)
+def _follows(thread: Activity) -> bool:
+    """Whether it begins when whoever starts it has ended."""
+    return bool(thread.starts) and all(start.after is None for start in thread.starts)
+
+
+def _why_nobody(stuck: Stuck, context: Context) -> str:
+    names = dict.fromkeys(waker.by for waker in stuck.wait.block.wakers)
+    late = [context.by_name[name] for name in names if name in context.by_name]
+    if late and all(client_before(each, context.unit.callbacks) == stuck.doer for each in late):
+        client = context.by_name[stuck.doer.name]
+        return (
+            f'{_names(late)}, which ends it, comes with an answer that the same client takes, and '
+            f'{group_words(context.group_of(client))} is closed meanwhile'
+        )
+    return 'nobody ends that wait'
+
+
+def _names(doers: Sequence[Doer]) -> str:
+    return listing(map(called, doers))
 
 
 def _waits_too(stuck: Stuck) -> str:
     what = f' for {stuck.what}' if stuck.what else ''
-    return f'{stuck.callback.display_name}, which ends it, waits itself{what}'
+    return f'{called(stuck.doer)}, which ends it, waits itself{what}'
 
 
 def _keeper(ender: Callback, others: Sequence[Stuck], context: Context) -> Callback | None:
     """Who keeps the group of ``ender`` closed while it waits."""
     group = context.exclusive_group(ender)
-    keepers = (each.callback for each in others if group is not None)
+    keepers = (each.doer for each in others if isinstance(each.doer, Callback))
     return next((k for k in keepers if group is not None and k.group == group.name), None)
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from ros2cc_extract.findings.hang import show_hang
-from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.waits import Wait
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.findings.rule import Context, Doer
+from ros2cc_extract.findings.waits import AnyWait, Wait
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.unit import QueryResult, Verdict
 
@@ -17,16 +16,15 @@ PROGRESS = 'progress'
 NODE_KEPT = 'node_kept'
 
 
-def verdict_on(family: str, context: Context, *callbacks: Callback) -> QueryResult | None:
+def verdict_on(family: str, context: Context, *callbacks: Doer) -> QueryResult | None:
     """The verdict of a family on callbacks, in any order; ``None`` if it was not asked."""
     if context.verification is None:
         return None
-    names = {callback.name for callback in callbacks}
-    found = (r for r in context.verification.results if r.family == family)
-    return next((result for result in found if set(result.callbacks) == names), None)
+    names = frozenset(callback.name for callback in callbacks)
+    return context.verification.by_callbacks.get((family, names))
 
 
-def refuting_run(family: str, context: Context, *callbacks: Callback) -> Evidence | None:
+def refuting_run(family: str, context: Context, *callbacks: Doer) -> Evidence | None:
     """The run that shows that a property does not hold."""
     result = verdict_on(family, context, *callbacks)
     refuted = result is not None and result.verdict is Verdict.NOT_SATISFIED
@@ -43,7 +41,7 @@ def run_in_which_one_hangs(waits: Sequence[Wait], context: Context) -> Evidence 
     return None
 
 
-def shown_hang(callback: Callback, about: Collection[str], context: Context) -> Evidence | None:
+def shown_hang(callback: Doer, about: Collection[str], context: Context) -> Evidence | None:
     """The run that shows that a callback never ends, as far as callbacks of ``about`` go."""
     run = refuting_run(PROGRESS, context, callback)
     if run is None:
@@ -64,7 +62,7 @@ def _exclusive(context: Context) -> dict[str, str]:
     }
 
 
-def surely_ends(wait: Wait, context: Context) -> bool:
+def surely_ends(wait: AnyWait, context: Context) -> bool:
     """
     True when the model proves that the callback always ends, the wait included.
 

@@ -1,5 +1,5 @@
 """
-What a callback waits for, and which other callbacks must run before it goes on.
+What callbacks and threads wait for, and which other callbacks must run before it goes on.
 
 Source of the table: measured on rclpy 7.1.6 and 9.1.2 (``client.py``, ``action/client.py``,
 ``timer.py``, ``task.py``): a synchronous call waits for a ``threading.Event`` that is set when
@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import TypeVar
 
 from ros2cc_extract.findings.model import Remark
-from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.words import shown
+from ros2cc_extract.findings.rule import Context, Doer
+from ros2cc_extract.findings.words import called, shown
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.deeds import TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.spec.partners import client_before, is_client, is_done_callback, server_of
 
@@ -37,6 +38,7 @@ class WaitKind(Enum):
     OTHER = 'other'
 
 
+W = TypeVar('W', bound='AnyWait')
 BUSY_WAIT = 'busy wait'
 EVENT_WAIT = 'Event.wait'
 SPIN_FOR_FUTURE = 'spin for future'
@@ -66,15 +68,15 @@ _KINDS = {
 
 
 @dataclass(frozen=True)
-class Wait:
+class AnyWait:
     """
-    One wait inside a callback.
+    One wait, of a callback or of a thread of the program's own.
 
     :param needs: callbacks of the same unit that must run before it ends; empty when it ends
         otherwise, or when what it waits for is not known.
     """
 
-    caller: Callback
+    caller: Doer
     block: Blocking
     kind: WaitKind
     needs: tuple[Callback, ...] = ()
@@ -93,9 +95,16 @@ class Wait:
     @property
     def chain(self) -> tuple[Remark, ...]:
         """The calls that lead from the callback to the wait."""
-        words = [f'{self.caller.display_name} calls from here']
+        words = [f'{called(self.caller)} calls from here']
         words += ['and on from here'] * (len(self.block.chain) - 1)
         return tuple(map(Remark, self.block.chain, words))
+
+
+@dataclass(frozen=True)
+class Wait(AnyWait):
+    """One wait inside a callback."""
+
+    caller: Callback
 
 
 def kind_of(block: Blocking) -> WaitKind:
@@ -103,6 +112,9 @@ def kind_of(block: Blocking) -> WaitKind:
     known = _KINDS.get(block.call)
     if known is not None:
         return known
+    if block.call.startswith('Clock.'):
+        by_time = any(waker.by == TIME for waker in block.wakers)
+        return WaitKind.SLEEP if by_time else WaitKind.SIGNAL
     if block.call.startswith('Buffer.'):
         return WaitKind.TRANSFORM
     is_spin = block.call.rpartition('.')[2].startswith('spin')
@@ -137,6 +149,7 @@ def _stepped(loop: Blocking, step: Blocking) -> Blocking:
 
 def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Callback]:
     needed = context.by_name.get(block.on) if isinstance(block.on, str) else None
+    needed = needed or _one_of_a_client(block, context)
     if kind_of(block) is WaitKind.PRESENCE:
         return
     if needed is None or needed == caller or exclude_each_other(needed, caller):
@@ -148,6 +161,14 @@ def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Call
     server = server_of(client or needed, context.written)
     if server is not None:
         yield server
+
+
+def _one_of_a_client(block: Blocking, context: Context) -> Callback | None:
+    """Of several that may end a wait, one, where all come behind the answers of one client."""
+    wakers = [context.by_name.get(waker.by) for waker in block.wakers]
+    clients = {client_before(each, context.written) if each else None for each in wakers}
+    is_one = len(clients) == 1 and None not in clients and block.escapes is None
+    return wakers[0] if is_one else None
 
 
 def waits_for(wait: Wait) -> str:
@@ -166,12 +187,13 @@ def name_of_service(client: Callback) -> str:
     return f'{"action" if client.entity is EntityKind.ACTION_CLIENT else "service"}{name}'
 
 
-def waits_in(wait: Wait) -> str:
+def waits_in(wait: AnyWait) -> str:
     """Say where it waits: the call, the loop, the nested spin."""
     words = {
         BUSY_WAIT: 'a busy loop',
         SPIN_FOR_FUTURE: 'a nested spin',
         'polling loop': 'a polling loop',
+        WORKING_LOOP: 'its loop',
     }
     return words.get(wait.block.call, wait.block.call)
 
@@ -191,27 +213,27 @@ def how_it_ends(waits: Sequence[Wait]) -> str:
     return for_ever + (', unless the event was set before' if is_event else '')
 
 
-def at_one_place(waits: Iterable[Wait]) -> Iterator[tuple[Wait, ...]]:
+def at_one_place(waits: Iterable[W]) -> Iterator[tuple[W, ...]]:
     """Waits of several callbacks at one line, for the same, in order of the first."""
-    alike: dict[object, list[Wait]] = {}
+    alike: dict[object, list[W]] = {}
     for wait in waits:
         needs = tuple(needed.name for needed in wait.needs)
         alike.setdefault((wait.place, wait.block.call, needs), []).append(wait)
     yield from map(tuple, alike.values())
 
 
-def callers_of(waits: Sequence[Wait]) -> tuple[str, ...]:
+def callers_of(waits: Sequence[AnyWait]) -> tuple[str, ...]:
     """Names of the callbacks that wait, each once."""
     return tuple(dict.fromkeys(wait.caller.name for wait in waits))
 
 
-def who_waits(waits: Sequence[Wait]) -> str:
+def who_waits(waits: Sequence[AnyWait]) -> str:
     """Say who waits: ``drive waits``, ``drive, stop wait``."""
     names = shown(wait.caller for wait in waits)
     return f'{names} {"waits" if len(callers_of(waits)) == 1 else "wait"}'
 
 
-def ways_of_others(waits: Sequence[Wait]) -> Iterator[Remark]:
+def ways_of_others(waits: Sequence[AnyWait]) -> Iterator[Remark]:
     """Where the others than the first call what waits."""
     for wait in waits[1:]:
         yield from wait.chain[:1]

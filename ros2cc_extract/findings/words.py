@@ -24,9 +24,9 @@ def listing(names: Iterable[str], limit: int = 6) -> str:
     return f'{", ".join(distinct[:limit])} and {len(distinct) - limit} more'
 
 
-def shown(callbacks: Iterable[Callback]) -> str:
-    """List callbacks by the names of their functions."""
-    return listing(callback.display_name for callback in callbacks)
+def shown(doers: Iterable[Callback | Activity]) -> str:
+    """List callbacks by the names of their functions, and threads."""
+    return listing(map(called, doers))
 
 
 def called(doer: Callback | Activity) -> str:
@@ -45,10 +45,13 @@ def plural(number: int, noun: str) -> str:
     return f'{number} {noun}{"" if number == 1 else "s"}'
 
 
-def made_at(*owners: Callback | CallbackGroup) -> Iterator[Remark]:
-    """Where callbacks and groups were created, for those whose place is known."""
+def made_at(*owners: Callback | CallbackGroup | Activity) -> Iterator[Remark]:
+    """Where callbacks and groups were created, and threads started, whose place is known."""
     for owner in owners:
-        if owner.source is not None:
+        if isinstance(owner, Activity):
+            if owner.source is not None and owner.kind is not ActivityKind.MAIN:
+                yield Remark(owner.source, f'{called(owner)} is started here')
+        elif owner.source is not None:
             words = _made_words(owner)
             yield Remark(owner.source, f'{words} is created here')
 

@@ -19,6 +19,7 @@ from ros2cc_extract.report.overview_text import print_overview
 from ros2cc_extract.report.spec_text import print_spec
 from ros2cc_extract.report.style import table
 from ros2cc_extract.report.verdict_text import print_digest, print_evidence, print_table
+from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.confidence import confidence_in
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
@@ -56,7 +57,7 @@ def print_check(
         print_overview(verified, findings, console)
     else:
         for unit, verification in verified:
-            print_spec(unit, console)
+            print_spec(printable(unit), console)
             console.print()
             _print_verification(verification, console)
             console.print()
@@ -70,7 +71,7 @@ def print_check(
         _print_notes(notes, console)
     print_in_lines(open_waits, console)
     for line in confidence_lines(confidence_in(unit for unit, _ in verified), 0):
-        console.print(line)
+        console.print(one_line(line))
     console.print(_totals(summary), soft_wrap=True)
 
 
@@ -95,7 +96,7 @@ def _print_notes(notes: Sequence[Finding], console: Console) -> None:
     rows.show_header = False
     fullest = sorted(files.items(), key=lambda item: (-item[1].total(), item[0]))
     for file, codes in fullest[:MOST_FILES]:
-        rows.add_row(file, _times(codes))
+        rows.add_row(one_line(file), _times(codes))
     if len(files) > MOST_FILES:
         others = sum((codes for _, codes in fullest[MOST_FILES:]), Counter[str]())
         rows.add_row(f'{len(files) - MOST_FILES} more files', _times(others))

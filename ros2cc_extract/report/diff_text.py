@@ -9,12 +9,14 @@ from rich.console import Console
 from ros2cc_extract.merge import Difference
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.style import table
+from ros2cc_extract.shown import printable
 
 
 def print_differences(
     differences: Sequence[Difference], names: tuple[str, str], console: Console
 ) -> None:
     """Print one row per difference; those that one side announced come last."""
+    differences, names = printable(differences), printable(names)
     if not differences:
         console.print(f'no difference between {names[0]} and {names[1]}')
         return

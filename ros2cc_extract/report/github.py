@@ -15,6 +15,7 @@ from ros2cc_extract.findings.fingerprints import relative
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.counts import counted
+from ros2cc_extract.shown import printable
 
 SHOWN_PER_KIND = 10
 MOST_ROWS = 500
@@ -25,7 +26,7 @@ _MARKS = {Severity.ERROR: '🔴', Severity.WARNING: '🟠', Severity.NOTE: '🔵
 
 def workflow_commands(findings: Sequence[Finding], *, root: str = '') -> str:
     """Write the workflow commands, errors first; within a kind by code and place."""
-    lines = []
+    findings, lines = printable(findings), []
     for severity in Severity:
         of_kind = sorted(
             (f for f in findings if f.severity is severity), key=lambda f: (f.code, f.place)
@@ -42,6 +43,7 @@ def step_summary(
 
     Errors first; notes are folded. Of more rows than ``MOST_ROWS`` the last are counted only.
     """
+    findings = printable(findings)
     counts = ', '.join(counted(number, what) for what, number in summary.items())
     lines = ['## ros2cc-extract', '', counts, '']
     if not findings:

@@ -24,6 +24,7 @@ from ros2cc_extract.report.html_parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html_unit import Numbered, unit_picture
 from ros2cc_extract.report.owners import is_about
 from ros2cc_extract.report.run_lanes import Lane, lanes_of
+from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence, Moment
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
@@ -71,6 +72,9 @@ def html_report(
     :param verifications: of the units, in their order; empty when none was verified.
     :param sources: text of the files named by places; an excerpt is left out where one is not.
     """
+    units, findings = printable(units), printable(findings)
+    verifications = printable(verifications)
+    sources = {one_line(file): text for file, text in sources.items()}
     runs = _Runs()
     numbered = list(enumerate(findings, start=1))
     names = {unit.name: [callback.name for callback in unit.callbacks] for unit in units}

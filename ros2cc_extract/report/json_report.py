@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.merge import Difference
+from ros2cc_extract.shown import json_text
 from ros2cc_extract.spec.confidence import Summary, confidence_in
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
@@ -20,7 +20,7 @@ Data = dict[str, Any]
 
 def to_text(data: object) -> str:
     """Write plain data as JSON text with a final newline."""
-    return json.dumps(data, indent=2, ensure_ascii=False) + '\n'
+    return json_text(data)
 
 
 def verification_data(verification: Verification) -> Data:

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.shown import printable, without_commands
 
 _NOT_XML = re.compile('[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]')
 """What XML 1.0 does not allow even as a reference."""
@@ -25,6 +26,7 @@ def junit(findings: Sequence[Finding], files: Sequence[str], package: str) -> st
     :param files: every file that was looked at.
     :param package: what the suite is named after.
     """
+    findings, files = printable(findings), printable(files)
     failures = [f for f in findings if f.severity is not Severity.NOTE]
     failed = {finding.place.file for finding in failures}
     passed = sorted(set(files) - failed)
@@ -77,4 +79,4 @@ def _notes(findings: Sequence[Finding]) -> Iterator[ElementTree.Element]:
 
 
 def _clean(text: str) -> str:
-    return _NOT_XML.sub('\ufffd', text)
+    return without_commands(_NOT_XML.sub('\ufffd', text))

@@ -14,6 +14,7 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.counts import counted
 from ros2cc_extract.report.owners import is_about
 from ros2cc_extract.report.style import table
+from ros2cc_extract.shown import one_line
 from ros2cc_extract.spec.model import Executor, Spec
 from ros2cc_extract.verify.unit import Verdict, Verification
 
@@ -37,9 +38,9 @@ def print_overview(
             left_out += 1
             continue
         rows.add_row(
-            unit.name,
-            _home(unit, shared),
-            _executor(unit.executor),
+            one_line(unit.name),
+            one_line(_home(unit, shared)),
+            one_line(_executor(unit.executor)),
             str(len(unit.callbacks)),
             str(len({callback.group for callback in unit.callbacks})),
             _overlapping(verification),

@@ -8,7 +8,6 @@ Source: OASIS "Static Analysis Results Interchange Format (SARIF) Version 2.1.0"
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from typing import Any
 from urllib.parse import quote
@@ -21,6 +20,7 @@ from ros2cc_extract.findings.registry import RULES
 from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.closing import closing_lines
+from ros2cc_extract.shown import json_text
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.version import __version__
 
@@ -56,7 +56,7 @@ def sarif(findings: Sequence[Finding], *, root: str = '', docs_url: str = '') ->
             }
         ],
     }
-    return json.dumps(log, indent=2, ensure_ascii=False) + '\n'
+    return json_text(log)
 
 
 def _driver(docs_url: str) -> Data:

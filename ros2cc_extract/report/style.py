@@ -13,6 +13,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from ros2cc_extract.shown import Shown, printable
 from ros2cc_extract.verify.unit import Verdict
 
 LOG_WIDTH = 160
@@ -29,7 +30,8 @@ _COLOURS = {
 def console_for(stream: TextIO) -> Console:
     """Make a console; where the stream is no terminal the width does not depend on the machine."""
     width = None if stream.isatty() or 'COLUMNS' in os.environ else LOG_WIDTH
-    target = cast(TextIO, Unpadded(stream))
+    shown = cast(TextIO, Shown(stream, styled=stream.isatty(), in_log=True))
+    target = cast(TextIO, Unpadded(shown))
     return Console(file=target, width=width, highlight=False, markup=False, emoji=False)
 
 
@@ -67,6 +69,7 @@ def table(*headers: str) -> Table:
 
 def print_rows(rows: Sequence[Sequence[str]], console: Console, *, indent: int = 0) -> None:
     """Print rows of plain text below each other as a table without headers does."""
+    rows = printable(rows)
     widths = [max(map(cell_len, column)) for column in zip(*rows, strict=True)]
     if indent + sum(widths) + GAP * (len(widths) - 1) <= console.width:
         # Most rows fit, and a table takes a hundred times as long as a line.

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ros2cc_extract.report.style import table
+from ros2cc_extract.shown import printable
 from ros2cc_extract.verify.sweep import Point, Sweep
 from ros2cc_extract.verify.unit import Verdict
 
@@ -21,6 +22,7 @@ _SIGNS = {
 
 def print_sweep(sweep: Sweep, console: Console) -> None:
     """Print one column per point, then what follows from it."""
+    sweep = printable(sweep)
     bounds = {point.max_cycle for point in sweep.points}
     rows = table('  #', 'query', *(_head(point, len(bounds) > 1) for point in sweep.points))
     first = sweep.verifications[0]

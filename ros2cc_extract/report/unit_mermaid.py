@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.spec_text import describe_executor
+from ros2cc_extract.shown import printable
 from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec
 
 CHANGED = 'stroke:#c62828,stroke-width:3px'
@@ -19,6 +20,7 @@ def units_diagram(units: Sequence[Spec], *, builtin: bool = False) -> str:
 
     :param builtin: also draw what rclpy itself adds to every node.
     """
+    units = printable(units)
     if len(units) == 1:
         chart = _Chart(units[0], 'n_', builtin=builtin)
         return _document([*chart.lines(), *chart.styles()])
@@ -32,7 +34,7 @@ def sides_diagram(sides: Sequence[tuple[str, Sequence[Spec]]], changed: Containe
 
     :param changed: names of callbacks, groups and executors to be marked.
     """
-    lines, styles = _boxes(sides, changed)
+    lines, styles = _boxes(printable(sides), changed)
     # An unseen link keeps Mermaid from drawing the last side first.
     links = [f'    side_{number - 1} ~~~ side_{number}' for number in range(1, len(sides))]
     return _document([*lines, *links, *styles])

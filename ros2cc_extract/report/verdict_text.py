@@ -10,6 +10,7 @@ from rich.console import Console
 from ros2cc_extract.report.closing import closing_lines
 from ros2cc_extract.report.spec_text import short
 from ros2cc_extract.report.style import print_rows, table, verdict_text
+from ros2cc_extract.shown import one_line
 from ros2cc_extract.verify.evidence import Evidence, Moment
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
@@ -122,7 +123,7 @@ def print_run(evidence: Evidence, console: Console, *, changes: bool = False) ->
     """Print the steps of a run, numbered, with the places of the callbacks they name."""
     print_rows(list(_run_rows(evidence, changes)), console, indent=2)
     for line in closing_lines(evidence):
-        console.print(f'       {line}', soft_wrap=True)
+        console.print(f'       {one_line(line)}', soft_wrap=True)
 
 
 def _run_rows(evidence: Evidence, changes: bool) -> Iterator[tuple[str, str, str]]:

@@ -17,7 +17,8 @@ from ros2cc_extract.cli.config import load_config, read_config
 from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS
 from ros2cc_extract.cli.output import write_atomically
 from ros2cc_extract.cli.pipeline import Outcome, check_paths
-from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.cli.streams import with_streams
+from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.report.findings_text import print_findings
@@ -30,6 +31,11 @@ from ros2cc_extract.ros.standard import standard_job
 def main(argv: Sequence[str] | None = None) -> int:
     """Check, print what is found, and give 0 when nothing fails."""
     return main_with_errors(argv)[0]
+
+
+def entry_point() -> int:
+    """Run as the console script."""
+    return with_streams(lambda stdout, stderr: main())
 
 
 def main_with_errors(argv: Sequence[str] | None = None) -> tuple[int, list[str]]:
@@ -66,8 +72,11 @@ def _parser() -> argparse.ArgumentParser:
 
 def _check(args: argparse.Namespace) -> tuple[int, list[str]]:
     config = load_config(args.paths[0]) if args.config is None else read_config(args.config)
-    files = python_files(args.paths, args.exclude)
-    outcome = check_paths(standard_job(files, config), sys.stderr)
+    barred: list[Diagnostic] = []
+    files = python_files(
+        args.paths, args.exclude, on_error=lambda error: barred.append(unreadable_folder(error))
+    )
+    outcome = check_paths(standard_job(files, config, barred), sys.stderr)
     failures = [f for f in outcome.findings if f.severity is not Severity.NOTE]
     _tell(outcome, len(failures))
     if args.xunit_file is not None:
@@ -91,4 +100,4 @@ def _line(finding: Finding) -> str:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(entry_point())

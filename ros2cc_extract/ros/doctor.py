@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ros2cc_extract.cli.config import load_config
 from ros2cc_extract.cli.pipeline import Outcome, check_paths
-from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.ros.packages import MANIFEST, python_files
@@ -63,8 +63,9 @@ def checked_folder(here: Path) -> Path | None:
 
 
 def _outcome(folder: Path) -> Outcome:
-    job = standard_job(python_files([folder]), load_config(folder))
-    return check_paths(job, io.StringIO())
+    barred: list[Diagnostic] = []
+    files = python_files([folder], on_error=lambda error: barred.append(unreadable_folder(error)))
+    return check_paths(standard_job(files, load_config(folder), barred), io.StringIO())
 
 
 def _counted(outcome: Outcome) -> Counts:

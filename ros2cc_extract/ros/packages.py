@@ -10,9 +10,11 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.files import DISK, OnError, read_regular, real_path
 from ros2cc_extract.places import Place
 
 MANIFEST = 'package.xml'
+MOST_BYTES = 1_000_000
 SKIP_MARKS = frozenset({'AMENT_IGNORE', 'COLCON_IGNORE', 'pyvenv.cfg'})
 """Folders that hold one of these are nobody's source; ``colcon`` marks build, install and log."""
 
@@ -40,7 +42,7 @@ def read_package(folder: Path) -> Package:
     """
     path = folder / MANIFEST
     try:
-        root = ElementTree.fromstring(path.read_bytes())
+        root = ElementTree.fromstring(read_regular(path, MOST_BYTES))
     except OSError as error:
         raise InputError(
             f'cannot be read: {error.strerror}', Place(str(path)), 'name the folder of a package'
@@ -59,9 +61,9 @@ def read_package(folder: Path) -> Package:
 
 def package_name(path: Path) -> str:
     """The package that ``path`` belongs to; without one, the name of the folder."""
-    folder = path.resolve() if path.is_dir() else path.resolve().parent
+    folder = real_path(path) if path.is_dir() else real_path(path).parent
     for candidate in (folder, *folder.parents):
-        if (candidate / MANIFEST).is_file():
+        if DISK.is_file(candidate / MANIFEST):
             try:
                 return read_package(candidate).name
             except InputError:
@@ -69,25 +71,28 @@ def package_name(path: Path) -> str:
     return folder.name or 'ros2cc'
 
 
-def python_files(paths: Sequence[Path], excludes: Sequence[str] = ()) -> list[Path]:
+def python_files(
+    paths: Sequence[Path], excludes: Sequence[str] = (), *, on_error: OnError
+) -> list[Path]:
     """
     List the Python files that an ament linter looks at.
 
     :param excludes: shell patterns of file names, or of paths as they are walked.
+    :param on_error: is told of folders that cannot be looked into.
     :raises InputError: for a path that is not there.
     """
     found: dict[Path, None] = {}
     for path in paths:
         if not path.exists():
             raise InputError('no such file or directory', Place(str(path)))
-        for file in _walk(path) if path.is_dir() else (path,):
+        for file in _walk(path, on_error) if path.is_dir() else (path,):
             if not _is_excluded(file, excludes):
                 found[file] = None
     return list(found)
 
 
-def _walk(folder: Path) -> Iterator[Path]:
-    for base, folders, files in os.walk(folder):
+def _walk(folder: Path, on_error: OnError) -> Iterator[Path]:
+    for base, folders, files in os.walk(folder, onerror=on_error):
         if SKIP_MARKS.intersection((*folders, *files)):
             folders.clear()
             continue

@@ -9,6 +9,7 @@ from ros2cc_extract.checker.api import Limits
 from ros2cc_extract.cli.config import Config, assumptions_of
 from ros2cc_extract.cli.pipeline import Job
 from ros2cc_extract.cli.sources import read_input
+from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.findings.baseline import read_baseline
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.verify.unit import Options
@@ -16,10 +17,11 @@ from ros2cc_extract.verify.unit import Options
 SECONDS_PER_UNIT = 20.0
 
 
-def standard_job(paths: Sequence[Path], config: Config) -> Job:
+def standard_job(paths: Sequence[Path], config: Config, noticed: Sequence[Diagnostic] = ()) -> Job:
     """
     Set up a check of ``paths``.
 
+    :param noticed: what is known already, such as folders that cannot be looked into.
     :raises InputError: when the baseline of the settings cannot be used.
     """
     known: frozenset[str] = frozenset()
@@ -33,4 +35,5 @@ def standard_job(paths: Sequence[Path], config: Config) -> Job:
         assumptions=assumptions_of(config, ()),
         root=config.root.resolve(),
         known=known,
+        noticed=tuple(noticed),
     )

@@ -12,7 +12,14 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.errors import IncompleteSpecError
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.identifiers import mend
-from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, GroupType, Spec
+from ros2cc_extract.spec.model import (
+    Activity,
+    Callback,
+    CallbackGroup,
+    Executor,
+    GroupType,
+    Spec,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,13 +50,23 @@ class ClosedSpec:
     assumptions: tuple[str, ...]
 
 
+def waited_for(spec: Spec) -> frozenset[str]:
+    """Names of those that end waits; what rclpy makes itself matters then."""
+    doers: tuple[Callback | Activity, ...] = (*spec.callbacks, *spec.activities)
+    blocks = (block for doer in doers for block in doer.blocking)
+    return frozenset(waker.by for block in blocks for waker in block.wakers)
+
+
 def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
     """
     Decide every open fact of ``spec`` by ``policy``.
 
     :raises IncompleteSpecError: when nothing is left to model.
     """
-    callbacks = tuple(c for c in spec.callbacks if policy.builtin or not c.builtin)
+    waited = waited_for(spec)
+    callbacks = tuple(
+        c for c in spec.callbacks if policy.builtin or not c.builtin or c.name in waited
+    )
     if not callbacks:
         raise IncompleteSpecError(
             f'unit {spec.name!r} has no callback', spec.executor.source, 'nothing to verify'

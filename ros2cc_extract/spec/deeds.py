@@ -23,6 +23,12 @@ class Needs(Enum):
 OUTSIDE = 'outside'
 TIME = 'time'
 
+BY_ITSELF = 'of these waits end by themselves'
+"""Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
+
+WORKING_LOOP = 'working loop'
+"""A loop in which a thread works until somebody ends it: only its end is waited for."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Waker:
@@ -68,6 +74,7 @@ class Blocking:
     :param escapes: why somebody else might end it too, or who ends it is not known.
     :param conditional: true where a branch may skip the wait.
     :param only_if: what leads there, where a parameter decides and its default does not.
+    :param assumed: the rule by which ``seconds`` was assumed.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
     """
 
@@ -85,12 +92,14 @@ class Blocking:
     escapes: Unknown | None = None
     conditional: bool = False
     only_if: str | None = None
+    assumed: str | None = None
     times: int = 1
 
 
 RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
 FLAG = ' (flag)'
+ADDS, TAKES = 'adds', 'takes'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,12 +115,17 @@ class Access:
     :param in_place: true for an update by one operation on the object itself (``append``,
         ``d[k] = v``), which CPython does in one piece.
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
+    :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
+        takes an item out.
     :param iterates: class of the collection, where a loop goes over it.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
+    :param compared: true for a read that only asks whether it is still what the code has in a
+        name of its own.
+    :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested.
     """
 
@@ -121,11 +135,14 @@ class Access:
     update: bool = False
     in_place: bool = False
     keeps_size: bool = False
+    moves: str | None = None
     iterates: str | None = None
     item: str | None = None
     rests: bool = False
     clears: bool = False
     constant: bool = False
+    compared: bool = False
+    admits: bool = False
     later: bool = False
     chain: tuple[Place, ...] = ()
 

@@ -14,7 +14,8 @@ from typing import Any
 
 import yaml
 
-from ros2cc_extract.errors import InputError, SpecFormatError
+from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.files import read_named
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.codecs import COUNT, TEXT, Codec, JsonSchema, listing, member, optional
 from ros2cc_extract.spec.cursor import Cursor, compose
@@ -37,6 +38,7 @@ from ros2cc_extract.spec.tables import (
     UNRESOLVED,
 )
 
+MOST_BYTES = 64_000_000
 SPEC_VERSION = 2
 READ_VERSIONS = (1, 2)
 """Version 1 knows no wakers and no activities: who ends its waits is then open."""
@@ -205,32 +207,36 @@ def read_specs(text: str, file: str) -> tuple[Spec, ...]:
 
 
 def load_specs(path: Path) -> tuple[Spec, ...]:
-    """Read a YAML file; see ``read_specs``."""
+    """Read a YAML file, or what comes through a pipe without a suffix; see ``read_specs``."""
     try:
-        text = path.read_text(encoding='utf-8')
+        text = read_named(path, MOST_BYTES, pipes=not path.suffix).decode('utf-8')
     except UnicodeDecodeError as error:
         raise SpecFormatError(
             f'no UTF-8 text (byte {error.start})', Place(str(path)), 'is this a YAML file?'
         ) from None
-    except OSError as error:
-        reason = error.strerror or type(error).__name__
-        raise InputError(f'cannot be read: {reason}', Place(str(path))) from None
     return read_specs(text, str(path))
 
 
 def write_specs(specs: Iterable[Spec]) -> str:
     """Write one YAML document per unit."""
     documents = [SPEC.encode(spec) for spec in specs]
-    return _COMMENT + ''.join(
-        yaml.dump_all(
-            documents,
-            Dumper=_Dumper,
-            sort_keys=False,
-            allow_unicode=True,
-            width=_NO_FOLDING,
-            explicit_start=len(documents) > 1,
-        )
+    text = _dumped(documents, allow_unicode=True)
+    if not text.replace('\n', '').isprintable():
+        # YAML takes for letters what turns their order round, and a terminal obeys.
+        text = _dumped(documents, allow_unicode=False)
+    return _COMMENT + text
+
+
+def _dumped(documents: list[Any], *, allow_unicode: bool) -> str:
+    text: str = yaml.dump_all(
+        documents,
+        Dumper=_Dumper,
+        sort_keys=False,
+        allow_unicode=allow_unicode,
+        width=_NO_FOLDING,
+        explicit_start=len(documents) > 1,
     )
+    return text
 
 
 def spec_to_data(spec: Spec) -> Mapping[str, Any]:
@@ -257,4 +263,11 @@ def _represent_flow(dumper: yaml.SafeDumper, data: Flow) -> yaml.Node:
     return dumper.represent_mapping('tag:yaml.org,2002:map', data.items(), flow_style=True)
 
 
+def _represent_text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
+    """On one line, whatever is in it; else its own lines could pass for others."""
+    style = None if data.isprintable() else '"'
+    return dumper.represent_scalar('tag:yaml.org,2002:str', data, style=style)
+
+
+_Dumper.add_representer(str, _represent_text)
 _Dumper.add_representer(Flow, _represent_flow)

@@ -102,6 +102,8 @@ class Slicing:
         asked: dict[Shape, list[_Question]] = {}
         outlines: dict[Names, Outline | None] = {}
         for query in queries:
+            if self.limits.is_over:
+                break
             for names in self._slices(query):
                 if names not in outlines:
                     outlines[names] = self.slicer.outline(names)

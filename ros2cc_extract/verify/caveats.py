@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.generator.resources import ends_outside, is_left_open
+from ros2cc_extract.generator.resources import Actor, ends_outside, is_left_open
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.spins import is_part_of_spin
-from ros2cc_extract.generator.waits import unknown_ends, waits_of
+from ros2cc_extract.generator.spins import is_part_of_spin, is_spin
+from ros2cc_extract.generator.steps import NamedWait
+from ros2cc_extract.generator.waits import is_unknown, unknown_ends, waits_of
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.model import Callback, Spec
+from ros2cc_extract.spec.model import Activity, Spec
 
 
 def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
@@ -51,28 +52,52 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
 
 def open_ends(unit: Spec) -> dict[str, tuple[Blocking, ...]]:
     """
-    Give for each callback that somebody wrote the waits of which no model knows how they end.
+    Give for each doer that somebody wrote the waits of which no model knows how they end.
 
     Those that somebody outside the unit ends are among them: models take it that he does.
     """
-    return {
-        callback.name: tuple(
-            block for block in callback.blocking if _is_open(block, callback, unit)
-        )
-        for callback in unit.callbacks
-        if not callback.builtin
-    }
+    written = tuple(callback for callback in unit.callbacks if not callback.builtin)
+    doers: tuple[Actor, ...] = (*written, *unit.activities)
+    return {doer.name: tuple(_open_ends_of(doer, unit)) for doer in doers}
 
 
-def _is_open(block: Blocking, callback: Callback, unit: Spec) -> bool:
-    if any(block is unknown for unknown in unknown_ends(callback, unit)):
-        return True
-    if is_part_of_spin(block, callback):
+def _open_ends_of(doer: Actor, unit: Spec) -> Iterator[Blocking]:
+    unknown = () if isinstance(doer, Activity) else unknown_ends(doer, unit)
+    known = {id(block) for block in unknown}
+    return (b for b in doer.blocking if id(b) in known or _is_open(b, doer, unit))
+
+
+def _is_open(block: Blocking, doer: Actor, unit: Spec) -> bool:
+    if isinstance(doer, Activity):
+        if is_spin(block):
+            return False  # it serves others, as an executor does
+        if is_unknown(block, doer, unit):
+            return True
+    elif is_part_of_spin(block, doer):
         return False
     return is_left_open(block, unit) or ends_outside(block, unit)
 
 
-def block_at(unit: Spec, callback: Callback, wait: int | None) -> Blocking | None:
-    """Give the wait of a callback that a model numbers ``wait``, as an event of a run does."""
-    steps = tuple(waits_of(callback, unit))
-    return steps[wait].block if wait is not None and wait < len(steps) else None
+def block_at(unit: Spec, doer: Actor, wait: int | None) -> Blocking | None:
+    """Give the wait of a doer that a model numbers ``wait``, as an event of a run does."""
+    step = _step_at(unit, doer, wait)
+    return step.block if step is not None else None
+
+
+def taking_at(unit: Spec, doer: Actor, wait: int | None) -> Blocking | None:
+    """Give the taking of the lock that is waited for there, as a wait."""
+    step = _step_at(unit, doer, wait)
+    if step is None or step.lock is None:
+        return None
+    acts = (act for act in doer.locks if act.name == step.lock.name and not act.tries)
+    act = next(acts, None)
+    if act is None:
+        return None
+    return Blocking(
+        call='Lock.acquire', source=act.source, chain=act.chain, resource=step.lock.name
+    )
+
+
+def _step_at(unit: Spec, doer: Actor, wait: int | None) -> NamedWait | None:
+    steps = tuple(waits_of(doer, unit))
+    return steps[wait] if wait is not None and wait < len(steps) else None

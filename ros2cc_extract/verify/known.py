@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ros2cc_extract.cachefile import load_value, store_value
 from ros2cc_extract.checker.api import CheckResult, Verdict
+from ros2cc_extract.packing import Packer
 
 Question = tuple[object, ...]
 Role = tuple[str, tuple[int, ...], tuple[int, ...]]
@@ -59,6 +60,9 @@ class Entry:
         return all(each.is_final for each in self.answers.values())
 
 
+_ENTRY: Packer[Entry] = Packer(Entry)
+
+
 @dataclass
 class Shelf:
     """
@@ -80,15 +84,14 @@ class Shelf:
             if not entry.is_final:
                 return entry
             if self.folder is not None:
-                store_value(self._path(question), entry)
+                store_value(self._path(question), entry, _ENTRY)
         self.entries[question] = entry
         return entry
 
     def _load(self, question: Question) -> Entry | None:
         if self.folder is None:
             return None
-        value = load_value(self._path(question))
-        return value if isinstance(value, Entry) else None
+        return load_value(self._path(question), _ENTRY)
 
     def _path(self, question: Question) -> Path:
         assert self.folder is not None, 'only asked where there is one'

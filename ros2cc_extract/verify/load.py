@@ -295,8 +295,11 @@ def _in_pool(spec: Spec, callback: Callback, demands: Mapping[str, Demand]) -> L
 def _of_groups(spec: Spec, loads: Mapping[str, float]) -> float:
     """How many threads they want; an exclusive group never wants more than one."""
     total = 0.0
+    by_group: dict[str, float] = {}
+    for callback in _counted(spec):
+        by_group[callback.group] = by_group.get(callback.group, 0.0) + loads[callback.name]
     for group in spec.groups:
-        wanted = sum(loads[c.name] for c in _counted(spec) if c.group == group.name)
+        wanted = by_group.get(group.name, 0.0)
         total += min(1.0, wanted) if group.type is GroupType.EXCLUSIVE else wanted
     return total
 

@@ -14,6 +14,7 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.asking import Found, Key, Search, Slicing, key_of, total, weighs_more
+from ros2cc_extract.verify.crowds import Refute, refute_by_crowds
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.slices import Names, Slicer
@@ -30,11 +31,13 @@ def narrow(
     search: Search,
     limits: Limits,
     shelf: Shelf | None = None,
+    refute: Refute | None = None,
 ) -> Found:
     """
     Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each.
 
     :param shelf: answers that hold for slices of other units too.
+    :param refute: asks parts over waypoints, where no slice shows that a free thread comes.
     """
     limits = limits.begun()
     found: Found | None = None
@@ -55,6 +58,12 @@ def narrow(
             found = _derive(found, left, slicer)
             left = [q for q in left if _is_undecided(found.results.get(key_of(q)))]
     results = {} if found is None else found.results
+    if refute is not None and not slicer.has_threads_to_spare:
+        open_ones = [q for q in queries if _is_undecided(results.get(key_of(q)))]
+        part = refute_by_crowds(slicer, open_ones, refute, limits)
+        if part is not None:
+            found = part if found is None else joined(found, part)
+            results = found.results
     rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
     if rest or found is None:
         whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, limits)
@@ -66,7 +75,8 @@ def narrow(
 def _unasked(queries: Sequence[Query], keys: Sequence[Key], limits: Limits) -> Found:
     """What is open when the time is over before the whole unit could be asked."""
     reason = limits.deadline.reason if limits.deadline else ''
-    left = [query for query in queries if key_of(query) in keys]
+    wanted = set(keys)
+    left = [query for query in queries if key_of(query) in wanted]
     check = CheckResult(
         engine='none',
         note='',

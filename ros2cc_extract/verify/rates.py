@@ -13,7 +13,7 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
 
-_PAUSES = ('time.sleep', 'asyncio.sleep')
+_PAUSES = ('time.sleep', 'asyncio.sleep', 'Clock.sleep_for', 'Clock.sleep_until')
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,6 +13,9 @@ from ros2cc_extract.checker.limits import seconds_reason
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 
+_AGAIN_S = 1.0
+"""What an alarm raises inside a callback of the garbage collector is lost: it rings again."""
+
 
 class _TimeOverError(BaseException):
     """No ``Exception``, which a parser might take for one of its own."""
@@ -38,7 +41,7 @@ def limited_reading(limits: Limits, path: Path) -> Iterator[Callable[[], None]]:
         raise _TimeOverError
 
     signal.signal(signal.SIGALRM, hear)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, max(seconds, 0.001), _AGAIN_S)
     try:
         yield _disarm
     except _TimeOverError:

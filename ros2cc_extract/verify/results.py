@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Query
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.load import Load
+
+
+class NotKept(Enum):
+    """Stands for a run that was found and stayed behind: it can be found again."""
+
+    RUN = 'run'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,13 +39,14 @@ class QueryResult:
     verdict: Verdict
     reason: str | None
     seconds: float
-    run: Evidence | Callable[[], Evidence] | None
+    run: Evidence | Callable[[], Evidence] | NotKept | None
     load: Load | None = None
     in_doubt: bool = False
 
     @cached_property
     def evidence(self) -> Evidence | None:
         """The run behind the verdict, replayed and told when it is first asked for."""
+        assert not isinstance(self.run, NotKept), 'put back before anybody asks'
         return self.run() if callable(self.run) else self.run
 
 
@@ -67,6 +75,14 @@ class Verification:
     assumptions: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     defect: str = ''
+
+    @cached_property
+    def by_callbacks(self) -> Mapping[tuple[str | None, frozenset[str]], QueryResult]:
+        """The first result of each family on the same callbacks, in any order."""
+        found: dict[tuple[str | None, frozenset[str]], QueryResult] = {}
+        for result in self.results:
+            found.setdefault((result.family, frozenset(result.callbacks)), result)
+        return found
 
     @property
     def is_undecided(self) -> bool:

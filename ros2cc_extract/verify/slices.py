@@ -190,6 +190,51 @@ class Slicer:
                 holders[callback.name, callback.group] = self._runs_by_arrivals(callback)
         return self._threads > sum(holders.values())
 
+    def crowd(self, first: Sequence[str], rather: Names, without: Names) -> tuple[str, ...] | None:
+        """
+        Name callbacks that may hold all threads while they wait, one of each exclusive group.
+
+        :param first: who has to be among them.
+        :param rather: who is taken before others; ``without`` are those that are not taken.
+        """
+        if not self._may_be_crowded:
+            return None
+        waits = {
+            name
+            for name, own in self._waits.items()
+            if any(not wait.frees_thread for wait in own) and name not in without
+        }
+        others = [name for name in self._by_name if name not in first]
+        order = [*first, *sorted(others, key=lambda name: name not in rather)]
+        taken: list[str] = []
+        groups: set[object] = set()
+        for name in order:
+            group = self._by_name[name].group
+            if name in waits and group not in groups and len(taken) < self._threads:
+                taken.append(name)
+                groups.update({group} & self._exclusive)
+        return tuple(taken) if len(taken) == self._threads else None
+
+    @cached_property
+    def _may_be_crowded(self) -> bool:
+        """Activities run in every run of the unit, and a spin serves others while it waits."""
+        has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
+        has_activities = len(self._steps) > len(self._by_name)
+        return has_pool and not self._spinning and not has_activities
+
+    def part_of_crowd(self, names: Iterable[str]) -> ClosedSpec | None:
+        """Cut them out with whoever may end their waits; ``None`` where that is no part."""
+        cone = self._cone(names, Rests.ON_RUNS)
+        if not cone <= self._by_name.keys():
+            return None
+        part = self.cut(cone)
+        is_full = len(part.spec.executor.threads) == self._threads
+        return part if is_full and self.has_waits_of(part.spec) else None
+
+    def gets_data(self, name: str) -> bool:
+        """Whether something may arrive for it that nobody of the unit has asked for."""
+        return not self._callers[name]
+
     def cut(self, names: Names) -> ClosedSpec:
         """Give the slice as a unit, with no more threads than can ever be at work in it."""
         spec = self._spec

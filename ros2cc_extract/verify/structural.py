@@ -97,9 +97,10 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
     """
     spec = closed.spec
     earlier = served_before(callback, spec)[::-1]
-    mates = [c for c in spec.callbacks if c.group == callback.group and c not in earlier]
+    before = {c.name for c in earlier}
+    mates = [c for c in spec.callbacks if c.group == callback.group and c.name not in before]
     strangers = [c for c in spec.callbacks if c.group != callback.group]
-    others = [c for c in (*earlier, *mates, *strangers) if c != callback]
+    others = [c for c in (*earlier, *mates, *strangers) if c.name != callback.name]
     kept = {callback.name, *(c.name for c in others[:RIVALS])}
     callbacks = tuple(replace(c, blocking=()) for c in spec.callbacks if c.name in kept)
     groups = {c.group for c in callbacks}

@@ -13,6 +13,7 @@ from functools import partial
 from pathlib import Path
 
 from ros2cc_extract.checker.api import (
+    MOST_MODEL_BYTES,
     Answer,
     CheckResult,
     EngineKind,
@@ -23,11 +24,14 @@ from ros2cc_extract.checker.api import (
     Query,
     check,
     load_model,
+    model_text,
     read_model,
     read_queries,
 )
 from ros2cc_extract.checker.api import Verdict as Verdict
+from ros2cc_extract.checker.waypoints import refute
 from ros2cc_extract.errors import InputError, ModelFormatError
+from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
@@ -103,7 +107,9 @@ def verify_unit(
     of_two = [q for q in queries if needs_two_arrivals(q, closed.spec, options.profile)]
     if options.max_cycle != 1:
         of_two = []
-    found = _ask([q for q in queries if q not in of_two], closed, options, progress, shelf)
+    twice_asked = set(map(key_of, of_two))
+    once_asked = [query for query in queries if key_of(query) not in twice_asked]
+    found = _ask(once_asked, closed, options, progress, shelf)
     if of_two:
         twice = replace(options, max_cycle=TWO_ARRIVALS)
         found = joined(found, _ask(of_two, closed, twice, progress, shelf))
@@ -135,7 +141,8 @@ def _ask(
     """Ask slices where they may decide, else the whole unit."""
     search = partial(_search, options=options, progress=progress)
     if options.max_cycle is not None and _may_be_sliced(options):
-        return narrow(closed, queries, options.max_cycle, search, options.limits, shelf)
+        refute = partial(_refute, options=options)
+        return narrow(closed, queries, options.max_cycle, search, options.limits, shelf, refute)
     return search(closed, [key_of(query) for query in queries], options.limits)
 
 
@@ -193,6 +200,32 @@ def _search(
         key = key_of(query)
         results[key] = _in_spite_of_doubts(results[key], answer, teller, closed.spec)
     return Found(results, result)
+
+
+def _refute(
+    closed: ClosedSpec,
+    keys: Sequence[Key],
+    waypoints: Sequence[str],
+    limits: Limits,
+    *,
+    options: Options,
+) -> Found:
+    """Look over waypoints for runs that refute some of the queries of a part."""
+    rendered = _render(closed, options)
+    wanted = set(keys)
+    asked = [query for query in rendered.queries if key_of(query) in wanted]
+    model = read_model(rendered.xml, f'{rendered.name}.xml')
+    claims = [Query(query.formula, query.words, None) for query in asked]
+    result = refute(model, waypoints, claims, limits=limits, engine=options.engine)
+    if any(answer.is_interrupted for answer in result.answers):
+        raise KeyboardInterrupt
+    teller = _Teller(model, rendered.xml.encode(), Names.of(closed.spec))
+    refuted = {
+        key_of(query): _result(answer, teller, query.family.value, query.words, query.callbacks)
+        for answer, query in zip(result.answers, asked, strict=True)
+        if answer.verdict is Verdict.NOT_SATISFIED
+    }
+    return Found(refuted, replace(result, answers=()))
 
 
 def _in_spite_of_doubts(
@@ -318,7 +351,7 @@ def _verify_model(
         place = Place(str(path))
         raise InputError('no query found', place, 'name a .q file after the model, or use --query')
     return replace(
-        _asked(model, path.read_bytes(), queries, options, progress, Names()), model=path.name
+        _asked(model, model_text(path), queries, options, progress, Names()), model=path.name
     )
 
 
@@ -326,7 +359,7 @@ def _verify_unread(
     path: Path, queries: Sequence[Query], options: Options, error: ModelFormatError
 ) -> Verification:
     """Have verifyta check what only it can read; no run is shown, as none can be replayed."""
-    result = _ask_verifyta(None, path.read_bytes(), queries, options)
+    result = _ask_verifyta(None, model_text(path), queries, options)
     results = tuple(
         QueryResult(
             family=None,
@@ -408,11 +441,9 @@ def load_queries(path: Path) -> tuple[Query, ...]:
     :raises InputError: when it cannot be read or holds no query.
     """
     try:
-        text = path.read_text(encoding='utf-8')
+        text = read_named(path, MOST_MODEL_BYTES).decode('utf-8')
     except UnicodeDecodeError:
         raise InputError('no UTF-8 text', Place(str(path)), 'is this a .q file?') from None
-    except OSError as error:
-        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from None
     return read_queries(text, str(path))
 
 

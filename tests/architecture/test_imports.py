@@ -14,8 +14,22 @@ else:
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = 'ros2cc_extract'
-LEAVES = {'errors', 'places', 'diagnostics', 'version', 'crew', 'cachefile', 'files', 'trust'}
+LEAVES = {
+    'errors',
+    'places',
+    'diagnostics',
+    'version',
+    'crew',
+    'cachefile',
+    'files',
+    'packing',
+    'shown',
+    'trust',
+    'once',
+    'deadline',
+}
 ALLOWED = {
+    '__main__': {'*'},
     'cli': {'*'},
     'ros': {'*'},
     'report': {'findings', 'verify', 'spec', 'merge'},
@@ -25,6 +39,7 @@ ALLOWED = {
     'checker': set(),
     'conform': {'generator', 'checker', 'spec'},
     'spec': set(),
+    'revision': set(),
     'merge': {'spec', 'extract'},
     'extract': {'spec'},
     'extract.static': {'spec', 'extract'},

@@ -21,6 +21,7 @@ class Planner(Node):
 
     def replan(self):
         with self.lock:
+            self.client.wait_for_service(timeout_sec=0.01)
             future = self.client.call_async(Trigger.Request())
             self.executor.spin_until_future_complete(future)
 
@@ -39,4 +40,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC115:25, CC107:25 warning
+# finds: CC115:26, CC107:26 warning

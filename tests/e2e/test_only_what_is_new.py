@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -255,6 +256,79 @@ def test_a_submodule_is_taken_as_the_base_has_it(
     assert findings(run(*checked)) == []
     (repository / 'deps' / 'library' / 'new.py').write_text(DEADLOCK)
     assert findings(run(*checked)) == [('CC101', 44)]
+
+
+@pytest.mark.parametrize('target', ['/etc', '/nonexistent/x', '../..', 'loop.py', 'node.py', ''])
+def test_links_of_the_base_are_no_hindrance(run: Run, repository: Path, target: str) -> None:
+    if target:
+        (repository / 'loop.py').symlink_to(target)
+    else:
+        (repository / 'deep').mkdir()
+        (repository / 'deep' / 'link').symlink_to(repository)
+    assert commit(repository, 'link').returncode == 0
+    outcome = run('check', '.', '--output-format', 'json', '--diff-base', 'HEAD')
+    assert [code for code, _ in findings(outcome) if code != 'CC500'] == []
+
+
+def test_a_node_behind_a_link_is_the_one_of_the_base(run: Run, repository: Path) -> None:
+    (repository / 'src').mkdir()
+    (repository / 'node.py').rename(repository / 'src' / 'arm.py')
+    (repository / 'node.py').symlink_to('src/../src/arm.py')
+    assert commit(repository, 'move').returncode == 0
+    assert findings(check(run, '--diff-base', 'HEAD')) == []
+    (repository / 'src' / 'arm.py').write_text(MENDED)
+    assert commit(repository, 'mend').returncode == 0
+    (repository / 'src' / 'arm.py').write_text(DEADLOCK)
+    assert findings(check(run, '--diff-base', 'HEAD')) == [('CC101', 44)]
+
+
+def test_what_is_left_out_of_archives_is_in_the_base(run: Run, repository: Path) -> None:
+    (repository / '.gitattributes').write_text('node.py export-ignore\n')
+    assert commit(repository, 'attributes').returncode == 0
+    assert findings(check(run, '--diff-base', 'HEAD')) == []
+
+
+def test_an_absolute_path_outside_of_the_current_folder(run: Run, repository: Path) -> None:
+    (repository / 'elsewhere').mkdir()
+    node = repository / 'node.py'
+    arguments = ('check', node, '--output-format', 'json', '--diff-base', 'HEAD')
+    assert findings(run(*arguments, cwd=repository / 'elsewhere')) == []
+    node.write_text(MENDED)
+    assert commit(repository, 'mend').returncode == 0
+    node.write_text(DEADLOCK)
+    assert findings(run(*arguments, cwd=repository / 'elsewhere')) == [('CC101', 44)]
+
+
+def test_a_path_that_is_in_no_repository_is_refused(
+    run: Run, repository: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    other = tmp_path_factory.mktemp('other') / 'node.py'
+    other.write_text(DEADLOCK)
+    outcome = run('check', other, '--diff-base', 'HEAD')
+    (line,) = outcome.err.splitlines()
+    assert (outcome.status, f'is not in the repository {repository}' in line) == (2, True)
+
+
+def test_a_folder_that_had_no_python_is_all_new(run: Run, repository: Path) -> None:
+    (repository / 'tools').mkdir()
+    (repository / 'tools' / 'README').write_text('nothing yet\n')
+    assert commit(repository, 'tools').returncode == 0
+    (repository / 'tools' / 'node.py').write_text(DEADLOCK)
+    assert run('check', 'tools', '--diff-base', 'HEAD').status == 1
+
+
+def test_nothing_of_the_base_is_written(
+    run: Run,
+    repository: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """So nothing is left behind, however the check ends."""
+    temporary = tmp_path_factory.mktemp('temporary')
+    monkeypatch.setenv('TMPDIR', str(temporary))
+    os.utime(temporary, (1, 1))
+    assert findings(check(run, '--diff-base', 'HEAD')) == []
+    assert temporary.stat().st_mtime == 1
 
 
 def test_a_repository_of_somebody_else_is_told_with_what_git_advises(

@@ -293,7 +293,7 @@ def test_action_installs_its_own_checkout(release: Path, tmp_path: Path) -> None
 def test_gitlab_job_keeps_its_report_when_it_fails(
     run: Run, repository: Path, tmp_path: Path
 ) -> None:
-    run('init', '--gitlab', cwd=repository)
+    run('init', '--gitlab', '--install', 'wheels/ours.whl', cwd=repository)
     (repository / NODE).write_text(DEADLOCK)
     job = yaml.safe_load((repository / '.gitlab' / 'ros2cc.yml').read_text())['ros2cc']
     done = subprocess.run(
@@ -409,9 +409,8 @@ def test_colcon_can_read_the_package() -> None:
     )
     read = ast.literal_eval(done.stdout.splitlines()[-1])
     assert read['python_requires'] == '>=3.10'
-    assert (
-        'ament_ros2cc = ros2cc_extract.ros.ament:main' in read['entry_points']['console_scripts']
-    )
+    scripts = read['entry_points']['console_scripts']
+    assert 'ament_ros2cc = ros2cc_extract.ros.ament:entry_point' in scripts
 
 
 AS_COLCON_READS = """

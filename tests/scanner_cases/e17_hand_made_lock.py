@@ -88,6 +88,7 @@ def main():
 if __name__ == '__main__':
     main()
 
+
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
@@ -102,7 +103,7 @@ if __name__ == '__main__':
 #     locks free @63>15
 #     locks free @66>19
 #   timer write in a_default every 1
-#     blocks Condition.wait on read through free each @70>26
+#     blocks Condition.wait on read through free each conditional @70>26
 #       ended by read @21
 #     reads A.rw @70
 #     reads ReadWriteLock.readers under free @70>25

@@ -48,6 +48,7 @@ def main():
 if __name__ == '__main__':
     main()
 
+
 # expect:
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
@@ -64,7 +65,7 @@ if __name__ == '__main__':
 #     blocks wait_for_message on out @38
 #       ended by on_in after 1 @28
 #     blocks wait_for_message on other 1.0 s @39
-#     blocks Clock.sleep_for ? s @40
+#     blocks Clock.sleep_for 1.0 s @40
 #   subscription on_in in a_default key=in
 #     blocks Barrier.wait on gate all @26
 #       ended by take after 1 @33

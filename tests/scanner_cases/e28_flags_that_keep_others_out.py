@@ -113,7 +113,7 @@ if __name__ == '__main__':
 #     writes A.steps @62
 #   client ask_client in a_default key=ask
 #   action_server f_action_server in a_default (A.on_goal) key=f
-#     reads A.busy under lock @66
+#     reads A.busy admits under lock @66
 #     writes A.busy rests constant under lock, A.busy (flag) @68
 #     locks lock @65
 #   action_execute execute in no_group key=f

@@ -27,10 +27,12 @@ class Odd:
         self.node = rclpy.create_node('odd')
         self.create_timer(1.0, print)
 
+
 # expect:
 # unit navigator: unknown executor
 #   group navigator_default EXCLUSIVE default
 #   action_client walk_action_client in navigator_default (Navigator.on_feedback) key=walk
+#     writes Navigator.feedback @22
 #   ? executor executor
 #   ? navigator entities
 # unit odd: no executor

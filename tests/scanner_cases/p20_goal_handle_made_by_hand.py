@@ -31,12 +31,14 @@ def main():
 if __name__ == '__main__':
     main()
 
+
 # expect:
 # unit cook: SingleThreadedExecutor x1 rclpy.spin, main
 #   group cook_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   timer stop in cook_default every 1
 #     blocks get_result on handle @20
+#       ended by ?
 #     changes done_callback @19
 #   action_client dish_action_client in cook_default key=dish
 #   done_callback stopped in no_group conditional when=callback

@@ -38,4 +38,4 @@ class TestProbe:
 #   group probe_default EXCLUSIVE default
 #   timer tick in probe_default every 1 when=later
 #   activity thread serve (TestProbe.serve) conditional daemon
-#     blocks busy wait on over @32
+#     blocks working loop on over @32

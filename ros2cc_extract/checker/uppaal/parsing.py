@@ -1,17 +1,13 @@
 """
-Parses the texts of a model with lark; the only module that knows how lark is loaded.
-
-Works with lark 1.x and with lark-parser 0.12, which ROS environments bring.
+Parses the texts of a model with lark.
 """
 
 from __future__ import annotations
 
 import functools
 import importlib.resources
-import os
 import re
 from enum import Enum
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.uppaal import syntax
@@ -71,35 +67,11 @@ class Start(Enum):
 @functools.cache
 def _parser() -> Lark:
     # Imported late: commands that read no model start faster without.
-    from lark import Lark
-
     from ros2cc_extract.checker.uppaal.builder import TreeBuilder
+    from ros2cc_extract.checker.uppaal.parsetables import Grammar
 
-    grammar = importlib.resources.files(__package__).joinpath('grammar.lark').read_text('utf-8')
-    return Lark(
-        grammar,
-        parser='lalr',
-        start=[start.value for start in Start],
-        transformer=TreeBuilder(),
-        maybe_placeholders=False,
-        cache=_cache_file(),
-    )
-
-
-def _cache_file() -> str | bool:
-    """
-    Return where lark may keep the tables it makes from the grammar; False where it may not.
-
-    Making them takes half of the time that a small model needs. Lark itself tells by a hash
-    whether the file fits the grammar and its own version.
-    """
-    root = Path(os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache')
-    folder = root / 'ros2cc-extract'
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return False
-    return str(folder / 'uppaal-grammar.cache') if os.access(folder, os.W_OK) else False
+    text = importlib.resources.files(__package__).joinpath('grammar.lark').read_text('utf-8')
+    return Grammar(text, tuple(start.value for start in Start)).parser(TreeBuilder())
 
 
 def parse(text: str, start: Start, place: Place) -> Any:

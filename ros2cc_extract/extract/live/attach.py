@@ -33,7 +33,7 @@ EXIT_CLEAN, EXIT_ERROR = 0, 2
 PATIENCE_S = 15.0
 MOST_TOLD_BYTES = 10_000
 _LOOK_EVERY_S = 0.05
-_EXTRA = 'pip install "ros2cc-extract[attach]"'
+_EXTRA = 'pip install "hypno>=1.1"'
 _PTRACE_SCOPE = Path('/proc/sys/kernel/yama/ptrace_scope')
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.files import read_regular
+from ros2cc_extract.files import read_named, real_path
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Distribution, Measured
 
@@ -149,9 +149,7 @@ def read_recording(path: Path, shown_from: Path) -> Recording:
     :raises InputError: when the file cannot be read or is none of ours.
     """
     try:
-        data = json.loads(read_regular(path, MOST_BYTES))
-    except OSError as error:
-        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
+        data = json.loads(read_named(path, MOST_BYTES))
     except ValueError as error:
         raise InputError('is no recording (not JSON)', Place(str(path)), MEND) from error
     if not isinstance(data, dict) or data.get('format') != FORMAT:
@@ -285,7 +283,7 @@ class _Reader:
             return None
         file, line, column = row
         try:
-            shown = Path(file).resolve().relative_to(self._shown_from.resolve()).as_posix()
+            shown = real_path(file).relative_to(real_path(self._shown_from)).as_posix()
         except ValueError:
             shown = file
         return Place(shown, line, column)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import mmap
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from heapq import heappush, heappushpop
@@ -27,6 +28,7 @@ from ros2cc_extract.extract.live.events import (
     rows,
 )
 from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.files import open_regular
 from ros2cc_extract.places import Place
 
 FORMAT = 'ros2cc trace'
@@ -104,8 +106,8 @@ def read_trace(recording: Recording) -> Trace | None:
 
 
 def _raw_rows(path: Path) -> Iterator[tuple[Fields, str]]:
-    with path.open('rb') as stream:
-        if path.stat().st_size:
+    with open_regular(path) as stream:
+        if os.fstat(stream.fileno()).st_size:
             with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as mapped:
                 yield from rows(cast(bytes, mapped))
 

@@ -58,21 +58,27 @@ def begin(
     runner: Value | None = None,
     *,
     daemon: bool = False,
+    on_loop: bool = False,
+    turns: object = None,
 ) -> None:
     """
     Start an activity.
 
     :param runner: the thread or future that stands for it.
+    :param turns: as of an ``ActivityState``.
     """
     world = machine.world
     site = (call.place, world.chain, id(world.activity or world.current), _code_of(target, call))
     known = next((each for each in world.activities if each.site == site), None)
-    state = known or ActivityState(kind, call.place, target, call, daemon=daemon, site=site)
+    state = known or ActivityState(
+        kind, call.place, target, call, daemon=daemon, site=site, turns=turns
+    )
     _note_start(machine, state, runner)
     if known is not None:
         known.count = known.count if world.again or runner in known.runners else _more(known)
         return
     state.path, state.count = world.path, _count(world, call.place)
+    state.thread, state.on_loop = world.threads + 1, on_loop
     world.activities.append(state)
     outer, world.activity = world.activity, state
     try:

@@ -38,8 +38,21 @@ def made_then(world: World, cls: Class | Library, place: Place) -> Instance | No
     """What the running callback made here when it was followed before."""
     known = world.made_then.get(_site(world, cls, place)) if world.again else None
     if known is not None:
-        known.born = world.deeds
+        _own(world, known)
     return known
+
+
+def note_part(world: World, whole: Instance, part: Instance) -> None:
+    """``part`` is made while ``whole`` is set up, which is not done anew for a known object."""
+    if world.deeds is not None:
+        world.parts.setdefault(id(whole), []).append(part)
+
+
+def _own(world: World, known: Instance) -> None:
+    """The callback made it, and what is part of it."""
+    known.born = world.deeds
+    for part in world.parts.get(id(known), ()):
+        _own(world, part)
 
 
 def _site(world: World, cls: Class | Library, place: Place) -> object:

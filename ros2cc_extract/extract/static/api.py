@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ros2cc_extract.crew import usable_cores
+from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.limits import scanning_limits
 from ros2cc_extract.extract.static.project import Project
 from ros2cc_extract.extract.static.scanning import Progress, scan_project
+from ros2cc_extract.files import DISK, Files
 
 
 def scan(
@@ -20,6 +22,8 @@ def scan(
     cache: Path | None = None,
     processes: int | None = None,
     lists_builtin: bool = False,
+    files: Files = DISK,
+    patience: Patience = PATIENT,
 ) -> Extraction:
     """
     Scan files and directories; a directory is one program.
@@ -29,24 +33,31 @@ def scan(
     :param cache: folder of earlier results, see ``cachefile.default_cache_folder``.
     :param processes: at most so many share the work; by default one for each core.
     :param lists_builtin: also list what rclpy makes by itself for every node; never cached.
+    :param files: those of the disk, or of another revision.
+    :param patience: when to end before all is followed.
     :raises InputError: for a missing path, or a directory without any Python file.
     """
     with scanning_limits():
-        project = Project.of_paths(paths, root)
+        project = Project.of_paths(paths, root, files)
         project.lists_builtin = lists_builtin
+        project.deadline = patience.deadline
         if cache is None or lists_builtin:
-            return scan_project(project, usable_cores(processes), progress)[0]
-        return _scan_cached(project, progress, cache, usable_cores(processes))
+            return scan_project(project, usable_cores(processes), progress, patience)[0]
+        return _scan_cached(project, progress, cache, usable_cores(processes), patience)
 
 
 def scan_text(text: str, name: str = 'node.py') -> Extraction:
     """Scan a program of one file given as text."""
     with scanning_limits():
-        return scan_project(Project.of_text(text, name), 1, None)[0]
+        return scan_project(Project.of_text(text, name), 1, None, PATIENT)[0]
 
 
 def _scan_cached(
-    project: Project, progress: Progress | None, folder: Path, processes: int
+    project: Project,
+    progress: Progress | None,
+    folder: Path,
+    processes: int,
+    patience: Patience,
 ) -> Extraction:
     # Imported here: most scans go without, and its libraries take longer than a small scan.
     from ros2cc_extract.extract.static.cache import ScanCache
@@ -54,6 +65,7 @@ def _scan_cached(
     entry = ScanCache(folder, project)
     known = entry.load()
     if known is None:
-        known, followed = scan_project(project, processes, progress)
-        entry.store(known, followed)
+        known, followed = scan_project(project, processes, progress, patience)
+        if not known.cut:
+            entry.store(known, followed)
     return known

@@ -20,9 +20,11 @@ from ros2cc_extract.extract.static.values import (
     choice,
     options_of,
 )
+from ros2cc_extract.extract.static.world import AccessKind
 from ros2cc_extract.places import Unknown
 
 _TEXT_LIMIT = 100_000
+_COPIED_A_STEP = 64
 
 _TEXT_METHODS = frozenset(
     [
@@ -59,6 +61,8 @@ def set_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
     name, value = (*call.args, NONE, NONE)[:2]
     if isinstance(receiver, (Instance, Class)) and isinstance(name, Const):
         machine.name_value(value, str(name.value))
+        machine.world.reading.stored = value
+        machine.note_attribute(receiver, str(name.value), AccessKind.WRITE, call.place)
         machine.store.write(receiver, str(name.value), value)
     return NONE
 
@@ -120,6 +124,7 @@ def _append(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Sequence)
     if call.args:
         item = call.args[-1]
+        machine.charge(len(receiver.items) // _COPIED_A_STEP)
         machine.store.write(receiver, 'items', (*receiver.items, item))
         if isinstance(machine.world.count, Unknown):
             many = {option: machine.why_many() for option in options_of(item)}
@@ -130,6 +135,7 @@ def _append(machine: Machine, receiver: Value, call: Call) -> Value:
 def _extend(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Sequence)
     more = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
+    machine.charge(len(more.known))
     machine.store.write(receiver, 'items', (*receiver.items, *more.known))
     machine.store.write(receiver, 'open', receiver.others or more.others)
     machine.store.write(receiver, 'many', {**receiver.many, **more.many})

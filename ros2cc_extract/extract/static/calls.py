@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
     source_text,
 )
+from ros2cc_extract.extract.static.wait_table import AWAITED
 from ros2cc_extract.extract.static.world import Cut, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
 
@@ -305,6 +306,9 @@ class Calls(Machine):
 
     def await_value(self, value: Value, place: Place) -> Value:
         """``await value``: coroutines run, everything else gives a mystery."""
+        awaited = value.slots.get(AWAITED) if isinstance(value, Instance) else None
+        if isinstance(awaited, Native):
+            return self.call(awaited, Call(place))
         self.note_await(value, place)
         if isinstance(value, Coroutine):
             return self.run_function(value.function, value.call)

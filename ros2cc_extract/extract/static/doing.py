@@ -17,6 +17,8 @@ class Deeds:
     What one callback or activity does, in the order of its text.
 
     :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param own: names of what only the loop around it asks for: changes of objects that nobody
+        else has, and of what lies in a collection.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -27,6 +29,7 @@ class Deeds:
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
     rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
+    own: list[str] = field(default_factory=list)
     behind: object = None
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
 
@@ -47,7 +50,9 @@ class ActivityState:
     :param ends_first: the set-up waits for its end.
     :param serves: it spins an executor; for ever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
+    :param turns: equal for those that have one thread between them.
     :param site: equal for one start that is met again.
+    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     """
 
     kind: ActivityKind
@@ -67,3 +72,6 @@ class ActivityState:
     nodes: set[int] = field(default_factory=set)
     things: set[int] = field(default_factory=set)
     site: object = None
+    thread: int = 0
+    on_loop: bool = False
+    turns: object = None

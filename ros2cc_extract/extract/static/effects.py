@@ -64,10 +64,12 @@ class Effects(Waits):
         cls = owner.cls if isinstance(owner, Instance) else owner
         if not isinstance(cls, Class) or self._is_behaviour(owner, name):
             return
-        if isinstance(owner, Instance) and owner.born is self.world.deeds:
-            return
-        shown = unmangled(name, cls.name)
-        self._note_access(f'{_object_name(owner, cls)}.{shown}', kind, place)
+        shown = f'{_object_name(owner, cls)}.{unmangled(name, cls.name)}'
+        is_own = isinstance(owner, Instance) and owner.born is self.world.deeds
+        if kind is AccessKind.WITHIN or (is_own and kind is not AccessKind.READ):
+            self.world.deeds.own.append(shown)
+        elif not is_own:
+            self._note_access(shown, kind, place)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
@@ -99,9 +101,11 @@ class Effects(Waits):
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=kind is AccessKind.UPDATE_IN_PLACE,
             keeps_size=self.world.refilling,
+            moves=self.world.moves,
             iterates=self.world.iterating,
             item=reading.items.get(at),
             rests=is_used or (rests and not is_read),
+            compared=is_read and at in reading.compared,
             later=is_used and reading.has_called_since(name, self.world.path),
             clears=kind is AccessKind.WRITE and reading.stored == NONE,
             constant=kind is AccessKind.WRITE and rests and isinstance(reading.stored, Const),
@@ -178,6 +182,9 @@ class Effects(Waits):
     def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
         """A global is touched; only those count that some function changes."""
         if self.world.deeds is None or name not in self.changed_globals(module):
+            return
+        if kind is AccessKind.WITHIN:
+            self.world.deeds.own.append(f'{module.name}.{name}')
             return
         value = module.slots.get(name)
         if isinstance(value, Instance) and value.state is not None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.values import Instance, Mystery
-from ros2cc_extract.extract.static.world import End, EntityState
+from ros2cc_extract.extract.static.values import Instance, Mystery, Value, options_of
+from ros2cc_extract.extract.static.world import RECENT, End, EntityState, ExecutorState
 from ros2cc_extract.places import Place, Unknown
 
 SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
 DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
+CANCEL = 'cancel'
+DESTROY_PUBLISHER, PUBLISHED = 'destroy_publisher', 'publish'
 USED = 'used when rclpy was shut down'
 
 
@@ -19,6 +21,16 @@ def note_use(machine: Machine, what: str, place: Place) -> None:
     at = current.node.slots.get(_slot(current)) if current is not None else None
     if current is not None and isinstance(at, Mystery) and at.unknown.at:
         world.ends.append(End(USED, current.node, current, at.unknown.at, f'{what} ({place})'))
+
+
+def note_published(machine: Machine, publisher: Value, place: Place) -> None:
+    """A message goes out by a publisher, which nobody may destroy meanwhile."""
+    if isinstance(publisher, Instance):
+        latest = machine.world.ends[-RECENT:]
+        if not any(
+            (end.kind, end.what, end.place) == (PUBLISHED, publisher, place) for end in latest
+        ):
+            note_end(machine, PUBLISHED, publisher, place)
 
 
 def note_shutdown(machine: Machine, place: Place) -> None:
@@ -40,8 +52,18 @@ def note_end(
         return
     doer = world.activity or (world.current if world.in_callback else None)
     if doer is not None and not world.shutting_down and not world.after_spin:
-        world.ends.append(End(kind, what, doer, place))
+        behind = world.deeds.behind if world.deeds is not None else None
+        world.ends.append(End(kind, what, doer, place, behind=behind, locks=world.held))
 
 
 def _slot(entity: EntityState) -> str:
     return f'__shut_down__{entity.number}'
+
+
+def executor_of(node: Instance) -> Instance | None:
+    """The one executor that serves a node in the end."""
+    owner = node.slots.get('__owner__')
+    known = options_of(owner) if isinstance(owner, Value) else ()
+    found = [each for each in known if isinstance(each, Instance)]
+    is_known = len(found) == 1 and isinstance(found[0].state, ExecutorState)
+    return found[0] if is_known and found[0].state.unknown is None else None

@@ -19,22 +19,23 @@ from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ending import (
     DESTROY,
     DESTROY_NODE,
+    DESTROY_PUBLISHER,
     REMOVE_NODE,
     SHUTDOWN,
     SHUTDOWN_EXECUTOR,
     USED,
+    executor_of,
 )
+from ros2cc_extract.extract.static.publishing import published_meanwhile
 from ros2cc_extract.extract.static.ros_executors import nodes_of
 from ros2cc_extract.extract.static.values import (
     Bound,
     Const,
     Function,
     Instance,
-    Value,
-    options_of,
 )
 from ros2cc_extract.extract.static.wakings import EntityRef
-from ros2cc_extract.extract.static.world import End, EntityState, ExecutorState, Spin, World
+from ros2cc_extract.extract.static.world import End, EntityState, Spin, World
 from ros2cc_extract.spec.deeds import Blocking
 
 _SINGLE = 'SingleThreadedExecutor'
@@ -54,21 +55,14 @@ def _told(end: End, world: World) -> Iterator[Diagnostic]:
             yield _used(end)
         elif end.kind in (SHUTDOWN, SHUTDOWN_EXECUTOR) and _waits_for_itself(end, doer, world):
             yield _waits_for_its_end(end)
-        elif end.kind == SHUTDOWN_EXECUTOR and end.what is _executor_of(doer.node):
+        elif end.kind == SHUTDOWN_EXECUTOR and end.what is executor_of(doer.node):
             yield _ends_its_executor(end)
         elif end.kind in (DESTROY_NODE, REMOVE_NODE) and _leaves_nothing(end, doer, world):
             yield _serves_nothing(end)
     if end.kind == DESTROY and isinstance(end.what, EntityState):
         yield from _destroyed(end, end.what, world)
-
-
-def _executor_of(node: Instance) -> Instance | None:
-    """The one executor that serves a node in the end."""
-    owner = node.slots.get('__owner__')
-    known = options_of(owner) if isinstance(owner, Value) else ()
-    found = [each for each in known if isinstance(each, Instance)]
-    is_known = len(found) == 1 and isinstance(found[0].state, ExecutorState)
-    return found[0] if is_known and found[0].state.unknown is None else None
+    if end.kind == DESTROY_PUBLISHER and isinstance(end.what, Instance):
+        yield from published_meanwhile(end, end.what, world)
 
 
 def _spins_of(executor: Instance | None, world: World) -> list[Spin]:
@@ -76,7 +70,7 @@ def _spins_of(executor: Instance | None, world: World) -> list[Spin]:
 
 
 def _waits_for_itself(end: End, doer: EntityState, world: World) -> bool:
-    executor = _executor_of(doer.node)
+    executor = executor_of(doer.node)
     if executor is None or executor.state.kind != _SINGLE or not _spins_of(executor, world):
         return False
     if end.kind == SHUTDOWN_EXECUTOR:
@@ -86,7 +80,7 @@ def _waits_for_itself(end: End, doer: EntityState, world: World) -> bool:
 
 def _leaves_nothing(end: End, doer: EntityState, world: World) -> bool:
     """Whether the node ends in its own callback, and its executor, spun for ever, had no other."""
-    executor = _executor_of(doer.node)
+    executor = executor_of(doer.node)
     spins = _spins_of(executor, world)
     if executor is None or end.what is not doer.node or not spins:
         return False
@@ -120,13 +114,13 @@ def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnost
     if waits:
         yield _awaited(end, entity, waits[0])
         return
-    executor = _executor_of(entity.node)
+    executor = executor_of(entity.node)
     spins = _spins_of(executor, world)
     if executor is None or not spins or executor.state.kind == 'EventsExecutor':
         return
     is_by_callback = isinstance(end.doer, EntityState)
     has_pool = executor.state.threads != 1
-    is_of_other = is_by_callback and _executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
+    is_of_other = is_by_callback and executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
     if has_pool or is_of_other or not is_by_callback:
         yield _destroyed_meanwhile(end, entity, executor)
 

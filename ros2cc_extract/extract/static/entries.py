@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.extract.static.relevance import walk
-from ros2cc_extract.extract.static.source import SourceFile
+from ros2cc_extract.extract.static.source import SIZE_LIMIT_BYTES, SourceFile
+from ros2cc_extract.files import Files
 from ros2cc_extract.places import Place
 
 _SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
+_SCRIPT_FILES = ('setup.py', 'setup.cfg', 'pyproject.toml')
 _SPINS = frozenset({'spin', 'spin_once', 'spin_until_future_complete'})
 
 
@@ -124,22 +128,25 @@ def _spins(node: ast.AST) -> bool:
     return any(isinstance(part, ast.Attribute) and part.attr in _SPINS for part in walk(node))
 
 
-def console_scripts(folders: set[Path]) -> frozenset[tuple[str, str]]:
+def script_files(files: Files, folders: Iterable[Path]) -> Iterator[tuple[Path, bytes]]:
+    """The files that may declare scripts, as far as they can be read, in a fixed order."""
+    for folder in sorted(folders):
+        for path in (folder / name for name in _SCRIPT_FILES):
+            if files.is_file(path):
+                with contextlib.suppress(OSError):
+                    yield path, files.read(path, SIZE_LIMIT_BYTES)
+
+
+def console_scripts(files: Files, folders: set[Path]) -> frozenset[tuple[str, str]]:
     """Module and function of every script that ``setup.py`` and the like declare."""
-    found: set[tuple[str, str]] = set()
-    for folder in folders:
-        for name in ('setup.py', 'setup.cfg', 'pyproject.toml'):
-            path = folder / name
-            if path.is_file():
-                found.update(_scripts_in(path))
-    return frozenset(found)
+    return frozenset(
+        script
+        for path, data in script_files(files, folders)
+        for script in _scripts_in(path, data.decode(errors='replace'))
+    )
 
 
-def _scripts_in(path: Path) -> set[tuple[str, str]]:
-    try:
-        text = path.read_text(encoding='utf-8', errors='replace')
-    except OSError:
-        return set()
+def _scripts_in(path: Path, text: str) -> set[tuple[str, str]]:
     pieces = re.findall(r'["\']([^"\'\n]+)["\']', text) if path.suffix == '.py' else []
     lines = pieces or text.splitlines()
     matches = (_SCRIPT.match(line) for line in lines)

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from ros2cc_extract.extract.static import changing, conditions, folding, loops
+from ros2cc_extract.extract.static.clock_times import time_from_now
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
@@ -31,7 +32,8 @@ from ros2cc_extract.extract.static.values import (
     present,
 )
 from ros2cc_extract.extract.static.world import AccessKind
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import ADDS, TAKES
 from ros2cc_extract.spec.model import When
 
 _DEPTH_LIMIT = 120
@@ -108,14 +110,18 @@ class Expressions(Machine):
     ) -> Value:
         """``left op right``."""
         if isinstance(left, Sequence) and isinstance(right, Sequence) and isinstance(op, ast.Add):
+            self.charge(len(left.items) + len(right.items))
             rest = left.others or right.others
             many = {**left.many, **right.many}
             return Sequence((*left.items, *right.items), left.kind, rest, many)
         if isinstance(left, Sequence) and isinstance(op, ast.Mult):
-            return _repeated(left, right, frame, node)
+            return _repeated(self, left, right, frame.place(node))
         folded = folding.binary(op, left, right)
         if folded is not None:
             return folded
+        later = time_from_now(op, left, right)
+        if later is not None:
+            return later
         for side in (left, right):
             if isinstance(side, Mystery):
                 text = node if isinstance(node, ast.BinOp) else side.text
@@ -202,6 +208,7 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
 def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     if isinstance(node.func, ast.Name) and node.func.id == 'super' and not node.args:
         return machine.zero_argument_super(frame)
+    _note_heap(machine, node, frame)
     machine.world.reading.note_use(node.func, frame.place(node.func))
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
@@ -221,12 +228,41 @@ def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
         or node.attr not in CHANGING_METHODS
         or not isinstance(node.value, (ast.Attribute, ast.Name))
     ):
-        return machine.evaluate(node, frame)
+        function = machine.evaluate(node, frame)
+        _note_within(machine, node, frame)
+        return function
     noted, machine.world.deeds = machine.world.deeds, None
     function = machine.evaluate(node, frame)
     machine.world.deeds = noted
+    machine.world.moves = _MOVES.get(node.attr)
     machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
+    machine.world.moves = None
     return function
+
+
+_MOVES = {
+    **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
+    **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
+}
+
+
+def _note_heap(machine: Expressions, node: ast.Call, frame: Frame) -> None:
+    """``heapq.heappop(self.rows)`` changes its argument in place (``heapq``)."""
+    function = node.func
+    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
+    if name.startswith('heap') and node.args and machine.world.deeds is not None:
+        machine.note_update(node.args[0], frame, AccessKind.UPDATE_IN_PLACE)
+
+
+def _note_within(machine: Expressions, node: ast.expr, frame: Frame) -> None:
+    """``self.rows[k].append(x)`` leaves ``self.rows`` as it is, and changes what lies in it."""
+    if not isinstance(node, ast.Attribute) or node.attr not in CHANGING_METHODS:
+        return
+    target = node.value
+    while isinstance(target, ast.Subscript):
+        target = target.value
+    if target is not node.value and isinstance(target, (ast.Attribute, ast.Name)):
+        machine.note_update(target, frame, AccessKind.WITHIN)
 
 
 def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
@@ -236,6 +272,7 @@ def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
         if isinstance(argument, ast.Starred):
             value = machine.evaluate(argument.value, frame)
             items, rest = machine.items_of(value, frame.place(argument))
+            machine.charge(len(items))
             call.args.extend(items)
             call.more = call.more or rest
         else:
@@ -268,6 +305,7 @@ def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:
             if isinstance(element, ast.Starred):
                 value = machine.evaluate(element.value, frame)
                 more = loops.items_in(machine, value, frame.place(element))
+                machine.charge(len(more.known))
                 items.extend(more.known)
                 many.update(more.many)
                 rest = rest or more.others
@@ -307,10 +345,11 @@ def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
     return machine.operate(node.op, left, right, frame, node)
 
 
-def _repeated(left: Sequence, right: Value, frame: Frame, node: ast.AST) -> Value:
+def _repeated(machine: Expressions, left: Sequence, right: Value, place: Place) -> Value:
     if isinstance(right, Const) and isinstance(right.value, int) and right.value <= 1000:
+        machine.charge(len(left.items) * max(right.value, 0))
         return Sequence(left.items * right.value, left.kind, left.others, left.many)
-    return Sequence(left.items, left.kind, Unknown('unknown length', frame.place(node)))
+    return Sequence(left.items, left.kind, Unknown('unknown length', place))
 
 
 def _formatted(machine: Expressions, node: ast.JoinedStr, frame: Frame) -> Value:
@@ -327,12 +366,13 @@ def _formatted(machine: Expressions, node: ast.JoinedStr, frame: Frame) -> Value
             mystery = mystery or machine.mystery('f-string part not followed', frame.place(part))
     if mystery is not None:
         return Mystery(mystery.unknown, node, by_default(held, _joined_text))
-    return Const(''.join(parts))
+    text = folding.joined(parts)
+    return text or machine.mystery('a text that grows too long', frame.place(node))
 
 
 def _joined_text(*parts: Value) -> Value | None:
     texts = [str(part.value) for part in parts if isinstance(part, Const)]
-    return Const(''.join(texts)) if len(texts) == len(parts) else None
+    return folding.joined(texts) if len(texts) == len(parts) else None
 
 
 def _formatted_part(machine: Expressions, node: ast.FormattedValue, frame: Frame) -> Value:

@@ -3,14 +3,16 @@ Flags by which a callback keeps others out: ``if self.busy: return``, then ``sel
 
 Whoever has found a flag down and put it up holds it, as a lock, until it is put down again; a
 done-callback takes over what its maker holds, and the execute callback of an action server what
-the goal callback holds wherever it accepts. Whether the test and the setting are one piece, and
+the goal callback holds wherever it accepts; where that has only found a flag down, the execute
+callback may put it up. Whether the test and the setting are one piece, and
 nobody else puts the flag down, is for the reader of the accesses to say.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.reading import Reading
@@ -26,18 +28,30 @@ _REFUSING = 'REJECT'
 
 
 def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place) -> None:
-    """An ``if`` that asks for one flag and nothing else tells where it is down."""
-    names = tuple(found)
-    asked = _asked(node.test)
-    if len(names) != 1 or asked is None or asked[0] != names[0].rpartition('.')[2]:
+    """An ``if`` tells where the flags are down that it asks for, alone or each for itself."""
+    names: dict[str, list[str]] = {}
+    for name in found:
+        names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
+    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
+    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
+    steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
+    for attribute, down_if in _flags_of(node.test):
+        meant = names.get(attribute, ())
+        for step in steps[down_if] if len(meant) == 1 else ():
+            known = reading.down.get((place, step), frozenset())
+            reading.down[place, step] = known | set(meant)
+
+
+def _flags_of(test: ast.expr) -> Iterator[tuple[str, bool]]:
+    """The flags that are down where all of ``test`` holds, or where nothing of it does."""
+    if isinstance(test, ast.BoolOp):
+        down_if = isinstance(test.op, ast.And)
+        parts = [asked for value in test.values for asked in _flags_of(value)]
+        yield from (asked for asked in parts if asked[1] is down_if)
         return
-    flag, down_if = names[0] + FLAG, asked[1]
-    if down_if:
-        reading.down[place, _THEN] = flag
-    elif not node.orelse and isinstance(node.body[-1], _LEAVING):
-        reading.down[place, _AFTER] = flag
-    elif node.orelse and not isinstance(node.orelse[0], ast.If):
-        reading.down[place, _ELSE] = flag
+    asked = _asked(test)
+    if asked is not None:
+        yield asked
 
 
 def _asked(test: ast.expr) -> tuple[str, bool] | None:
@@ -60,9 +74,13 @@ def _asked(test: ast.expr) -> tuple[str, bool] | None:
 def put_up(world: World, name: str) -> None:
     """``name`` is stored; who has found it down and stores something holds it from here."""
     flag = name + FLAG
-    is_down = any(world.reading.down.get(step) == flag for step in world.path)
+    is_down = flag in _found_down(world) or (flag in world.still_down and not _has_waited(world))
     if is_down and flag not in world.held and _is_up(world.reading.stored):
         world.held = (*world.held, flag)
+
+
+def _has_waited(world: World) -> bool:
+    return world.deeds is not None and world.deeds.behind is not None
 
 
 def put_down(world: World, name: str) -> None:
@@ -86,11 +104,19 @@ def after_block(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...
 
 def leave(world: World, frame: Frame, *, goes_on: bool) -> None:
     """A function ends: a flag that it holds on some ways out only is not held for certain."""
-    ways = [held for held, _ in frame.left]
+    ways = [held for held, _, _ in frame.left]
     world.held = _by_all(world.held, ways)
-    accepting = [held for held, refuses in frame.left if not refuses]
-    accepting += [world.held] if goes_on else []
-    world.accepted = _by_all(accepting[0], accepting) if accepting else ()
+    accepting = [(held, down) for held, down, refuses in frame.left if not refuses]
+    accepting += [(world.held, _found_down(world))] if goes_on else []
+    helds = [held for held, _ in accepting]
+    world.accepted = _by_all(helds[0], helds) if accepting else ()
+    downs = [down for _, down in accepting]
+    world.found_down = downs[0].intersection(*downs) if downs else frozenset()
+
+
+def _found_down(world: World) -> frozenset[str]:
+    known = (world.reading.down.get(step, ()) for step in world.path)
+    return frozenset(flag for flags in known for flag in flags)
 
 
 def _by_all(held: tuple[str, ...], ways: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
@@ -100,10 +126,20 @@ def _by_all(held: tuple[str, ...], ways: Iterable[tuple[str, ...]]) -> tuple[str
     )
 
 
-def note_return(world: World, frame: Frame, node: ast.Return) -> None:
-    """One way out of a function, and whether it turns a goal down."""
-    refuses = isinstance(node.value, ast.Attribute) and node.value.attr == _REFUSING
-    frame.left.append((world.held, refuses))
+def note_return(world: World, frame: Frame, node: ast.Return, found: Iterable[str]) -> None:
+    """One way out of a function, and whether it turns a goal down; ``found`` was read for it."""
+    refuses = _refuses(node.value)
+    if refuses or (isinstance(node.value, ast.IfExp) and _may_refuse(node.value)):
+        world.reading.refuse(world.path, () if refuses else found)
+    frame.left.append((world.held, _found_down(world), refuses))
+
+
+def _refuses(value: ast.expr | None) -> bool:
+    return isinstance(value, ast.Attribute) and value.attr == _REFUSING
+
+
+def _may_refuse(value: ast.IfExp) -> bool:
+    return _refuses(value.body) or _refuses(value.orelse)
 
 
 def hand_over(world: World, to: EntityState) -> None:
@@ -118,11 +154,23 @@ def call(machine: Machine, entity: EntityState, callback: Value, arguments: Call
     """Call what an entity runs, holding what was handed over to it."""
     world = machine.world
     served = (entity.node, entity.place)
+    world.still_down = frozenset()
     if entity.kind is EntityKind.ACTION_EXECUTE:
         world.held = world.admitted.get(served, ())
+        world.still_down = world.open_to.get(served, frozenset())
     else:
         world.held = entity.held or ()
-    result = machine.call(callback, arguments)
+    result = machine.run_if_coroutine(machine.call(callback, arguments), entity.place)
     if callback in options_of(entity.goal_callback or NONE):
+        _note_admission(world)
         world.admitted[served] = tuple(held for held in world.accepted if held.endswith(FLAG))
+        is_one_piece = not entity.defers and not _has_waited(world)
+        world.open_to[served] = world.found_down if is_one_piece else frozenset()
     return result
+
+
+def _note_admission(world: World) -> None:
+    """What the goal callback has read, and turned goals down for."""
+    deeds, names = world.deeds, world.reading.refusing
+    if deeds is not None and names:
+        deeds.reads[:] = [replace(r, admits=r.name in names) for r in deeds.reads]

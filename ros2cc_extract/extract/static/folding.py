@@ -129,6 +129,11 @@ def unary(op: ast.unaryop, value: Value) -> Const | None:
     return Const(~value.value) if isinstance(value.value, int) else None
 
 
+def joined(parts: list[str]) -> Const | None:
+    """The text that ``parts`` make, if it is not long."""
+    return Const(''.join(parts)) if sum(map(len, parts)) <= _TEXT_LIMIT else None
+
+
 def formatted(value: Const, spec: str) -> Const | None:
     """``format(value, spec)`` for short specifications."""
     if is_wide(spec):

@@ -32,7 +32,10 @@ from ros2cc_extract.spec.model import ActivityKind
 FUTURE = 'pool'
 """Kind of a future that waits when it is asked."""
 
+LOOP = '__loop__'
+"""Slot of a loop of asyncio for where it begins."""
 _HANDED_OVER = '__handed_over__'
+_WORKERS = '__workers__'
 _FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
 
 
@@ -41,7 +44,8 @@ def submit(machine: Machine, receiver: Value, call: Call) -> Value:
     future = machine.future(call.place, FUTURE)
     if call.args:
         inner = Call(call.place, call.args[1:], call.keywords, call.more)
-        begin(machine, ActivityKind.POOL, call.args[0], inner, future)
+        turns = _one_thread(receiver)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns)
     _keep(machine, receiver, future)
     return future
 
@@ -64,8 +68,23 @@ def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(coroutine, Coroutine):
         target = coroutine.function
         inner = Call(call.place, coroutine.call.args, coroutine.call.keywords, coroutine.call.more)
-    begin(machine, ActivityKind.THREAD, target, inner, future)
+    loop = call.argument(1, 'loop')
+    turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
+    begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
     return future
+
+
+def _one_thread(pool: Value) -> Value | None:
+    """The pool, if it has one thread for all that is handed to it."""
+    workers = pool.slots.get(_WORKERS) if isinstance(pool, Instance) else None
+    return pool if workers == Const(1) else None
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    workers = call.argument(0, 'max_workers')
+    if isinstance(receiver, Instance) and workers is not None:
+        machine.store.write(receiver, _WORKERS, workers)
+    return NONE
 
 
 def _keep(machine: Machine, pool: Value, future: Value) -> None:
@@ -155,7 +174,7 @@ def _waits(name: str) -> Handler:
 
 _POOL = LibraryClass(
     state=lambda machine, instance: PlainState('executor', place=instance.place),
-    init=lambda machine, receiver, call: NONE,
+    init=_init,
     methods={'submit': submit, 'map': _map, 'shutdown': _shutdown},
 )
 

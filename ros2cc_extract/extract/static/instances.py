@@ -31,9 +31,11 @@ class Instances(Machine):
     Making objects.
 
     :ivar creating: the calls of classes whose ``__new__`` is running.
+    :ivar beginning: the objects whose ``__init__`` is running.
     """
 
     creating: list[tuple[Class, Call]]
+    beginning: list[Instance]
 
     def instantiate(self, cls: Class, call: Call) -> Value:
         """What ``type.__call__`` gives: an object from ``__new__``, after its ``__init__``."""
@@ -76,6 +78,8 @@ class Instances(Machine):
             self.store.write(instance, _MADE, NONE)
         instance.path = self.world.path
         instance.born = self.world.deeds
+        if self.beginning:
+            again.note_part(self.world, self.beginning[-1], instance)
         instance.number += self.world.made_of[cls]
         self.world.made_of[cls] += 1
         self.prepare(instance)
@@ -88,10 +92,14 @@ class Instances(Machine):
         if not isinstance(made, Instance) or cls not in made.mro:
             return made
         init = self.attribute(made, '__init__', call.place)
-        if isinstance(init, (Bound, Native)):
-            self.call(init, call)
-        elif _is_dataclass(cls):
-            self._fill_fields(cls, made, call)
+        self.beginning.append(made)
+        try:
+            if isinstance(init, (Bound, Native)):
+                self.call(init, call)
+            elif _is_dataclass(cls):
+                self._fill_fields(cls, made, call)
+        finally:
+            self.beginning.pop()
         return made
 
     def _made_by_looking(self, cls: Class, place: Place) -> Instance | None:

@@ -41,6 +41,8 @@ class Interpreter(
         self.steps_left = RUN_LIMIT
         self.stack = []
         self.creating = []
+        self.beginning = []
         self.project = project
+        self.deadline = project.deadline
         self.modules = {}
         self._changed = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TypeGuard
 
+from ros2cc_extract.extract.static import outside_waits
 from ros2cc_extract.extract.static.call_order import (
     callers_first,
     leading_to_entities,
@@ -168,7 +169,10 @@ def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
         if is_test(value.name):
             end_test(machine)
         nodes, entities = len(machine.world.nodes), len(machine.world.entities)
+        told = len(machine.world.diagnostics)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
+        if isinstance(value.node, ast.AsyncFunctionDef):
+            outside_waits.forget_awaits(machine.world, told)
         _mark_later(machine.world, nodes, entities, value.place)
         if is_test(value.name):
             end_test(machine)

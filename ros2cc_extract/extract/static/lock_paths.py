@@ -30,10 +30,13 @@ def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple
 
     :param lock: text of the lock's expression, ``self.lock``.
     :param suffix: of the methods: ``_read`` for ``acquire_read`` and ``release_read``.
-    :return: nothing where the function never gives the lock back: another one may.
+    :return: nothing where the function never gives the lock back: another one may; and nothing
+        where it gives it back first: whoever calls it holds the lock, and wants it held again.
     """
     walk = _Walk(lock, suffix)
-    if not any(walk.does(part, _GIVES) for part in ast.walk(function)):
+    given = min((_at(p) for p in ast.walk(function) if walk.does(p, _GIVES)), default=None)
+    taken = min((_at(p) for p in ast.walk(function) if walk.does(p, _TAKES)), default=None)
+    if given is None or (taken is not None and given < taken):
         return ()
     if any(walk.is_try(part) for part in ast.walk(function)):
         return ()
@@ -41,6 +44,10 @@ def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple
     if True in at_end:
         walk.kept.append(function.body[-1])
     return tuple(sorted(set(walk.kept), key=lambda statement: statement.lineno))
+
+
+def _at(call: ast.AST) -> tuple[int, int]:
+    return call.lineno, call.col_offset  # type: ignore[attr-defined]
 
 
 @dataclass

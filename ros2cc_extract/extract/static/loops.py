@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.values import choice as join
+from ros2cc_extract.extract.static.waited_on import is_waited_on
 from ros2cc_extract.extract.static.world import EntityState
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import When
@@ -236,11 +237,11 @@ def after_loop(flow: int) -> int:
 
 
 def any_of(owner: Collection) -> Value | None:
-    """One of what a registry holds: nothing but classes and functions, or but entities."""
+    """One of what a registry holds: classes and functions, entities, or what others wait on."""
     held = owner.items if isinstance(owner, Sequence) else ()
     values = owner.entries.values() if isinstance(owner, Mapping) else held
     found = [option for value in values for option in options_of(value) if option is not ABSENT]
-    if found and all(_is_entity(value) for value in found):
+    if found and all(_is_entity(value) or is_waited_on(value) for value in found):
         return join(found)
     is_registry = isinstance(owner, Mapping) and all(isinstance(v, _CALLABLE) for v in found)
     return join(found) if found and is_registry and owner.others is None else None

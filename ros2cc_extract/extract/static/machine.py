@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 
+from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.extract.static.relevance import mangled
 from ros2cc_extract.extract.static.store import Store, Writes
 from ros2cc_extract.extract.static.values import (
@@ -31,8 +32,8 @@ from ros2cc_extract.extract.static.values import (
     Value,
     choice,
 )
-from ros2cc_extract.extract.static.wakings import DataRef, Word
-from ros2cc_extract.extract.static.world import AccessKind, World
+from ros2cc_extract.extract.static.wakings import ClockRef, DataRef, Word
+from ros2cc_extract.extract.static.world import AccessKind, EntityState, World
 from ros2cc_extract.places import Place, Unknown
 
 
@@ -53,7 +54,8 @@ class Frame:
     :param many: what it yields any number of times, or perhaps not at all.
     :param breaks: what the branches that leave the running loop had written to own names.
     :param held: locks that were held at the first ``yield``.
-    :param left: locks that are held at each ``return``, and whether that turns down a goal.
+    :param left: locks that are held at each ``return``, flags that were found down, and whether it
+        turns down a goal.
     :param copies: own names that hold what other functions may have changed.
     :param sources: shared data that own names were computed from, while a callback is followed.
     :param continues: the same of the branches that go on with its next round.
@@ -66,7 +68,7 @@ class Frame:
     results: list[Value] = field(default_factory=list)
     yields: list[Value] = field(default_factory=list)
     held: tuple[str, ...] = ()
-    left: list[tuple[tuple[str, ...], bool]] = field(default_factory=list)
+    left: list[tuple[tuple[str, ...], frozenset[str], bool]] = field(default_factory=list)
     many: dict[Value, Value] = field(default_factory=dict)
     qualname: str = ''
     path: Path = ()
@@ -114,7 +116,19 @@ class Machine(ABC):
     world: World
     steps: int
     step_limit: int
+    deadline: Deadline | None
     stack: list[Function]
+
+    def charge(self, steps: int) -> None:
+        """
+        Count so many steps of what is followed.
+
+        :raises BudgetError: that was more than the running piece of a program may take.
+        """
+        self.steps += steps
+        is_late = self.deadline is not None and self.deadline.is_over
+        if self.steps > self.step_limit or is_late:
+            raise BudgetError
 
     @abstractmethod
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
@@ -335,9 +349,13 @@ class Machine(ABC):
 
     @abstractmethod
     def note_loop_on_data(
-        self, name: str, on: DataRef | Unknown, seconds: Unknown | None, place: Place
+        self, name: str, on: DataRef | ClockRef | Unknown, seconds: Unknown | None, place: Place
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
+
+    @abstractmethod
+    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
+        """Somebody waits for time that ``clock`` moves."""
 
     @abstractmethod
     def note_unknown_wait(self, function: Mystery, call: Call) -> None:

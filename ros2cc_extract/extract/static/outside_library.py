@@ -2,15 +2,19 @@
 Calls that wait for what is outside of the program: processes, sockets, ports, people.
 
 Sources: CPython 3.12, ``subprocess.py``, ``socket``, ``select``, ``urllib/request.py``; pyserial
-3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``.
+3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``; OpenCV 4, ``waitKey`` (a delay of zero or
+less means for ever).
 """
 
 from __future__ import annotations
 
+import ast
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, Property
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.relevance import noted_on, walk
+from ros2cc_extract.extract.static.signal_handlers import on_signal
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -25,6 +29,9 @@ from ros2cc_extract.places import Place
 
 _TIMEOUT = 'timeout'
 _LIMIT = '__timeout__'
+_WAIT_KEY = 'cv2.waitKey'
+_READ = 'os.read'
+_CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
 
 
 @dataclass(frozen=True)
@@ -41,6 +48,8 @@ class _Wait:
 
 
 _BY_NAME = _Wait()
+OF_CHILDREN = frozenset(['os.wait', 'os.waitpid'])
+"""Waits for the end of a child of this process."""
 _LIMITED = _Wait(takes_limit=True)
 
 _FUNCTIONS: dict[str, _Wait] = {
@@ -99,11 +108,49 @@ def _waiting(name: str, row: _Wait) -> Handler:
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
-        if not (isinstance(timeout, Const) and timeout.value == 0 and row.takes_limit):
+        is_at_once = name == _CONNECT and _DATAGRAM in slots
+        is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
+        if not (is_at_once and row.takes_limit) and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 
     return handler
+
+
+def _is_there(machine: Machine, name: str) -> bool:
+    """
+    Whether something is read of which the program has asked whether it is there.
+
+    ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
+    a descriptor that ``os.set_blocking`` has changed gives what there is.
+    """
+    if not name.rpartition('.')[2].startswith(('read', 'recv')):
+        return False
+    asking = machine.stack[-1].node if machine.stack else None
+    if asking is not None and noted_on(asking, 'asks_first', _asks_first):
+        return True
+    trees = machine.world.trees if name == _READ else ()
+    return any(noted_on(tree, 'never_blocks', _never_blocks) for tree in trees)
+
+
+def _asks_first(function: ast.AST) -> bool:
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in ('select', 'in_waiting', 'inWaiting')
+        for part in walk(function)
+    )
+
+
+def _never_blocks(tree: ast.Module) -> bool:
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in ('set_blocking', 'O_NONBLOCK')
+        for part in walk(tree)
+    )
+
+
+def _fork(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Parent and child go on with the same text, the child with whatever others have locked."""
+    machine.world.forked = machine.world.forked or call.place
+    return machine.mystery('which of two processes goes on', call.place, 'os.fork()')
 
 
 def _limit(position: int, *names: str) -> Handler:
@@ -124,7 +171,18 @@ def _blocks(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-_INITS: dict[str, Handler] = {'serial.Serial': _limit(5, _TIMEOUT)}
+def _kind_of_socket(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Nobody answers the ``connect`` of a datagram socket (``socket`` documentation)."""
+    kind = call.argument(1, 'type')
+    if isinstance(receiver, Instance) and isinstance(kind, Name) and kind.name == _DATAGRAM:
+        machine.store.write(receiver, _DATAGRAM, kind)
+    return NONE
+
+
+_INITS: dict[str, Handler] = {
+    'serial.Serial': _limit(5, _TIMEOUT),
+    'socket.socket': _kind_of_socket,
+}
 
 
 def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
@@ -152,8 +210,17 @@ def _class(name: str, methods: dict[str, _Wait]) -> LibraryClass:
     )
 
 
+def _wait_key(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``cv2.waitKey(0)`` waits for a person; with a delay, which is in milliseconds, it ends."""
+    delay = call.argument(0, 'delay')
+    if delay is None or (isinstance(delay, Const) and delay.value == 0):
+        machine.note_blocking(_WAIT_KEY, None, None, call.place)
+    return machine.mystery(f'result of {_WAIT_KEY}', call.place, f'{_WAIT_KEY}(…)')
+
+
 CALLS = frozenset(
     [
+        _WAIT_KEY,
         *(name.removeprefix('builtins.') for name in _FUNCTIONS),
         *(f'{name.rpartition(".")[2]}.{method}' for name, of in _CLASSES.items() for method in of),
     ]
@@ -163,6 +230,11 @@ CALLS = frozenset(
 TABLE = Library(
     classes={name: _class(name, methods) for name, methods in _CLASSES.items()},
     functions={
-        name: _waiting(name.removeprefix('builtins.'), row) for name, row in _FUNCTIONS.items()
+        'os.fork': _fork,
+        **{
+            name: _waiting(name.removeprefix('builtins.'), row) for name, row in _FUNCTIONS.items()
+        },
+        _WAIT_KEY: _wait_key,
+        'signal.signal': on_signal,
     },
 )

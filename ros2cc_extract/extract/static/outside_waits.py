@@ -12,7 +12,10 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.doing import ActivityState
+from ros2cc_extract.extract.static.uncalled import uncalled_wakers
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import (
     EntityState,
     NodeState,
@@ -21,12 +24,22 @@ from ros2cc_extract.extract.static.world import (
     World,
 )
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.spec.model import ActivityKind, When
 from ros2cc_extract.spec.partners import SERVER_KINDS
 
 _ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
 _RATE = 'Rate.sleep'
+_ASYNCIO_AWAIT = 'asyncio-await'
 _FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
+# Waits for objects that nothing but the program ends, by their kinds.
+_PLAIN = {
+    'Event.wait': ('event',),
+    'Condition.wait': ('condition',),
+    'Condition.wait_for': ('condition',),
+    'Queue.get': ('queue',),
+    'spin_until_future_complete': ('future',),
+}
 _PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
 
 
@@ -71,6 +84,16 @@ def is_idle(loop: ast.While) -> bool:
     )
 
 
+def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> str:
+    """
+    How a loop that others end is called: one in which a thread works waits for nobody.
+
+    Whoever joins the thread waits for its end all the same.
+    """
+    works = activity is not None and activity.kind is not ActivityKind.MAIN and not is_idle(loop)
+    return WORKING_LOOP if works else call
+
+
 def spins(loop: ast.While) -> bool:
     """True for a loop that lets an executor run what is ready, again and again."""
     return any(
@@ -84,6 +107,10 @@ def is_endless(loop: ast.While) -> bool:
     """True for ``while True`` and ``while rclpy.ok()``."""
     test = loop.test
     return bool(test.value) if isinstance(test, ast.Constant) else _called_name(test) == 'ok'
+
+
+def _last(name: str) -> str:
+    return name if name in _PLAIN else name.rpartition('.')[2]
 
 
 def _called_name(call: ast.expr) -> str:
@@ -103,6 +130,9 @@ def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instan
     source = state.of if isinstance(state, PlainState) and state.of is not None else on
     client = source.state if isinstance(source, Instance) else None
     if not isinstance(client, EntityState):
+        is_plain = isinstance(state, PlainState) and state.kind in _PLAIN.get(_last(name), ())
+        if is_plain and world.is_program:
+            world.outside.append(OutsideWait(name, on, place, world.in_thread, spun))
         return
     if name == _RATE and not client.node.state.spun:
         world.outside.append(OutsideWait(name, client, place, world.in_thread))
@@ -112,10 +142,16 @@ def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instan
         world.outside.append(OutsideWait(name, client, place, world.in_thread, spun))
 
 
+def forget_awaits(world: World, told: int) -> None:
+    """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
+    late = [each for each in world.diagnostics[told:] if each.slug != _ASYNCIO_AWAIT]
+    world.diagnostics[told:] = late
+
+
 def _awaited_by_asyncio(place: Place) -> Diagnostic:
     return Diagnostic(
         severity=Severity.WARNING,
-        slug='asyncio-await',
+        slug=_ASYNCIO_AWAIT,
         place=place,
         message='asyncio awaits an rclpy future: from rclpy 7.1.9 on this raises RuntimeError '
         'unless the future is done already',
@@ -128,9 +164,12 @@ def note_unanswered(world: World) -> None:
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
     for wait in world.outside:
-        for node, what in _needed(wait, world):
+        if isinstance(wait.client, Instance):
+            world.diagnostics.extend(_unended(wait, wait.client, world))
+            continue
+        for node, what in _needed(wait, wait.client, world):
             if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
-                world.diagnostics.append(_unanswered(wait, what))
+                world.diagnostics.append(_unanswered(wait, wait.client, what))
                 break
 
 
@@ -139,13 +178,43 @@ def _may_be_spun_elsewhere(node: Instance) -> bool:
     return not isinstance(state, NodeState) or state.ghost is not None or bool(state.more)
 
 
-def _needed(wait: OutsideWait, world: World) -> Iterator[tuple[Instance, str]]:
+def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagnostic]:
+    """Nobody makes a future done, or only callbacks that nobody serves meanwhile end the wait."""
+    name = thing.hint or thing.class_name
+    words = frozenset({Word.PUT if wait.call == 'Queue.get' else Word.SET})
+    wakings = [each for each in world.wakings.get(id(thing), ()) if each.word in words]
+    if id(thing) in world.given or uncalled_wakers(world, name, words, thing.place):
+        return
+    spun = (*wait.spun, *_spun_beside(wait, world))
+    doers = [waking.by for waking in wakings]
+    nodes = [doer.node for doer in doers if isinstance(doer, EntityState)]
+    if len(nodes) < len(doers) or any(node is each for node in nodes for each in spun):
+        return
+    what = 'nobody ends that wait'
+    if nodes:
+        what = 'nobody spins the node whose callback would end it'
+    # What nobody touches may be meant to keep the program.
+    is_meant = not nodes and not wait.in_thread and wait.call != 'Queue.get'
+    yield Diagnostic(
+        severity=Severity.WARNING if is_meant else Severity.ERROR,
+        slug='nobody-spins',
+        place=wait.place,
+        message=f'{wait.call} waits for {name}, but {what}: it waits for ever',
+        help='spin the node in a thread before'
+        if nodes
+        else 'end it somewhere, or give it a time-out',
+    )
+
+
+def _needed(
+    wait: OutsideWait, client: EntityState, world: World
+) -> Iterator[tuple[Instance, str]]:
     """The nodes that must be spun, with what each is needed for."""
     if wait.call == _RATE:
-        yield wait.client.node, 'has it'
+        yield client.node, 'has it'
         return
-    yield wait.client.node, 'must take it'
-    kind, key = SERVER_KINDS[wait.client.kind], wait.client.key
+    yield client.node, 'must take it'
+    kind, key = SERVER_KINDS[client.kind], client.key
     servers = [e for e in world.entities if e.kind is kind and _is_same(e.key, key)]
     if len(servers) == 1:
         yield servers[0].node, 'must give it'
@@ -164,8 +233,8 @@ def _spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
                 yield from (o for o in options_of(entry) if isinstance(o, Instance))
 
 
-def _unanswered(wait: OutsideWait, what: str) -> Diagnostic:
-    key = wait.client.key
+def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic:
+    key = client.key
     name = f' of {key.value!r}' if isinstance(key, Const) else ''
     call = 'a busy loop' if wait.call == 'busy wait' else wait.call
     awaited = 'a timer' if wait.call == _RATE else f'the answer{name}'

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.doing import Deeds
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.outside_waits import is_endless, is_idle
+from ros2cc_extract.extract.static.outside_waits import call_of_loop, is_endless, is_idle
 from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef
@@ -37,18 +37,22 @@ class Mark:
 
     waits: int
     writes: int
+    own: int
 
 
 def mark(machine: Machine) -> Mark | None:
     """Before the loop; ``None`` where nothing is noted."""
     deeds = machine.world.deeds
-    return None if deeds is None else Mark(len(deeds.blocking), len(deeds.writes))
+    return None if deeds is None else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own))
 
 
 def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
     """After one round of ``loop``."""
     deeds = machine.world.deeds
-    if before is None or deeds is None or _is_told(machine, loop, deeds, before):
+    if before is None or deeds is None:
+        return
+    _note_asked(machine, loop, deeds, before, frame)
+    if _is_told(machine, loop, deeds, before):
         return
     tests = list(_exit_tests(loop))
     if not tests:
@@ -59,15 +63,26 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
         return
     names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
     written = {access.name for access in deeds.writes[before.writes :]}
-    if names & written:
+    if names & (written | set(deeds.own[before.own :])):
         return
     _note(machine, loop, frame, tests, names)
+
+
+def _note_asked(
+    machine: Machine, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+) -> None:
+    """A condition is waited on only where the test of the loop has come out so."""
+    for number in range(before.waits, len(deeds.blocking)):
+        block = deeds.blocking[number]
+        if block.call == 'Condition.wait' and _read(machine, [loop.test], frame):
+            deeds.blocking[number] = replace(block, conditional=True)
 
 
 def _note(
     machine: Machine, loop: ast.While, frame: Frame, tests: list[ast.expr], names: set[str]
 ) -> None:
     place = frame.place(tests[0])
+    call = call_of_loop(loop, POLL, machine.world.activity)
     ends_otherwise = any(_is_foreign(test, loop) for test in tests)
     if names:
         own = frozenset(
@@ -76,13 +91,13 @@ def _note(
         reference = DataRef(sorted(names)[0])
         reference.names, reference.before = frozenset(names), own
         reason = Unknown('the loop also ends otherwise', place)
-        machine.note_loop_on_data(POLL, reference, reason if ends_otherwise else None, place)
+        machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
     elif (not ends_otherwise or _is_idle(loop, tests)) and not any(
         _asks_object(test) for test in tests
     ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
-        machine.note_loop_on_data(POLL, unknown, None, place)
+        machine.note_loop_on_data(call, unknown, None, place)
 
 
 def _is_idle(loop: ast.While, tests: list[ast.expr]) -> bool:
@@ -171,7 +186,9 @@ def _assigned(part: ast.AST) -> Iterator[str]:
 
 
 def _grown(part: ast.AST) -> Iterator[str]:
-    """Names whose object a method, or an assignment to an item, may change."""
+    """Names whose object a method, an assignment to an item, or who gets it may change."""
+    if isinstance(part, ast.Call) and _name_of(part) not in _NEUTRAL:
+        yield from (each.id for each in part.args if isinstance(each, ast.Name))
     target = part.func if isinstance(part, ast.Call) else part
     is_stored = isinstance(part, ast.Subscript) and isinstance(part.ctx, ast.Store)
     if (isinstance(part, ast.Call) or is_stored) and isinstance(

@@ -7,10 +7,13 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from ros2cc_extract.deadline import Deadline
+from ros2cc_extract.diagnostics import Diagnostic, unreadable_folder
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.source import SourceFile
 from ros2cc_extract.extract.static.workspace import home_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.files import DISK, Files, OnError
+from ros2cc_extract.places import Place, shown_name
 
 _SKIPPED = frozenset(
     {'__pycache__', 'build', 'install', 'log', 'node_modules', 'venv', '.venv', 'site-packages'}
@@ -31,10 +34,15 @@ class Project:
     :param given: the files that the user asked for, by path; others are only followed, and
         found by where they stand alone, so that nothing depends on what was read before.
     :param lists_builtin: whether what rclpy makes for every node is wanted too.
+    :ivar deadline: when to end before all is followed.
+    :ivar disk: where files are looked for.
+    :ivar barred: folders that could not be looked into.
     """
 
-    def __init__(self, root: Path) -> None:
+    def __init__(self, root: Path, files: Files = DISK) -> None:
         self._root = root
+        self.disk = files
+        self.barred: list[Diagnostic] = []
         self._files: dict[Path, SourceFile] = {}
         self._by_name: dict[str, list[SourceFile]] = {}
         self._by_shown: dict[str, SourceFile] = {}
@@ -43,15 +51,16 @@ class Project:
         self._roots: dict[tuple[Path, str], Path | None] = {}
         self.given: list[SourceFile] = []
         self.lists_builtin = False
+        self.deadline: Deadline | None = None
 
     @staticmethod
-    def of_paths(paths: Sequence[Path], root: Path | None) -> Project:
+    def of_paths(paths: Sequence[Path], root: Path | None, files: Files = DISK) -> Project:
         """
         Find the Python files under ``paths``.
 
         :raises InputError: for a missing path, or a directory without any Python file.
         """
-        project = Project((root or Path.cwd()).resolve())
+        project = Project((root or Path.cwd()).resolve(), files)
         for path in paths:
             project._add_path(path)
         project.given = sorted(dict.fromkeys(project.given), key=lambda source: source.path)
@@ -117,7 +126,8 @@ class Project:
             return None
         key = (source.path.parent, parts[0])
         if key not in self._roots:
-            self._roots[key] = _package_root(*key) or _root_in_repository(*key)
+            here = self.disk
+            self._roots[key] = _package_root(here, *key) or _root_in_repository(here, *key)
         root = self._roots[key]
         return self._in_folder(root, parts) if root is not None else None
 
@@ -146,7 +156,7 @@ class Project:
             known = self._files.get(candidate)
             if known is not None:
                 return known
-            if candidate.is_file():
+            if self.disk.is_file(candidate):
                 return self._add_file(candidate)
         return None
 
@@ -160,12 +170,13 @@ class Project:
         ]
 
     def _add_path(self, path: Path) -> None:
-        if path.is_dir():
-            found = sorted(_python_files(path))
-            if not found:
+        if self.disk.is_folder(path):
+            barred = len(self.barred)
+            found = sorted(python_files(self.disk, path, self._tell_barred))
+            if not found and len(self.barred) == barred:
                 raise InputError('no Python file in this directory', Place(str(path)))
             self.given.extend(self._add_file(file) for file in found)
-        elif path.exists():
+        elif self.disk.exists(path):
             source = self._add_file(path)
             source.named = True
             self.given.append(source)
@@ -179,23 +190,26 @@ class Project:
             return known
         folder = full.parent
         if folder not in self._packages:
-            self._packages[folder] = _package_of(folder)
+            self._packages[folder] = _package_of(self.disk, folder)
         package = self._packages[folder]
-        stem = full.stem
+        stem = shown_name(full.stem)
         name = package if stem == '__init__' and package else f'{package}.{stem}'.lstrip('.')
-        source = SourceFile(full, self._shown(path, full), name, package)
+        source = SourceFile(full, self._shown(path, full), name, package, files=self.disk)
         self._files[full] = source
         self._by_shown[source.shown] = source
         return source
 
+    def _tell_barred(self, error: OSError) -> None:
+        path = Path(os.fsdecode(error.filename))
+        shown = self._shown(path, Path(os.path.abspath(path)))  # noqa: PTH100
+        self.barred.append(unreadable_folder(error, shown))
+
     def _shown(self, path: Path, full: Path) -> str:
-        try:
-            return full.relative_to(self._root).as_posix()
-        except ValueError:
-            return path.as_posix()
+        is_below = full.is_relative_to(self._root)
+        return shown_name((full.relative_to(self._root) if is_below else path).as_posix())
 
 
-def _package_root(folder: Path, package: str) -> Path | None:
+def _package_root(files: Files, folder: Path, package: str) -> Path | None:
     """
     The folder that holds ``package``, in one of the layouts of ROS packages.
 
@@ -204,30 +218,31 @@ def _package_root(folder: Path, package: str) -> Path | None:
     for above in (folder, *list(folder.parents)[:_LEVELS]):
         for home in (above, above / package):
             for root in (home, home / 'src'):
-                is_package = (root / package / '__init__.py').is_file()
-                if is_package and any((home / name).is_file() for name in _MANIFESTS):
+                is_package = files.is_file(root / package / '__init__.py')
+                if is_package and any(files.is_file(home / name) for name in _MANIFESTS):
                     return root
     return None
 
 
-def _root_in_repository(folder: Path, package: str) -> Path | None:
+def _root_in_repository(files: Files, folder: Path, package: str) -> Path | None:
     """The folder that holds ``package``, somewhere else in the same repository."""
-    home = home_of(folder, package)
+    home = home_of(files, folder, package)
     roots = (home, home / 'src') if home is not None else ()
-    return next((r for r in roots if (r / package / '__init__.py').is_file()), None)
+    return next((r for r in roots if files.is_file(r / package / '__init__.py')), None)
 
 
-def _package_of(folder: Path) -> str:
+def _package_of(files: Files, folder: Path) -> str:
     names: list[str] = []
-    while (folder / '__init__.py').is_file() and folder.name.isidentifier():
+    while files.is_file(folder / '__init__.py') and folder.name.isidentifier():
         names.append(folder.name)
         folder = folder.parent
     return '.'.join(reversed(names))
 
 
-def _python_files(folder: Path) -> Iterator[Path]:
-    for base, folders, files in os.walk(folder):
+def python_files(files: Files, folder: Path, on_error: OnError) -> Iterator[Path]:
+    """The Python files that are scanned when somebody names ``folder``."""
+    for base, folders, names in files.walk(folder, on_error):
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
-        for name in files:
+        for name in names:
             if name.endswith('.py'):
                 yield Path(base) / name

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
 
 from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
-from ros2cc_extract.extract.static.futures_library import run_in_executor
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
@@ -31,9 +33,7 @@ from ros2cc_extract.extract.static.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.model import When
 
 _RANGE_LIMIT = 100_000
 
@@ -156,6 +156,18 @@ def _len(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(value, Const) and isinstance(value.value, (str, bytes)):
         return Const(len(value.value))
     return machine.mystery('length that could not be followed', call.place, 'len(…)')
+
+
+def _letter(function: Callable[[Any], object]) -> Handler:
+    """``ord`` or ``chr``."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if len(call.args) == 1 and isinstance(call.args[0], Const):
+            with suppress(TypeError, ValueError, OverflowError):
+                return Const(function(call.args[0].value))
+        return machine.mystery(f'{function.__name__}() of an unknown value', call.place)
+
+    return handler
 
 
 def _scalar(kind: type) -> Handler:
@@ -313,31 +325,6 @@ def _enter_on_stack(machine: Machine, receiver: Value, call: Call) -> Value:
 _EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stack})
 
 
-def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
-    """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
-    world = machine.world
-    before, world.on_loop = world.on_loop, world.in_callback
-    try:
-        results = [machine.await_value(arg, call.place) for arg in call.args]
-    finally:
-        world.on_loop = before
-    return results[0] if results else NONE
-
-
-def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
-    """The event loop runs it later: the callback that hands it over does none of it."""
-    world = machine.world
-    deeds, held = world.deeds, world.held
-    if deeds is None or (world.activity is not None and world.when is When.START):
-        return _run_coroutine(machine, receiver, call)
-    world.deeds, world.held = None, ()
-    try:
-        _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
-    finally:
-        world.deeds, world.held = deeds, held
-    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
-
-
 def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
     return _converted('deque')(machine, receiver, Call(call.place, call.args[:1]))
 
@@ -375,6 +362,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.float': _scalar(float),
     'builtins.str': _scalar(str),
     'builtins.bool': _scalar(bool),
+    'builtins.ord': _letter(ord),
+    'builtins.chr': _letter(chr),
     'builtins.max': _extreme('max'),
     'builtins.min': _extreme('min'),
     'builtins.sum': _sum,
@@ -399,11 +388,6 @@ _FUNCTIONS: dict[str, Handler] = {
     'contextlib.contextmanager': _same,
     'contextlib.asynccontextmanager': _same,
     'dataclasses.dataclass': _same,
-    'asyncio.run': _run_coroutine,
-    'asyncio.gather': _run_coroutine,
-    'asyncio.wait': _run_coroutine,
-    'asyncio.create_task': _make_task,
-    'asyncio.ensure_future': _make_task,
     'collections.deque': _deque,
     'collections.OrderedDict': _dict,
     'collections.defaultdict': _defaultdict,
@@ -421,44 +405,8 @@ def _import_module(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('a module whose name is computed', call.place, 'import_module()')
 
 
-def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
-    current = machine.world.current
-    if current is None or not current.node.state.on_asyncio:
-        machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
-    return NONE
-
-
-def _call_soon(machine: Machine, receiver: Value, call: Call) -> Value:
-    """The loop calls it, which whoever hands it over need not wait for."""
-    if call.args:
-        machine.call(call.args[0], Call(call.place, call.args[1:]))
-    return NONE
-
-
-def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
-    if machine.world.activity is not None:
-        machine.world.activity.loops = True
-    return NONE
-
-
-_LOOP_METHODS: dict[str, Handler] = {
-    'run_until_complete': _run_coroutine,
-    'create_task': _make_task,
-    'create_future': lambda machine, receiver, call: machine.future(call.place, 'future'),
-    'call_soon': _call_soon,
-    'call_soon_threadsafe': _call_soon,
-    'run_forever': _run_forever,
-    'run_in_executor': run_in_executor,
-}
-
-
-def _event_loop(machine: Machine, receiver: Value, call: Call) -> Value:
-    return Instance(Name('asyncio.AbstractEventLoop'), call.place)
-
-
 TABLE = Library(
     classes={
-        'asyncio.AbstractEventLoop': LibraryClass(methods=_LOOP_METHODS),
         'builtins.object': LibraryClass(init=_print),
         'contextlib.ExitStack': _EXIT_STACK,
         'contextlib.AsyncExitStack': _EXIT_STACK,
@@ -466,10 +414,6 @@ TABLE = Library(
     functions={
         **_FUNCTIONS,
         'importlib.import_module': _import_module,
-        'asyncio.sleep': _asyncio_sleep,
-        'asyncio.get_event_loop': _event_loop,
-        'asyncio.new_event_loop': _event_loop,
-        'asyncio.get_running_loop': _event_loop,
     },
     constants={
         'os.name': Const('posix'),

@@ -10,13 +10,14 @@ from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def init(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A queue has a size, or none."""
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'maxsize') or Const(0))
     return NONE
 
 
-def _may_be_full(queue: Instance) -> bool:
+def may_be_full(queue: Instance) -> bool:
     """Source: ``queue.py``; a size of zero or less has no bound."""
     size = queue.slots.get(INITIAL, Const(0))
     is_number = isinstance(size, Const) and isinstance(size.value, (int, float))
@@ -37,14 +38,14 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _put(machine: Machine, receiver: Value, call: Call) -> Value:
-    if isinstance(receiver, Instance) and _may_be_full(receiver) and _waits(call, 1):
+    if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
-    _give_items(machine, call)
+    give_items(machine, call)
     machine.note_wake(receiver, Word.PUT, call.place)
     return NONE
 
 
-def _give_items(machine: Machine, call: Call) -> None:
+def give_items(machine: Machine, call: Call) -> None:
     """What is taken out of a queue is not known: whoever takes it may have what was put in."""
     for item in (*call.args[:1], *call.keywords.values()):
         machine.give_away(item, 'it is put into a queue', call.place)
@@ -53,7 +54,7 @@ def _give_items(machine: Machine, call: Call) -> None:
 def _without_waiting(word: Word) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         if word is Word.PUT:
-            _give_items(machine, call)
+            give_items(machine, call)
         machine.note_wake(receiver, word, call.place)
         return machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
@@ -71,20 +72,21 @@ def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('how full a queue is', call.place, 'queue')
 
 
+QUEUE_METHODS: dict[str, Handler] = {
+    'get': _get,
+    'put': _put,
+    'get_nowait': _without_waiting(Word.GET),
+    'put_nowait': _without_waiting(Word.PUT),
+    'task_done': _without_waiting(Word.DONE),
+    'join': _join,
+    'empty': _asked,
+    'full': _asked,
+    'qsize': _asked,
+}
 _QUEUE = LibraryClass(
     state=lambda machine, instance: PlainState('queue', place=instance.place),
-    init=_init,
-    methods={
-        'get': _get,
-        'put': _put,
-        'get_nowait': _without_waiting(Word.GET),
-        'put_nowait': _without_waiting(Word.PUT),
-        'task_done': _without_waiting(Word.DONE),
-        'join': _join,
-        'empty': _asked,
-        'full': _asked,
-        'qsize': _asked,
-    },
+    init=init,
+    methods=QUEUE_METHODS,
 )
 
 TABLE = Library(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from ros2cc_extract.extract.static import (
+    asyncio_library,
     futures_library,
     outside_library,
     python_library,
@@ -17,6 +18,7 @@ from ros2cc_extract.extract.static import (
     ros_async,
     ros_called,
     ros_clients,
+    ros_clocks,
     ros_events,
     ros_executors,
     ros_groups,
@@ -54,9 +56,11 @@ def table() -> Library:
             python_library.TABLE,
             threads_library.TABLE,
             futures_library.TABLE,
+            asyncio_library.TABLE,
             queues_library.TABLE,
             outside_library.TABLE,
             ros_groups.TABLE,
+            ros_clocks.TABLE,
             ros_nodes.TABLE,
             ros_executors.TABLE,
             ros_spins.TABLE,

@@ -8,13 +8,15 @@ container is meant, and which objects are used rather than only looked at.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.relevance import noted_on, walk
 from ros2cc_extract.extract.static.values import Path, Value
 from ros2cc_extract.places import Place
+
+_IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
 
 
 @dataclass
@@ -27,9 +29,11 @@ class Reading:
     :param tests: names that a branch or an early return rests on, by the place of the test.
     :param items: the item that is meant, by the place of the container and its attribute.
     :param used: objects of which more is asked than whether they are there, in the same way.
+    :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
+    :param refusing: names because of which a goal was turned down.
     :param down: flags that were found down, by the step of the path on which they are.
     """
 
@@ -38,8 +42,10 @@ class Reading:
     tests: dict[Place, frozenset[str]] = field(default_factory=dict)
     items: dict[tuple[Place, str], str] = field(default_factory=dict)
     used: set[tuple[Place, str]] = field(default_factory=set)
+    compared: set[tuple[Place, str]] = field(default_factory=set)
+    refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
-    down: dict[tuple[Place, int], str] = field(default_factory=dict)
+    down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
 
@@ -53,9 +59,25 @@ class Reading:
             found |= self.read
             self.read |= before
 
+    @contextmanager
+    def apart(self) -> Iterator[None]:
+        """What is read inside leads to no value that is used outside."""
+        before = self.read
+        self.read = set()
+        try:
+            yield
+        finally:
+            self.read = before
+
     def governs(self, name: str, path: Path) -> bool:
         """Whether a test of ``name`` has led to where the program is."""
         return any(name in self.tests.get(place, ()) for place, _ in path)
+
+    def refuse(self, path: Path, found: Iterable[str]) -> None:
+        """A goal is turned down here, after tests of what led here and of what was found."""
+        self.refusing.update(found)
+        for place, _ in path:
+            self.refusing |= self.tests.get(place, frozenset())
 
     def has_called_since(self, name: str, path: Path) -> bool:
         """Whether something was called since ``name`` was tested last."""
@@ -80,6 +102,17 @@ class Reading:
         name = _name_of(used)
         if name is not None:
             self.used.add((place, name))
+
+    def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
+        """``self.goal is goal``: whoever asks so reckons with others that store it."""
+        left, right = node.left, node.comparators[0]
+        if len(node.ops) > 1 or not isinstance(node.ops[0], _IDENTITY):
+            return
+        for asked, known in ((left, right), (right, left)):
+            name = _name_of(asked)
+            if name is not None and isinstance(known, ast.Name) and known.id in own:
+                place = Place(file, asked.lineno, asked.col_offset + 1)
+                self.compared.add((place, name))
 
 
 def constant_key(key: ast.expr) -> str | None:

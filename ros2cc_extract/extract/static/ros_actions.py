@@ -50,6 +50,7 @@ def _init_server(machine: Machine, receiver: Value, call: Call) -> Value:
     server.key, server.goal_callback = key, call.argument(None, 'goal_callback')
     found = (call.argument(None, name) for name in _SERVER_CALLBACKS)
     server.extra_callbacks = tuple(value for value in found if value is not None)
+    server.defers = call.argument(None, _SERVER_CALLBACKS[-1]) is not None
     receiver.state = server
     remember_entity(machine, receiver)
     execute = add_entity(machine, node, EntityKind.ACTION_EXECUTE, groupless(machine), place)

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_clocks import items_of, start_sim_time
 from ros2cc_extract.extract.static.ros_groups import group_of
 from ros2cc_extract.extract.static.values import Call, Const, Instance, Mystery, Value
 from ros2cc_extract.extract.static.values import Library as Name
@@ -39,26 +40,31 @@ _LIFECYCLE_SERVICES = (
     'get_available_transitions',
     'get_transition_graph',
 )
-_CLOCK = 'rclpy.time_source.TimeSource.clock_callback'
 _DEFAULT_EVENTS = ('incompatible_qos', 'incompatible_type')
 
 
 def add_builtins_of_node(machine: Machine, node: Instance, call: Call) -> None:
     """What ``Node.__init__`` makes, as far as the scan lists it; ``call`` is of that."""
+    given = items_of(call.argument(None, 'parameter_overrides'))
+    clock = start_sim_time(machine, node, given, call.place)
     if not machine.world.lists_builtin:
         return
     group = group_of(machine, node, None, call.place)
     _add_events(machine, node, group, call.place, 'Publisher')
-    if any(_is_sim_time(value) for value in _overrides(call)):
-        clock = _add(machine, node, EntityKind.SUBSCRIPTION, group, call.place)
-        clock.key, clock.callback = Const('/clock'), Name(_CLOCK)
-        _add_events(machine, node, group, call.place, 'Subscription')
+    list_clock(machine, clock)
     for service, function in _services(machine, call):
         is_parameter = service in _PARAMETER_SERVICES
         kind = EntityKind.PARAMETER_SERVICE if is_parameter else EntityKind.SERVICE
         entity = _add(machine, node, kind, group, call.place)
         entity.key, entity.callback = _own_name(node, service, ''), Name(function)
     _add_lifecycle_services(machine, node, call)
+
+
+def list_clock(machine: Machine, clock: EntityState | None) -> None:
+    """List what a node that uses simulated time has made for it."""
+    if clock is not None and machine.world.lists_builtin:
+        machine.world.builtins.append(clock)
+        _add_events(machine, clock.node, clock.group, clock.place, 'Subscription')
 
 
 def _services(machine: Machine, call: Call) -> Iterator[tuple[str, str]]:
@@ -93,20 +99,6 @@ def option_of_node(machine: Machine, name: str, call: Call, *, default: bool) ->
     given = call.argument(None, name)
     truth = machine.truth(given) if given is not None else None
     return default if truth is None else truth
-
-
-def _overrides(call: Call) -> tuple[Value, ...]:
-    given = call.argument(None, 'parameter_overrides')
-    return given.items if isinstance(given, Sequence) else ()
-
-
-def _is_sim_time(value: Value) -> bool:
-    state = value.state if isinstance(value, Instance) else None
-    return (
-        isinstance(state, PlainState)
-        and state.of == Const('use_sim_time')
-        and state.key == Const(True)
-    )
 
 
 def add_events_of(

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.ros_builtins import option_of_node
+from ros2cc_extract.extract.static.ros_builtins import list_clock, option_of_node
+from ros2cc_extract.extract.static.ros_clocks import items_of, start_sim_time
 from ros2cc_extract.extract.static.ros_groups import group_of
 from ros2cc_extract.extract.static.ros_nodes import (
     LIFECYCLE_NODE,
@@ -126,6 +127,8 @@ def _setting(name: str, stages: tuple[str, ...]) -> Handler:
 
     def set_parameters(machine: Machine, receiver: Value, call: Call) -> Value:
         if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
+            given = items_of(call.argument(0, 'parameter_list'))
+            list_clock(machine, start_sim_time(machine, receiver, given, call.place))
             _run_parameter_callbacks(machine, receiver.state, stages, call.place)
         if original is not None:
             return original(machine, receiver, call)

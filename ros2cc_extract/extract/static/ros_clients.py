@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.activities import begin
-from ros2cc_extract.extract.static.ending import note_use
+from ros2cc_extract.extract.static.ending import CANCEL, note_end, note_published, note_use
 from ros2cc_extract.extract.static.futures_library import FUTURE
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.ros_clocks import note_sleep
 from ros2cc_extract.extract.static.ros_executors import (
     add_task,
     node_executor_property,
@@ -24,7 +25,7 @@ from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import ActivityKind, EntityKind
+from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
 
 
 def _blocking(name: str, position: int | None) -> Handler:
@@ -76,13 +77,22 @@ def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    entity = receiver.state
-    if (
-        isinstance(entity, EntityState)
-        and entity is machine.world.current
-        and machine.world.path == machine.world.callback_path
-    ):
-        entity.one_shot = True
+    world, entity = machine.world, receiver.state
+    if not isinstance(entity, EntityState):
+        return NONE
+    if entity is world.current:
+        entity.one_shot = entity.one_shot or world.path == world.callback_path
+    elif world.when is When.START and not world.in_callback and world.activity is None:
+        is_early = not world.after_spin and not world.path
+        entity.dormant = call.place if is_early else entity.dormant
+    else:
+        note_end(machine, CANCEL, entity, call.place)
+    return NONE
+
+
+def _reset(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
+        receiver.state.restarted = True
     return NONE
 
 
@@ -95,6 +105,7 @@ def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
 def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_publish(receiver, call.place)
     note_use(machine, 'a message is published', call.place)
+    note_published(machine, receiver, call.place)
     return NONE
 
 
@@ -165,6 +176,14 @@ def future_class(kind: str) -> LibraryClass:
 _ENTITY: dict[str, Handler] = {'destroy': _destroy}
 
 
+def _sleep_by_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A timer of the node wakes it; where the time is simulated, that waits for its clock."""
+    state = receiver.state if isinstance(receiver, Instance) else None
+    if isinstance(state, EntityState):
+        note_sleep(machine, 'Rate.sleep', state.node, call.place)
+    return _blocking('Rate.sleep', None)(machine, receiver, call)
+
+
 def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
     """It takes the message itself, in the thread that waits (``wait_for_message.py``)."""
     topic = Instance(Name('rclpy.topic'), call.place)
@@ -182,8 +201,8 @@ def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
 
 TABLE = Library(
     classes={
-        'rclpy.timer.Timer': LibraryClass(methods={'cancel': _cancel, **_ENTITY}),
-        'rclpy.timer.Rate': LibraryClass(methods={'sleep': _blocking('Rate.sleep', None)}),
+        'rclpy.timer.Timer': LibraryClass(methods={'cancel': _cancel, 'reset': _reset, **_ENTITY}),
+        'rclpy.timer.Rate': LibraryClass(methods={'sleep': _sleep_by_rate}),
         'rclpy.subscription.Subscription': LibraryClass(methods=_ENTITY),
         'rclpy.service.Service': LibraryClass(methods=_ENTITY),
         'rclpy.guard_condition.GuardCondition': LibraryClass(methods=_ENTITY),

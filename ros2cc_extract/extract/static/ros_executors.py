@@ -57,6 +57,9 @@ MULTI = 'rclpy.executors.MultiThreadedExecutor'
 EVENTS = 'rclpy.experimental.EventsExecutor'
 
 Awaited = tuple[Value | None, Value | None]
+_MANY_THREADS = 256
+"""A pool starts threads as it needs them: what lies above this is meant as "enough"."""
+
 _SPIN_OVERRIDES = frozenset(
     [
         'spin',
@@ -119,11 +122,14 @@ def _set_threads(state: ExecutorState, value: Value | None, place: Place) -> Non
         return
     state.threads_at = place
     if isinstance(value, Const) and _is_count(value):
-        state.threads = value.value
+        state.threads = min(value.value, _MANY_THREADS)
+        if value.value > _MANY_THREADS:
+            state.assumed = f'{_MANY_THREADS} threads behave as {value.value} do'
         return
     default = value.default if isinstance(value, Mystery) else None
     if isinstance(value, Mystery) and isinstance(default, Const) and _is_count(default):
-        state.threads, state.assumed = default.value, assumption('number of threads', value)
+        state.threads = min(default.value, _MANY_THREADS)
+        state.assumed = assumption('number of threads', value)
         return
     state.threads = 2
     reason = value.unknown.reason if isinstance(value, Mystery) else 'computed at run time'
@@ -234,7 +240,7 @@ def record_spin(
     if not any(_is_the_same(spin, other) for other in world.spins.values()):
         world.spins.setdefault(spin.key, spin)
     for node in nodes:
-        node.state.spun = True
+        node.state.spun, node.state.loop = True, world.loop
     if ever and not world.in_thread:
         world.after_spin = True
 
@@ -308,10 +314,19 @@ def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
         and isinstance(node.state, NodeState)
         and not machine.world.after_spin
     ):
+        _note_served_so_far(machine, receiver, node)
         remove_node(machine, receiver, node)
         machine.note_change('remove_node', node, call.place)
         note_end(machine, REMOVE_NODE, node, call.place)
     return NONE
+
+
+def _note_served_so_far(machine: Machine, executor: Instance, node: Instance) -> None:
+    """A thread that spins on has served the node until it is taken out."""
+    for spin in machine.world.spins.values():
+        is_served = spin.executor is executor and spin.in_thread and spin.for_ever
+        if is_served and node in nodes_of(executor) and node not in spin.nodes:
+            spin.nodes = (*spin.nodes, node)
 
 
 def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:

@@ -3,7 +3,8 @@ Helper libraries whose methods wait or spin inside, where their source is not sc
 
 Sources: ``tf2_ros/buffer_client.py`` (one action client; a look-up sends a goal and waits for an
 event), ``nav2_simple_commander/robot_navigator.py`` (a node of its own, which its methods spin),
-``pymoveit2/moveit2.py`` 4.2 (its methods spin the given node).
+``pymoveit2/moveit2.py`` 4.2 (its methods spin the given node), rclpy 7.1.6,
+``parameter_client.py`` (clients of the given node, in the given group).
 """
 
 from __future__ import annotations
@@ -28,6 +29,17 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import EntityKind
 
 _BUFFER_CLIENT = 'tf2_ros.BufferClient'
+_PARAMETER_CLIENT = 'rclpy.parameter_client.AsyncParameterClient'
+_REQUESTS = (
+    'get_parameters',
+    'set_parameters',
+    'set_parameters_atomically',
+    'describe_parameters',
+    'get_parameter_types',
+    'list_parameters',
+    'delete_parameters',
+    'load_parameter_file',
+)
 _NAVIGATOR = 'nav2_simple_commander.robot_navigator.BasicNavigator'
 _MOVEIT = 'pymoveit2.MoveIt2'
 _PADDING_S = 2.0
@@ -44,6 +56,38 @@ def _make_buffer_client(machine: Machine, receiver: Value, call: Call) -> Value:
         entity.label = 'buffer_client'
         receiver.state = entity
     return NONE
+
+
+def _make_parameter_client(machine: Machine, receiver: Value, call: Call) -> Value:
+    """It makes six clients, all in one group; one of them stands for all."""
+    assert isinstance(receiver, Instance)
+    node = as_node(machine, call.argument(0, 'node'))
+    if node is not None:
+        group = group_of(machine, node, call.argument(3, 'callback_group'), call.place)
+        entity = add_entity(machine, node, EntityKind.CLIENT, group, call.place)
+        name = call.argument(1, 'remote_node_name')
+        unknown = Unknown('parameters of a node that could not be followed', call.place)
+        is_text = isinstance(name, Const) and isinstance(name.value, str)
+        entity.key = Const(f'{name.value}/get_parameters') if is_text else Mystery(unknown)  # type: ignore[union-attr]
+        entity.library, entity.label = _PARAMETER_CLIENT, 'parameter_client'
+        receiver.state = entity
+    return NONE
+
+
+def _ask_for_parameters(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Each method sends a request; a callback that is given is one of the future."""
+    future = machine.future(call.place, 'client', receiver)
+    callback = call.argument(None, 'callback')
+    if callback is not None and callback != NONE:
+        add = machine.attribute(future, 'add_done_callback', call.place)
+        machine.call(add, Call(call.place, [callback]))
+    return future
+
+
+def _wait_for_parameter_services(machine: Machine, receiver: Value, call: Call) -> Value:
+    timeout = call.argument(0, 'timeout_sec')
+    machine.note_blocking('wait_for_service', receiver, timeout, call.place)
+    return machine.mystery('whether services are there', call.place, 'wait_for_services()')
 
 
 def _ask(name: str, position: int) -> Handler:
@@ -133,6 +177,13 @@ TABLE = Library(
                 'lookup_transform_full': _ask('lookup_transform_full', 5),
                 'can_transform': _ask('can_transform', 3),
                 'can_transform_full': _ask('can_transform_full', 5),
+            },
+        ),
+        _PARAMETER_CLIENT: LibraryClass(
+            init=_make_parameter_client,
+            methods={
+                **dict.fromkeys(_REQUESTS, _ask_for_parameters),
+                'wait_for_services': _wait_for_parameter_services,
             },
         ),
         _NAVIGATOR: LibraryClass(

@@ -11,7 +11,12 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.containers import Sequence
 from ros2cc_extract.extract.static.defaults import AT_RUN_TIME, default_of
-from ros2cc_extract.extract.static.ending import DESTROY, DESTROY_NODE, note_end
+from ros2cc_extract.extract.static.ending import (
+    DESTROY,
+    DESTROY_NODE,
+    DESTROY_PUBLISHER,
+    note_end,
+)
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_builtins import (
@@ -19,6 +24,7 @@ from ros2cc_extract.extract.static.ros_builtins import (
     add_events_of,
     option_of_node,
 )
+from ros2cc_extract.extract.static.ros_clocks import clock_of
 from ros2cc_extract.extract.static.ros_groups import (
     DEFAULT_GROUP,
     default_group_of,
@@ -35,6 +41,7 @@ from ros2cc_extract.extract.static.values import (
     Instance,
     Mystery,
     Value,
+    options_of,
 )
 from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.world import (
@@ -51,6 +58,9 @@ from ros2cc_extract.spec.model import EntityKind, GroupType, When
 NODE = 'rclpy.node.Node'
 _BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
+
+_ENTITY_STEPS = 1_000
+"""What an entity costs all who come later, in steps: a program may make some 800."""
 
 
 @dataclass(frozen=True)
@@ -121,6 +131,7 @@ def add_entity(
     machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
 ) -> EntityState:
     """Record an entity of ``node`` made here and now."""
+    machine.charge(_ENTITY_STEPS)
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.assumed = world.assumed
@@ -178,6 +189,8 @@ def _creator(row: CreateCall) -> Handler:
         entity.key = key
         entity.callback = callback
         entity.period = call.argument(*row.period) if row.period else None
+        if call.argument(None, 'autostart') == Const(False):
+            entity.dormant = call.place
         made = Instance(Name(row.cls), call.place)
         made.state = entity
         remember_entity(machine, made)
@@ -276,6 +289,13 @@ def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
     target = call.args[0] if call.args else None
     if isinstance(target, Instance) and isinstance(target.state, EntityState):
         mark_destroyed(machine, target.state, call.place)
+    return Const(True)
+
+
+def _destroy_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+    for target in options_of(call.args[0]) if call.args else ():
+        if isinstance(target, Instance) and isinstance(target.state, PlainState):
+            note_end(machine, DESTROY_PUBLISHER, target, call.place)
     return Const(True)
 
 
@@ -425,6 +445,7 @@ NODE_METHODS: dict[str, Handler] = {
     'create_rate': _create_rate,
     'create_publisher': _create_publisher,
     'create_lifecycle_publisher': _create_publisher,
+    'destroy_publisher': _destroy_publisher,
     'destroy_timer': _destroy,
     'destroy_subscription': _destroy,
     'destroy_service': _destroy,
@@ -435,7 +456,7 @@ NODE_METHODS: dict[str, Handler] = {
     'get_parameter': _parameter,
     'get_parameters': _get_all,
     'get_parameter_or': _parameter_or,
-    'get_clock': _unfollowed('the clock'),
+    'get_clock': clock_of,
     'get_name': _name_of,
     'get_logger': _unfollowed('the logger'),
     'get_namespace': _unfollowed('namespace of the node at run time'),

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
+from ros2cc_extract.extract.static.foreign_loops import note_foreign_loops
 from ros2cc_extract.extract.static.handed_on import next_round
 from ros2cc_extract.extract.static.interpreter import Interpreter
 from ros2cc_extract.extract.static.lock_paths import note_kept_locks
@@ -91,6 +92,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     note_unanswered(machine.world)
     note_spun_twice(machine.world)
     note_ends(machine.world)
+    note_foreign_loops(machine.world)
     return machine
 
 
@@ -130,16 +132,17 @@ def guarded(
     :param text: the file that is run; where it leads to nothing of ROS, nothing is missing.
     """
     world = machine.world
-    if not machine.steps_left:
-        if not any(cut.reason == TOO_LONG for cut in world.cut):
-            world.cut.append(Cut(TOO_LONG, place))
+    if not machine.steps_left or _is_late(machine):
+        reason = _why_cut(machine)
+        if not any(cut.reason == reason for cut in world.cut):
+            world.cut.append(Cut(reason, place))
         return
     machine.steps, machine.step_limit = 0, min(STEP_LIMIT, machine.steps_left)
     try:
         act()  # type: ignore[operator]
     except BudgetError:
         if world.nodes or text is None or not leads_nowhere(world, text):
-            _complain(world, place, TOO_LONG)
+            _complain(world, place, _why_cut(machine))
     except RecursionError:
         _complain(world, place, 'set-up is nested too deeply to be followed')
     finally:
@@ -152,6 +155,15 @@ def guarded(
         world.in_thread, world.when, world.thread = False, When.START, 0
         world.activity, world.again, world.retelling = None, False, False
         machine.store.reset()
+
+
+def _is_late(machine: Interpreter) -> bool:
+    return machine.deadline is not None and machine.deadline.is_over
+
+
+def _why_cut(machine: Interpreter) -> str:
+    is_late = _is_late(machine) and machine.steps_left and machine.steps <= machine.step_limit
+    return machine.deadline.reason if machine.deadline and is_late else TOO_LONG
 
 
 def _complain(world: World, place: Place, message: str) -> None:
@@ -203,6 +215,24 @@ def run_callbacks(machine: Interpreter) -> None:
 
 
 def _run_new_callbacks(machine: Interpreter) -> None:
+    """Follow new entities, and functions that callbacks have given to others since."""
+    _run_new_entities(machine)
+    while late := [
+        each for each in machine.world.entities if 0 <= each.ran < len(_functions(each))
+    ]:
+        for entity in late:
+            for callback in _functions(entity)[entity.ran :]:
+                entity.ran += 1
+                _run_callback(machine, entity, callback, entity.deeds or Deeds(), again=False)
+        _run_new_entities(machine)
+
+
+def _functions(entity: EntityState) -> tuple[Value, ...]:
+    given = (entity.callback, *entity.extra_callbacks)
+    return tuple(callback for callback in given if callback is not None)
+
+
+def _run_new_entities(machine: Interpreter) -> None:
     world, too_early = machine.world, list[_TooEarly]()
     while world.followed < min(len(world.entities), _CALLBACK_LIMIT):
         entity = world.entities[world.followed]
@@ -245,9 +275,10 @@ def _run_again(machine: Interpreter, entity: EntityState) -> None:
 def _run_callbacks_of(machine: Interpreter, entity: EntityState, *, again: bool = False) -> Deeds:
     entity.deeds = Deeds()
     machine.world.met = machine.world.met_by[id(entity)] = {}
-    for callback in (entity.callback, *entity.extra_callbacks):
-        if callback is not None:
-            _run_callback(machine, entity, callback, entity.deeds, again=again)
+    functions = _functions(entity)
+    entity.ran = len(functions)
+    for callback in functions:
+        _run_callback(machine, entity, callback, entity.deeds, again=again)
     return entity.deeds
 
 
@@ -269,7 +300,7 @@ def _run_callback(
         mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
-            machine.run_if_coroutine(flags.call(machine, entity, option, call), entity.place)
+            flags.call(machine, entity, option, call)
         if mark is not None:
             _end_branch(machine, mark)
 

@@ -8,12 +8,15 @@ and follows a file again where one before it in the order of files has covered m
 
 from __future__ import annotations
 
+import os
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.crew import Crew
-from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
+from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.entries import console_scripts, entries_of
 from ros2cc_extract.extract.static.library_runs import run_library
@@ -33,10 +36,15 @@ from ros2cc_extract.spec.model import Spec
 Progress = Callable[[int, int], None]
 Numbers = tuple[int, ...]
 
+LONGEST_MESSAGE = 300
+DEFECT = 'this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where'
 PIECES_PER_CHILD = 12
 WORTH_SHARING_BYTES = 100_000
 SMALLEST_PIECE_BYTES = 20_000
 """Below that, sending work around costs more than doing it."""
+
+
+INTERRUPTED = 'interrupted'
 
 
 @dataclass(frozen=True)
@@ -57,12 +65,14 @@ class Found:
     What following one file gave.
 
     :param perhaps: the same of functions that only spin, which may be starts: where they stand.
+    :param cut: why it was not followed to its end; empty where it was.
     """
 
     units: tuple[Spec, ...] = ()
     noticed: tuple[Diagnostic, ...] = ()
     covered: frozenset[Place] = frozenset()
     perhaps: tuple[tuple[Place, Found], ...] = ()
+    cut: str = ''
 
 
 @dataclass(frozen=True)
@@ -82,7 +92,7 @@ class Answer:
 
 
 def scan_project(
-    project: Project, processes: int, progress: Progress | None
+    project: Project, processes: int, progress: Progress | None, patience: Patience
 ) -> tuple[Extraction, frozenset[FollowedFile]]:
     """
     Follow everything; also gives the files that were read though nobody gave them.
@@ -96,7 +106,7 @@ def scan_project(
     pieces = _pieces(files, processes)
     processes = min(processes, len(pieces))
     with Crew(worker.answer, processes) as crew:
-        return _Scan(project, files, pieces, crew, worker, progress).run()
+        return _Scan(project, files, pieces, crew, worker, progress, patience).run()
 
 
 def _pieces(files: Sequence[SourceFile], processes: int) -> list[Numbers]:
@@ -121,16 +131,45 @@ class _Worker:
     def __init__(self, project: Project, files: Sequence[SourceFile]) -> None:
         self._project = project
         self._files = files
-        self._scripts = console_scripts(project.script_folders())
+        self._scripts = console_scripts(project.disk, project.script_folders())
 
     def answer(self, piece: Piece) -> Answer:
         """Follow a piece."""
         if not piece.numbers:
             return Answer(read=Read(self._unread(), frozenset(self._project.followed())))
         files = [self._files[number] for number in piece.numbers]
-        return Answer(tuple(self._found_in(source, piece.covered) for source in files))
+        return Answer(tuple(self._found_in_time(source, piece.covered) for source in files))
+
+    def _found_in_time(self, source: SourceFile, covered: frozenset[Place] | None) -> Found:
+        deadline = self._project.deadline
+        if deadline is None:
+            return self._found_in(source, covered)
+        if deadline.is_over:
+            return Found(cut=deadline.reason)
+        try:
+            with ended_by(deadline):
+                found = self._found_in(source, covered)
+        except TimeOverError:
+            return Found(cut=deadline.reason)
+        return replace(found, cut=deadline.reason) if deadline.is_over else found
 
     def _found_in(self, source: SourceFile, covered: frozenset[Place] | None) -> Found:
+        """What one file gives; what goes wrong with it does not end the scan of the others."""
+        try:
+            return self._follow(source, covered)
+        except RecursionError:
+            return _failed(source, 'nested-too-deeply', 'nested too deeply to be followed')
+        except MemoryError:
+            return _failed(source, 'internal-error', 'there is not enough memory to follow it')
+        except Exception as error:
+            if os.environ.get('ROS2CC_TRACEBACK'):
+                raise
+            told = ' '.join(f'{type(error).__name__}: {error}'.split())[:LONGEST_MESSAGE]
+            return _failed(source, 'internal-error', f'cannot be followed: {told}', DEFECT)
+        finally:
+            forget_programs()
+
+    def _follow(self, source: SourceFile, covered: frozenset[Place] | None) -> Found:
         if b'modules' in source.data and source.tree and replaces_rclpy(source.tree):
             return Found()
         if covered is None:
@@ -171,6 +210,7 @@ class _Scan:
         crew: Crew[Piece, Answer],
         worker: _Worker,
         progress: Progress | None,
+        patience: Patience,
     ) -> None:
         self._project = project
         self._worker = worker
@@ -179,6 +219,8 @@ class _Scan:
         self._crew = crew
         self._progress = progress or (lambda done, total: None)
         self._done = 0
+        self._patience = patience
+        self._is_interrupted = False
 
     def run(self) -> tuple[Extraction, frozenset[FollowedFile]]:
         """Both rounds."""
@@ -189,10 +231,15 @@ class _Scan:
         read = self._read()
         every = list(zip(from_entries, from_rest, strict=True))
         noticed = [d for pair in every for found in pair for d in found.noticed]
+        cut = [found.cut or other.cut for found, other in every]
+        noticed.extend(self._told_as_cut(cut))
+        unread = (*self._project.barred, *(d for each in read for d in each.unread))
         extraction = Extraction(
             units=each_once([unit for pair in every for found in pair for unit in found.units]),
-            diagnostics=_sorted([*noticed, *(d for each in read for d in each.unread)]),
+            diagnostics=_sorted([*noticed, *unread]),
             files_seen=tuple(source.shown for source in self._project.given),
+            cut=next(filter(None, cut), ''),
+            interrupted=self._is_interrupted,
         )
         return extraction, frozenset(file for each in read for file in each.followed)
 
@@ -202,15 +249,16 @@ class _Scan:
         ahead = self._ahead(covered, homes) if self._crew.size > 1 else {}
         covered.grown.clear()
         rest: list[Found] = []
-        for number, source in enumerate(self._files):
-            found = ahead.get(number)
-            if found is None or source.shown in covered.grown:
-                found = self._worker.answer(Piece((number,), covered.of([source]))).found[0]
-            if not ahead:
-                self._step(1)
-            covered.add(found)
-            rest.append(found)
-        return rest
+        with self._ended_by_interrupt():
+            for number, source in enumerate(() if self._is_interrupted else self._files):
+                found = ahead.get(number)
+                if found is None or source.shown in covered.grown:
+                    found = self._worker.answer(Piece((number,), covered.of([source]))).found[0]
+                if not ahead:
+                    self._step(1)
+                covered.add(found)
+                rest.append(found)
+        return [*rest, *[Found(cut=INTERRUPTED)] * (len(self._files) - len(rest))]
 
     def _ahead(self, covered: _Covered, homes: Sequence[int | None]) -> dict[int, Found]:
         """Follow every file as if none before it covered more than the entries did."""
@@ -224,14 +272,46 @@ class _Scan:
     def _ask(
         self, pieces: Sequence[Piece], by: Sequence[int | None] | None
     ) -> list[tuple[Answer, int | None]]:
-        return self._crew.ask(pieces, by, lambda number: self._step(len(pieces[number].numbers)))
+        found: dict[int, tuple[Answer, int | None]] = {}
+        with self._ended_by_interrupt():
+            for number, given in self._crew.each(pieces, by) if not self._is_interrupted else ():
+                found[number] = given
+                self._step(len(pieces[number].numbers))
+        return [
+            found.get(number) or (Answer((Found(cut=INTERRUPTED),) * len(piece.numbers)), None)
+            for number, piece in enumerate(pieces)
+        ]
+
+    @contextmanager
+    def _ended_by_interrupt(self) -> Iterator[None]:
+        """End what is within on an interrupt, where what is done is to be told."""
+        try:
+            yield
+        except KeyboardInterrupt:
+            if not self._patience.keeps_interrupted:
+                raise
+            self._is_interrupted = True
+
+    def _told_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
+        """Tell once what may be missing, at the first file of it."""
+        places = [source.shown for source, why in zip(self._files, cut, strict=True) if why]
+        if places:
+            yield Diagnostic(
+                severity=Severity.WARNING,
+                slug='not-followed',
+                place=Place(places[0], 1, 1),
+                message=f'{len(places)} of {len(cut)} files are not followed to their end: '
+                f'{next(filter(None, cut))}',
+                help='what they would make is missing from the units',
+            )
 
     def _step(self, files: int) -> None:
         self._done += files
         self._progress(self._done, 2 * len(self._files))
 
     def _read(self) -> list[Read]:
-        children = range(self._crew.size if self._crew.size > 1 else 0)
+        has_children = self._crew.size > 1 and not self._is_interrupted
+        children = range(self._crew.size if has_children else 0)
         asked = self._crew.ask([Piece(())] * len(children), list(children))
         answers = [*(answer for answer, _ in asked), self._worker.answer(Piece(()))]
         return [answer.read for answer in answers if answer.read is not None]
@@ -262,6 +342,14 @@ class _Covered:
         return frozenset(p for file in files for p in self._places.get(file.shown, ()))
 
 
+def _failed(source: SourceFile, slug: str, message: str, mend: str = '') -> Found:
+    place = Place(source.shown, 1, 1)
+    noticed = Diagnostic(
+        severity=Severity.ERROR, slug=slug, place=place, message=message, help=mend
+    )
+    return Found(noticed=(noticed,))
+
+
 def _found(world: World, label: str | None) -> Found:
     units = tuple(specs_of(world, label))
     return Found(units, tuple(world.diagnostics), _covered(world))
@@ -278,6 +366,8 @@ def _joined(parts: Iterable[Found]) -> Found:
 
 def _with_starts(found: Sequence[Found]) -> list[Found]:
     """Take what may be starts for such, but what others call."""
+    if any(each.cut for each in found):  # who calls them may not have been followed
+        return [replace(each, perhaps=()) for each in found]
     certain = frozenset(place for each in found for place in each.covered)
     perhaps = [pair for each in found for pair in each.perhaps]
     called = {

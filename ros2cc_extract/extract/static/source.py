@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import errno
 import hashlib
 import io
 import re
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.newer_python import WITHOUT_FILE, needs_newer_python
+from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.places import Place
 
 SIZE_LIMIT_BYTES = 8_000_000
@@ -34,6 +36,7 @@ class SourceFile:
     :param module_name: dotted name by which the program imports it.
     :param package: dotted name of the package it is in, empty outside packages.
     :param named: the user named this very file; its trouble is told whatever it holds.
+    :param files: where it is read from.
     """
 
     path: Path
@@ -42,6 +45,7 @@ class SourceFile:
     package: str
     given_text: str | None = None
     named: bool = False
+    files: Files = DISK
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     @cached_property
@@ -50,10 +54,10 @@ class SourceFile:
         if self.given_text is not None:
             return self.given_text.encode('utf-8', 'surrogatepass')
         try:
-            if self.path.stat().st_size > SIZE_LIMIT_BYTES:
-                return self._too_large(f'larger than {SIZE_LIMIT_BYTES // 1_000_000} MB')
-            data = self.path.read_bytes()
+            data = self.files.read(self.path, SIZE_LIMIT_BYTES)
         except OSError as error:
+            if error.errno == errno.EFBIG:
+                return self._too_large(f'larger than {SIZE_LIMIT_BYTES // 1_000_000} MB')
             self._complain('unreadable-file', 0, 0, f'cannot be read: {error.strerror or error}')
             return b''
         if len(data) > TOKEN_LIMIT and sum(1 for _ in _TOKEN.finditer(data)) > TOKEN_LIMIT:

@@ -17,7 +17,7 @@ from typing import Any
 from ros2cc_extract.extract.static import changing, flags, loops, memo, polls, same_tests, settings
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
-from ros2cc_extract.extract.static.machine import BudgetError, Frame, Machine
+from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.same_node import note_open_test
 from ros2cc_extract.extract.static.store import Writes
 from ros2cc_extract.extract.static.tries import run_try
@@ -61,9 +61,7 @@ class Statements(Machine):
 
     def execute(self, statement: ast.stmt, frame: Frame) -> int:
         """Run one statement."""
-        self.steps += 1
-        if self.steps > self.step_limit:
-            raise BudgetError
+        self.charge(1)
         handler = _STATEMENTS.get(type(statement))
         flow = handler(self, statement, frame) if handler else NEXT
         if self.world.stopped:
@@ -145,11 +143,31 @@ def _without(writes: Writes, scope: Scope) -> Writes:
 
 
 def _expression(machine: Statements, node: ast.Expr, frame: Frame) -> int:
-    machine.evaluate(node.value, frame)
+    if _is_of_own_name(node.value, frame):
+        machine.evaluate(node.value, frame)
+        return NEXT
+    with machine.world.reading.apart():
+        machine.evaluate(node.value, frame)
     return NEXT
 
 
+def _is_of_own_name(value: ast.expr, frame: Frame) -> bool:
+    """``rows.append(x)``: what is put into an object of the function's own may be given back."""
+    while isinstance(value, (ast.Attribute, ast.Subscript, ast.Call, ast.Await)):
+        value = value.func if isinstance(value, ast.Call) else value.value
+    return not isinstance(value, ast.Name) or (
+        value.id != 'self' and value.id in frame.scope.slots
+    )
+
+
 def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
+    if all(isinstance(target, ast.Attribute) for target in node.targets):
+        with machine.world.reading.apart():
+            return _assign_to(machine, node, frame)
+    return _assign_to(machine, node, frame)
+
+
+def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     value = changing.evaluate_copied(machine, node.value, node.targets, frame)
     for target in node.targets:
         machine.assign(target, value, frame)
@@ -174,6 +192,7 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     machine.note_update(load, frame, AccessKind.UPDATE)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
+        machine.charge(len(items))
         machine.store.write(old, 'items', (*old.items, *items))
         machine.store.write(old, 'open', old.others or rest)
         return NEXT
@@ -193,8 +212,10 @@ def _as_load(target: ast.Name | ast.Attribute | ast.Subscript) -> ast.expr:
 
 
 def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
-    frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
-    flags.note_return(machine.world, frame, node)
+    found = set[str]()
+    with machine.world.reading.of(found):
+        frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    flags.note_return(machine.world, frame, node, found)
     return RETURN
 
 

@@ -143,8 +143,22 @@ def _give(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _meet(machine: Machine, receiver: Value, call: Call) -> Value:
     """Whoever comes to a barrier is waited for by the others."""
+    assert isinstance(receiver, Instance)
     machine.note_wake(receiver, Word.ARRIVE, call.place)
-    return _blocking('Barrier.wait', 0, 'timeout')(machine, receiver, call)
+    timeout = call.argument(0, 'timeout') or receiver.slots.get(_PATIENCE)
+    machine.note_blocking('Barrier.wait', receiver, timeout, call.place)
+    return machine.mystery('result of Barrier.wait', call.place)
+
+
+def _barrier_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Its time-out is that of all who wait at it."""
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, _PATIENCE, call.argument(2, 'timeout') or NONE)
+    return NONE
+
+
+_PATIENCE = '__patience__'
+_INITS['barrier'] = _barrier_init
 
 
 def _release(machine: Machine, receiver: Value, call: Call) -> Value:

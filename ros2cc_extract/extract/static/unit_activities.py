@@ -105,6 +105,13 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
     )
 
 
+def _takes_turns(state: ActivityState, starter: object) -> bool:
+    """Whether it begins only when whoever starts it has ended: both have one thread."""
+    if isinstance(starter, EntityState):
+        return state.turns is not None and starter.node.state.loop == state.turns
+    return state.turns is not None and getattr(starter, 'turns', None) is state.turns
+
+
 def _is_conditional(state: ActivityState) -> bool:
     """Whether a branch of whoever starts it may skip that."""
     starts = [start for start in state.starts if start.by is not None]
@@ -118,6 +125,6 @@ def _starts(state: ActivityState, names: dict[int, str], waits: UnitWaits) -> It
             yield Waker(
                 by=name,
                 source=start.place,
-                after=waits.after(start),
+                after=None if _takes_turns(state, start.by) else waits.after(start),
                 conditional=start.conditional,
             )

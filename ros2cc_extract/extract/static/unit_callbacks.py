@@ -260,7 +260,7 @@ class UnitBuilder:
             alternative=alternative,
             branch=branch,
             coroutine=facts.coroutine,
-            one_shot=entity.one_shot,
+            one_shot=entity.one_shot and not entity.restarted,
             destroyed=entity.destroyed or bool(entity.part_of and entity.part_of.destroyed),
             groupless=entity.kind in _GROUPLESS,
             library=entity.library,

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
+from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
+from ros2cc_extract.extract.static.unsure_wakers import why_gone, why_lost
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
 from ros2cc_extract.extract.static.wakings import (
+    ClockRef,
     DataRef,
     EntityRef,
     ResourceRef,
@@ -19,12 +22,14 @@ from ros2cc_extract.extract.static.wakings import (
     Waking,
     Word,
 )
-from ros2cc_extract.extract.static.world import EntityState, World
+from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Blocking, Waker
+from ros2cc_extract.spec.deeds import BY_ITSELF, OUTSIDE, TIME, Access, Blocking, Needs, Waker
+from ros2cc_extract.spec.model import ActivityKind
 
 # What is waited for of one object may be several things.
 _COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
+_OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
 
 Doer = EntityState | ActivityState
@@ -105,6 +110,8 @@ class UnitWaits:
             return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
         if isinstance(raw.on, TopicRef):
             return replace(raw, on=str(raw.on), resource=str(raw.on))
+        if isinstance(raw.on, ClockRef):
+            return replace(raw, on=self._names.get(raw.on.number), resource=str(raw.on))
         on = _waited_name(raw.on, self._settled)
         if isinstance(resource, ResourceRef):
             on = self._the_waker(raw, resource) or (str(raw.on) if on is not None else None)
@@ -159,6 +166,13 @@ class UnitWaits:
                 if access.name in on.names and not is_before:
                     yield doer, access
 
+    def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
+        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
+        by = [clock if isinstance(clock, str) else OUTSIDE]
+        if not any(self._senders(TopicRef(topic))):
+            by.append(OUTSIDE)
+        return tuple(Waker(by=each) for each in dict.fromkeys(by))
+
     def _writers(self, on: DataRef) -> Iterator[Waker]:
         for doer, access in self._writes(on):
             yield self._does(doer, access.name, access.source)
@@ -184,25 +198,34 @@ class UnitWaits:
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
+        if isinstance(raw.on, ClockRef):
+            return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
         if isinstance(raw.on, TopicRef):
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)
         if isinstance(raw.on, DataRef):
             writers = tuple(dict.fromkeys((*self._writers(raw.on), *self._at_end(raw.on, doer))))
             why = data_is_written_elsewhere(self._world, raw.on.names)
-            return replace(named, wakers=writers, escapes=why)
+            by = [writer for writer, _ in self._writes(raw.on)]
+            unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
+            if unsure is not None:
+                writers = _unsure(writers)
+            return replace(named, wakers=writers, escapes=why or unsure)
+        forked = self._world.forked
+        if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
+            raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
         row = WAITS.get(raw.call, NO_ROW)
         wakers = [Waker(by=by) for by in row.always]
         escapes = raw.escapes
         if isinstance(raw.resource, ResourceRef):
-            more, why = self._wakers_of(raw.resource, doer)
+            more, why = self._wakers_of(raw, raw.resource, doer)
             wakers += more
             escapes = escapes or why
             initial = self._initial(raw.resource, wakings_of(self._world, raw.resource))
             if initial != 0:
                 # A model of so many runs cannot say when they are used up.
                 many = 'some' if initial is None else f'the first {initial}'
-                reason = f'{many} of these waits end by themselves'
+                reason = f'{many} {BY_ITSELF}'
                 escapes = escapes or Unknown(reason, raw.source)
         elif row.ended_by and isinstance(raw.on, EntityRef):
             is_here = isinstance(named.on, str) and named.on in self._names.values()
@@ -212,13 +235,47 @@ class UnitWaits:
             escapes = raw.on if isinstance(raw.on, Unknown) else unknown
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
 
-    def _wakers_of(self, reference: ResourceRef, doer: Doer) -> tuple[list[Waker], Unknown | None]:
+    def _wakers_of(
+        self, raw: Blocking, reference: ResourceRef, doer: Doer
+    ) -> tuple[list[Waker], Unknown | None]:
         wakings = wakings_of(self._world, reference)
         mine = [waking for waking in wakings if waking.word in reference.ended_by]
         if Word.ARRIVE in reference.ended_by:
             mine = [waking for waking in mine if waking.by is not doer]
         found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
-        return found, self._why_open(mine, reference)
+        unsure = self._why_unsure(raw, reference, mine, doer)
+        if unsure is not None:
+            found = list(_unsure(found))
+        why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)
+        return found, why
+
+    def _why_unsure(
+        self, raw: Blocking, reference: ResourceRef, mine: list[Waking], doer: Doer
+    ) -> Unknown | None:
+        """Why those that end a wait may be gone by then, or come too early."""
+        stays = reference.is_kept and reference.number not in self._world.cleared
+
+        def comes_after(end: End) -> bool:
+            """Of one's own waits the first has ended, and with it all."""
+            return stays and self._is_behind(end, raw, doer)
+
+        wakers = [waking.by for waking in mine]
+        why = why_gone(self._world, wakers, comes_after, self._name)
+        return why or why_lost(self._world, raw, reference, mine, self._name)
+
+    def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
+        """Whether ``doer`` itself ends it, when it has waited."""
+        behind = self._kept[id(doer)].places.get(end.behind, 0)
+        mine_at = self._kept[id(doer)].places.get(way_of(raw), 0)
+        return end.doer is doer and 0 < mine_at <= behind
+
+    def _of_main_after(self, raw: Blocking, doer: Doer) -> Callable[[End], bool]:
+        """What ``main``, which runs once, ends when it has waited is there while it waits."""
+        is_main = isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN
+        return lambda end: is_main and self._is_behind(end, raw, doer)
+
+    def _name(self, doer: object) -> str | None:
+        return self._names.get(id(doer))
 
     def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
         """Why somebody may end the wait who is not known."""
@@ -232,7 +289,7 @@ class UnitWaits:
             return Unknown(
                 f'nobody in sight calls {uncalled.uncalled}, which ends it', uncalled.place
             )
-        return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made_in)
+        return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
     def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
         by, place = waking.by, waking.place
@@ -290,6 +347,25 @@ def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
     if known is not None:
         return known
     return [waking for number in reference.like for waking in world.wakings.get(number, ())]
+
+
+def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
+    """The same wakers, of which nobody knows whether they come."""
+    return tuple(replace(waker, conditional=True) for waker in wakers)
+
+
+def _why_none(raw: Blocking, mine: list[Waking], doer: Doer) -> Unknown | None:
+    """Why it is not known whether anybody ends a wait that nobody in sight ends."""
+    if mine or not isinstance(raw.resource, ResourceRef):
+        return None
+    words = raw.resource.ended_by
+    if Word.ARRIVE in words and isinstance(doer, ActivityState) and doer.count != 1:
+        return Unknown('how many threads come there is not known', raw.source)
+    if words == {Word.END}:
+        is_join = raw.call.endswith('.join')
+        reason = 'nobody in sight starts it' if is_join else 'its end is not in sight'
+        return Unknown(reason, raw.source)
+    return None
 
 
 def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:

@@ -6,7 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.done_before import is_done_before
 from ros2cc_extract.extract.static.relevance import noted_on, walk
-from ros2cc_extract.extract.static.values import Call, Const, Mystery
+from ros2cc_extract.extract.static.values import Call, Const, Mystery, Value
 from ros2cc_extract.places import Unknown
 
 NAME = 'unknown wait'
@@ -17,6 +17,7 @@ _ALWAYS = frozenset(
 )
 _WITHOUT_VALUES = frozenset(['join', 'get'])
 _OF_FUTURES = frozenset(['result', 'exception'])
+_TIMEOUT_FIRST = frozenset(['wait', 'join', 'result', 'exception'])
 _KEYWORDS = frozenset(['timeout', 'block', 'blocking'])
 # What has a ``get`` or ``wait`` that does not wait, or waits for a person that looks at it.
 _OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
@@ -47,11 +48,21 @@ def unknown_wait(function: Mystery, call: Call, trees: list[ast.Module]) -> Unkn
     return Unknown(f'{ast.unparse(node.func)}: {reason}', function.unknown.at or call.place)
 
 
+def timeout_of(call: Call) -> Value | None:
+    """The time-out of a wait, which may be the first argument where nothing else can be."""
+    if called_name(call) == 'poll':
+        return None
+    first = call.args[0] if call.args and called_name(call) in _TIMEOUT_FIRST else None
+    return call.keywords.get('timeout', first if _is_number(first) else None)
+
+
 def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
     if _does_not_block(call):
         return False
     if name in _ALWAYS:
         return True
+    if name == 'poll':
+        return _has_no_end(call)
     if name in _OF_FUTURES:
         if isinstance(call.text, ast.Call) and is_done_before(call.text, trees):
             return False
@@ -59,6 +70,13 @@ def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
         is_plain = not call.args or _is_number(call.args[0])
         return is_plain and any(noted_on(tree, 'knows_futures', _knows_futures) for tree in trees)
     return name in _WITHOUT_VALUES and _takes_no_value(name, call)
+
+
+def _has_no_end(call: Call) -> bool:
+    """``socket.poll(-1)`` waits for ever (pyzmq, ``Socket.poll``); other ``poll`` may not wait."""
+    limit = call.keywords.get('timeout', call.args[0] if call.args else None)
+    is_number = isinstance(limit, Const) and isinstance(limit.value, int)
+    return is_number and limit.value < 0  # type: ignore[union-attr]
 
 
 def _does_not_block(call: Call) -> bool:

@@ -11,10 +11,13 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static import outside_library
 from ros2cc_extract.extract.static.wakings import Word
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Needs
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, WORKING_LOOP, Needs
 
 INITIAL = '__initial__'
 """Slot of a semaphore for its value, and of a queue for its size."""
+
+AWAITED = '__awaited__'
+"""Slot of a coroutine of a library: what happens when it is awaited."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,10 @@ WAITS: dict[str, WaitRow] = {
     'Queue.get': _row(Word.PUT, needs=Needs.EACH, unless_asked=True, rival=Word.GET),
     'Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
     'Queue.join': _row(Word.DONE, needs=Needs.EACH),
+    'asyncio.Queue.get': _row(Word.PUT, needs=Needs.EACH, unless_asked=True, rival=Word.GET),
+    'asyncio.Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
+    'asyncio.Queue.join': _row(Word.DONE, needs=Needs.EACH),
+    'asyncio.Event.wait': _row(Word.SET),
     'Barrier.wait': _row(Word.ARRIVE, needs=Needs.ALL),
     'Semaphore.acquire': _row(Word.RELEASE, needs=Needs.EACH),
     'Thread.join': _row(Word.END),
@@ -70,6 +77,7 @@ WAITS: dict[str, WaitRow] = {
     'unknown wait': _row(Word.END),
     'await': _FUTURE,
     'busy wait': _FUTURE,
+    WORKING_LOOP: _FUTURE,
     'time.sleep': _SLEEP,
     'asyncio.sleep': _SLEEP,
     'Clock.sleep_for': _SLEEP,

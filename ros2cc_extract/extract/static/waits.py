@@ -6,14 +6,17 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static.clock_times import slept
+from ros2cc_extract.extract.static.defaults import assumption, default_of
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.held_locks import held_over
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.settings import only_if
+from ros2cc_extract.extract.static.uncalled import waking_of
 from ros2cc_extract.extract.static.unknown_waits import (
     CLOCKS,
-    DURATION,
     called_name,
+    timeout_of,
     unknown_wait,
 )
 from ros2cc_extract.extract.static.unknown_waits import NAME as UNKNOWN_WAIT
@@ -28,7 +31,9 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wait_table import INITIAL, NO_ROW, WAITS, WaitRow
+from ros2cc_extract.extract.static.waited_on import SETTABLE, is_of_loop
 from ros2cc_extract.extract.static.wakings import (
+    ClockRef,
     DataRef,
     EntityRef,
     ResourceRef,
@@ -47,8 +52,6 @@ from ros2cc_extract.extract.static.world import (
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
-
-_SETTABLE = frozenset({'event', 'future', 'condition', 'queue', 'semaphore', 'barrier', 'pool'})
 
 
 class Waits(Machine):
@@ -75,7 +78,8 @@ class Waits(Machine):
                 owner = self.evaluate(part.func.value, frame)
                 is_known = True
                 if part.func.attr in ('done', 'is_set'):
-                    self.note_blocking('await' if gives_back else 'busy wait', owner, None, place)
+                    call = outside_waits.call_of_loop(node, 'busy wait', self.world.activity)
+                    self.note_blocking('await' if gives_back else call, owner, None, place)
         if self.world.in_callback and not is_known and outside_waits.spins(node):
             # How many callbacks run before it ends is not one.
             reason = f'what ends the loop: {ast.unparse(node.test)}'
@@ -104,6 +108,7 @@ class Waits(Machine):
             source=place,
             on=self._waited_for(on if thing is None or why is not None else thing),
             seconds=_seconds(seconds, place),
+            assumed=_assumed_seconds(seconds),
             chain=world.chain[1:],
             held=held_over(world, on),
             resource=self._resource(thing, row),
@@ -120,7 +125,7 @@ class Waits(Machine):
         _note_round(deeds, block, world.round)
 
     def note_loop_on_data(
-        self, name: str, on: DataRef | Unknown, seconds: Unknown | None, place: Place
+        self, name: str, on: DataRef | ClockRef | Unknown, seconds: Unknown | None, place: Place
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
         world, deeds = self.world, self.world.deeds
@@ -133,7 +138,7 @@ class Waits(Machine):
             seconds=seconds,
             chain=world.chain[1:],
             held=held_over(world, None),
-            resource=on if isinstance(on, DataRef) else None,
+            resource=None if isinstance(on, Unknown) else on,
             escapes=on if isinstance(on, Unknown) else None,
             conditional=world.path != world.callback_path,
         )
@@ -141,18 +146,29 @@ class Waits(Machine):
         if block not in deeds.blocking[-RECENT:]:
             deeds.blocking.append(block)
 
+    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
+        """Somebody waits for time that ``clock`` moves."""
+        if self.world.deeds is not None:
+            reference = ClockRef('/clock')
+            reference.number = id(clock)
+            self.note_loop_on_data(name, reference, None, place)
+
     def note_unknown_wait(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called, perhaps by the name of a wait."""
+        waking = waking_of(call.text)
+        if waking is not None:
+            places = self.world.lost_wakes.setdefault(waking, [])
+            if call.place not in places:
+                places.append(call.place)
         if self.world.deeds is None:
             return
         clock = CLOCKS.get(called_name(call))
         if clock is not None:
-            self.note_blocking(clock, None, Mystery(DURATION), call.place)
+            self.note_blocking(clock, None, slept(call), call.place)
             return
         why = unknown_wait(function, call, self.world.trees)
         if why is not None:
-            timeout = call.keywords.get('timeout')
-            self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout, call.place)
+            self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
 
     def _resource(self, thing: Instance | None, row: WaitRow) -> ResourceRef | None:
         if thing is None or not row.ended_by or _is_of_entity(thing):
@@ -163,7 +179,7 @@ class Waits(Machine):
         reference.asked = row.unless_asked and id(thing) in self.world.asked
         reference.is_kept = row.needs is Needs.ONCE
         reference.initial = _initial(thing, row)
-        reference.made_in = thing.place.file
+        reference.made = thing.place
         reference.like = self._made_there(thing)
         return reference
 
@@ -199,7 +215,7 @@ class Waits(Machine):
                 return EntityRef.to_object(source.state, source.state.kind.value)
             if isinstance(state, PlainState) and state.kind == 'topic':
                 return _topic(state.key, value.place)
-            if isinstance(state, PlainState) and state.kind in _SETTABLE:
+            if isinstance(state, PlainState) and state.kind in SETTABLE:
                 return SettableRef.to_object(value, value.hint or value.class_name)
             if isinstance(value.state, (NodeState, ExecutorState)):
                 return EntityRef.to_object(value, value.hint or value.class_name)
@@ -208,6 +224,8 @@ class Waits(Machine):
 
     def note_await(self, value: Value, place: Place) -> None:
         """A callback awaits ``value``; awaiting its own coroutine is only a call."""
+        if is_of_loop(value):
+            self.world.awaited_of_loops.append(value)
         if not isinstance(value, (Coroutine, Const)):
             self.note_blocking(
                 'asyncio await' if self.world.on_loop else 'await', value, None, place
@@ -356,5 +374,21 @@ def _seconds(value: Value | None, place: Place) -> float | Unknown | None:
     if isinstance(value, Const) and isinstance(value.value, (int, float)):
         return float(value.value)
     if isinstance(value, Mystery):
-        return value.unknown
+        default = _default_seconds(value)
+        return value.unknown if default is None else default
     return Unknown('a duration that could not be followed', place)
+
+
+def _default_seconds(value: Mystery) -> float | None:
+    """A duration that is the default of a parameter."""
+    default = default_of(value)
+    known = default.value if isinstance(default, Const) else None
+    if not isinstance(known, (int, float)) or isinstance(known, bool):
+        return None
+    return float(known) if known >= 0 else None
+
+
+def _assumed_seconds(value: Value | None) -> str | None:
+    if not isinstance(value, Mystery) or _default_seconds(value) is None:
+        return None
+    return assumption('duration', value)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from ros2cc_extract.extract.static.values import Value
 from ros2cc_extract.places import Place
 
 
@@ -54,7 +55,7 @@ class ResourceRef(SettableRef):
     :param asked: it was asked before whether it would wait at all.
     :param like: identities of objects that were made at the same place.
     :param initial: how many waits end by themselves; ``None`` where that is not known.
-    :param made_in: the file in which it is made.
+    :param made: where it is made.
     :param is_kept: what ends the wait ends all that come after it.
     """
 
@@ -63,7 +64,7 @@ class ResourceRef(SettableRef):
     is_kept = False
     like: Sequence[int] = ()
     initial: int | None = 0
-    made_in = ''
+    made: Place | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +103,38 @@ class DataRef(EntityRef):
     before: frozenset[tuple[str, Place | None]] = frozenset()
 
 
+class ClockRef(EntityRef):
+    """Stands for simulated time, which the subscription of ``number`` moves."""
+
+
 class TopicRef(EntityRef):
     """Stands for the topic of which somebody waits for a message."""
 
     number = 0
+
+
+@dataclass(frozen=True, eq=False)
+class LoopRun:
+    """A loop of asyncio is run by a thread, see ``World.thread``."""
+
+    loop: Value
+    thread: int
+
+
+@dataclass(frozen=True, eq=False)
+class LoopTouch:
+    """
+    Something of a loop of asyncio is touched, by a call that is for the thread of the loop.
+
+    :param doer: a callback or an activity.
+    """
+
+    how: str
+    thing: Value
+    doer: object
+    place: Place
+
+    def is_same(self, other: LoopTouch) -> bool:
+        """Whether it is the same call of the same object by the same doer."""
+        is_call = self.place == other.place and self.doer is other.doer
+        return is_call and self.thing is other.thing

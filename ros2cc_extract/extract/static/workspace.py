@@ -6,10 +6,11 @@ Read as text: a manifest of somebody else is data that may be broken or hostile.
 
 from __future__ import annotations
 
-import os
 import re
 from functools import lru_cache
 from pathlib import Path
+
+from ros2cc_extract.files import Files
 
 _MANIFEST = 'package.xml'
 _NAME = re.compile(r'<name>\s*([\w.\-]+)\s*</name>')
@@ -18,18 +19,17 @@ _COMMENT = re.compile(r'<!--.*?-->', re.DOTALL)
 _LEVELS = 6
 _DEPTH = 4
 _SKIPPED = frozenset({'build', 'install', 'log', 'node_modules', 'venv', '__pycache__'})
-_READ_AT_MOST = 100_000
+_READ_AT_MOST = 1_000_000
 
 
-def home_of(folder: Path, package: str) -> Path | None:
+def home_of(files: Files, folder: Path, package: str) -> Path | None:
     """The folder of ``package``, if the package that ``folder`` is in depends on it."""
-    mine = next(
-        (above for above in _self_and_above(folder) if (above / _MANIFEST).is_file()), None
-    )
-    if mine is None or package not in _depends_of(mine):
+    above = _self_and_above(folder)
+    mine = next((each for each in above if files.is_file(each / _MANIFEST)), None)
+    if mine is None or package not in _depends_of(files, mine):
         return None
-    root = next((above for above in _self_and_above(mine) if (above / '.git').exists()), None)
-    return _packages_under(root or mine.parent).get(package)
+    root = next((each for each in _self_and_above(mine) if files.exists(each / '.git')), None)
+    return _packages_under(files, root or mine.parent).get(package)
 
 
 def _self_and_above(folder: Path) -> list[Path]:
@@ -37,29 +37,33 @@ def _self_and_above(folder: Path) -> list[Path]:
 
 
 @lru_cache(maxsize=256)
-def _depends_of(package: Path) -> frozenset[str]:
-    return frozenset(_DEPENDS.findall(_text_of(package / _MANIFEST)))
+def _depends_of(files: Files, package: Path) -> frozenset[str]:
+    return frozenset(_DEPENDS.findall(_text_of(files, package / _MANIFEST)))
 
 
 @lru_cache(maxsize=16)
-def _packages_under(root: Path) -> dict[str, Path]:
-    """The packages in a repository, by name; nothing is looked for inside of them."""
+def _packages_under(files: Files, root: Path) -> dict[str, Path]:
+    """
+    The packages in a repository, by name; nothing is looked for inside of them.
+
+    A folder that is barred has none to give.
+    """
     found: dict[str, Path] = {}
-    for base, folders, files in os.walk(root):
+    for base, folders, names in files.walk(root, lambda error: None):
         here = Path(base)
         deep = len(here.relative_to(root).parts) >= _DEPTH
-        if _MANIFEST in files:
-            name = _NAME.search(_text_of(here / _MANIFEST))
+        if _MANIFEST in names:
+            name = _NAME.search(_text_of(files, here / _MANIFEST))
             found.setdefault(name.group(1) if name else here.name, here)
-        if deep or _MANIFEST in files:
+        if deep or _MANIFEST in names:
             folders.clear()
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
     return found
 
 
-def _text_of(path: Path) -> str:
+def _text_of(files: Files, path: Path) -> str:
     try:
-        with path.open(encoding='utf-8', errors='replace') as file:
-            return _COMMENT.sub('', file.read(_READ_AT_MOST))
+        text = files.read(path, _READ_AT_MOST).decode(errors='replace')
     except OSError:
         return ''
+    return _COMMENT.sub('', text)

@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.values import (
     Path,
     Value,
 )
-from ros2cc_extract.extract.static.wakings import Waking
+from ros2cc_extract.extract.static.wakings import LoopRun, LoopTouch, Waking, Word
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act
 from ros2cc_extract.spec.model import ActivityKind, EntityKind, GroupType, When
@@ -62,6 +62,8 @@ class NodeState:
     :param more: why it may have entities that we do not see.
     :param begun: the call of ``Node.__init__``.
     :param nested: a spin inside a callback that serves it, and where.
+    :param loop: the loop of asyncio whose thread spins it.
+    :param sim_clock: the subscription that moves its clock, where it uses simulated time.
     """
 
     default_group: Instance
@@ -76,6 +78,8 @@ class NodeState:
     spun: bool = False
     begun: Place | None = None
     nested: tuple[str, Place] | None = None
+    sim_clock: EntityState | None = None
+    loop: Place | None = None
     count: int | Unknown = 1
 
 
@@ -106,7 +110,10 @@ class EntityState:
 
     :param assumed: the rule by which it is assumed to be there.
     :param held: flags that its maker has handed over to it, see ``flags.py``.
+    :param ran: how many of its functions were followed; -1 before any is.
     :param part_of: the subscription whose event it handles.
+    :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
+    :param restarted: somebody starts it, or starts it again.
     """
 
     kind: EntityKind
@@ -123,11 +130,15 @@ class EntityState:
     builtin: bool = False
     destroyed: bool = False
     one_shot: bool = False
+    dormant: Place | None = None
+    restarted: bool = False
     label: str | None = None
     extra_callbacks: tuple[Value, ...] = ()
+    ran: int = -1
     deeds: Deeds | None = None
     argument: Value | None = None
     goal_callback: Value | None = None
+    defers: bool = False
     held: tuple[str, ...] | None = None
     number: int = 0
     part_of: EntityState | None = None
@@ -144,6 +155,7 @@ class AccessKind(Enum):
     WRITE = 'write'
     UPDATE = 'update'
     UPDATE_IN_PLACE = 'update in place'
+    WITHIN = 'change of something in it'
 
 
 @dataclass(eq=False)
@@ -199,6 +211,8 @@ class End:
 
     :param what: the node, executor or entity.
     :param text: what is done, where that is no end but comes after one.
+    :param behind: the last wait of ``doer`` before it, see ``Deeds.behind``.
+    :param locks: held at that place.
     """
 
     kind: str
@@ -206,18 +220,20 @@ class End:
     doer: EntityState | ActivityState
     place: Place
     text: str = ''
+    behind: object = None
+    locks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class OutsideWait:
     """
-    Code that is no callback waits for the answer that ``client`` takes.
+    Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
 
     :param spun: the nodes that it spins meanwhile.
     """
 
     call: str
-    client: EntityState
+    client: EntityState | Instance
     place: Place
     in_thread: bool
     spun: tuple[Instance, ...] = ()
@@ -286,10 +302,16 @@ class World:
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
     :param cleared: events that somebody clears.
+    :param by_loop: a loop of asyncio does what is followed, in its own thread.
+    :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
+        ``awaited_of_loops`` the queues and events that some coroutine awaits.
+    :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
     :param activity: the thread or the part of the main program that is followed.
     :param activities: all of them, in the order of their start.
     :param told: how many of them were followed for what they do.
+    :param loop: where the loop of asyncio begins that runs the set-up.
+    :param forked: where the program splits off a child that runs its own text.
     :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
     :param retelling: one is followed for what it does; what it makes is known already.
     :param called: every function that was followed, by the identity of its statement.
@@ -302,6 +324,9 @@ class World:
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param accepted: what the last function held wherever it did not turn down a goal.
     :param admitted: flags that hold for an accepted goal, by node and place of the action server.
+    :param found_down: flags that the last function found down wherever it turned no goal down.
+    :param open_to: those that were down when a goal was accepted, by the same.
+    :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
@@ -310,6 +335,8 @@ class World:
     :param times: how often a loop does what is followed once, where that is known.
     :param round: which rounds of the loops around it are followed, where that tells them apart.
     :param iterating: class of the collection that a loop begins to go over.
+    :param parts: what was made while an object was set up, by the identity of the object.
+    :param moves: what the call does to a collection that follows, see ``Access``.
     :param refilling: an item is stored under a key that the dictionary surely has.
     :param assumed: the rule by which the running loop is assumed to go over these items.
     :param stopped: this branch of the program has ended.
@@ -349,6 +376,11 @@ class World:
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     cleared: set[int] = field(default_factory=set)
+    by_loop: bool = False
+    loop_runs: list[LoopRun] = field(default_factory=list)
+    loop_touches: list[LoopTouch] = field(default_factory=list)
+    awaited_of_loops: list[Value] = field(default_factory=list)
+    lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
     given: dict[int, Unknown] = field(default_factory=dict)
     activity: ActivityState | None = None
     activities: list[ActivityState] = field(default_factory=list)
@@ -359,10 +391,15 @@ class World:
     yielding: tuple[Value, tuple[str, ...]] | None = None
     accepted: tuple[str, ...] = ()
     admitted: dict[tuple[Instance, Place], tuple[str, ...]] = field(default_factory=dict)
+    found_down: frozenset[str] = frozenset()
+    open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
+    still_down: frozenset[str] = frozenset()
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False
     on_loop: bool = False
+    forked: Place | None = None
+    loop: Place | None = None
     nodes: list[Instance] = field(default_factory=list)
     entities: list[EntityState] = field(default_factory=list)
     spins: dict[object, Spin] = field(default_factory=dict)
@@ -389,6 +426,7 @@ class World:
     round: tuple[int, ...] = ()
     iterating: str | None = None
     refilling: bool = False
+    moves: str | None = None
     looking: tuple[tuple[int, str], ...] = ()
     made_by_looking: dict[object, Instance] = field(default_factory=dict)
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
@@ -412,6 +450,7 @@ class World:
     missing: set[Place] = field(default_factory=set)
     again: bool = False
     made_then: dict[object, Instance] = field(default_factory=dict)
+    parts: dict[int, list[Instance]] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
     trying: tuple[int, int] | None = None
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)

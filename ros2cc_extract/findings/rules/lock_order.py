@@ -7,21 +7,22 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.beside import beside, node_of, repeats_freely
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.overlap import overlap, overlaps_itself
-from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.rule import Context, Doer, Hit, Rule
+from ros2cc_extract.findings.words import called, made_at
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Act
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.verify.evidence import Evidence
 
 
 @dataclass(frozen=True)
 class Step:
-    """A callback takes ``wanted`` while it holds ``held``."""
+    """A callback or a thread takes ``wanted`` while it holds ``held``."""
 
-    callback: Callback
+    doer: Doer
     act: Act
     held: str
     wanted: str
@@ -29,8 +30,8 @@ class Step:
     @property
     def place(self) -> Place:
         """Where the second lock is taken."""
-        callback = self.callback
-        return self.act.source or callback.defined or callback.source or Place(callback.name)
+        doer = self.doer
+        return self.act.source or doer.defined or doer.source or Place(doer.name)
 
     @property
     def chain(self) -> tuple[Remark, ...]:
@@ -39,17 +40,17 @@ class Step:
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """One finding per lock taken twice, and per pair of locks and callbacks."""
+    """One finding per lock taken twice, and per pair of locks and of those that take them."""
     steps = list(_steps(context))
     told: set[tuple[str, str]] = set()
     for step in steps:
-        if step.held == step.wanted and (step.callback.name, step.held) not in told:
-            told.add((step.callback.name, step.held))
+        if step.held == step.wanted and (step.doer.name, step.held) not in told:
+            told.add((step.doer.name, step.held))
             yield _taken_twice(step)
     crossed: set[frozenset[str]] = set()
     for one, other in _pairs(steps):
-        key = frozenset((one.held, one.wanted, one.callback.name, other.callback.name))
-        if key in crossed or not _may_meet(one, other):
+        key = frozenset((one.held, one.wanted, one.doer.name, other.doer.name))
+        if key in crossed or not _may_meet(one, other, context):
             continue
         together = _coincide(one, other, context)
         if together is not None:
@@ -58,11 +59,11 @@ def find(context: Context) -> Iterator[Hit]:
 
 
 def _steps(context: Context) -> Iterator[Step]:
-    for callback in context.written:
-        for act in callback.locks:
+    for doer in context.doers:
+        for act in doer.locks:
             if isinstance(act.name, str):
                 for held in act.held:
-                    yield Step(callback, act, held, act.name)
+                    yield Step(doer, act, held, act.name)
 
 
 def _pairs(steps: list[Step]) -> Iterator[tuple[Step, Step]]:
@@ -71,10 +72,14 @@ def _pairs(steps: list[Step]) -> Iterator[tuple[Step, Step]]:
             yield one, other
 
 
-def _may_meet(one: Step, other: Step) -> bool:
-    """Locks of one node, and no third lock that both hold."""
-    same_node = isinstance(one.callback.node, str) and one.callback.node == other.callback.node
-    return same_node and not set(one.act.held) & set(other.act.held)
+def _may_meet(one: Step, other: Step, context: Context) -> bool:
+    """
+    Nodes are known, and there is no third lock that both hold.
+
+    A name stands for one lock in the whole unit, so that two nodes cross as one does.
+    """
+    is_known = all(node_of(step.doer, context) is not None for step in (one, other))
+    return is_known and not set(one.act.held) & set(other.act.held)
 
 
 @dataclass(frozen=True)
@@ -83,20 +88,25 @@ class _Together:
 
 
 def _coincide(one: Step, other: Step, context: Context) -> _Together | None:
-    if one.callback == other.callback:
-        return _Together() if overlaps_itself(one.callback, context) else None
-    found = overlap(one.callback, other.callback, context)
+    first, second = one.doer, other.doer
+    if isinstance(first, Activity) or isinstance(second, Activity):
+        if isinstance(first, Activity) and first == second:
+            return _Together() if repeats_freely(first, context) else None
+        return _Together() if beside(first, second, context) is not None else None
+    if first == second:
+        return _Together() if overlaps_itself(first, context) else None
+    found = overlap(first, second, context)
     return _Together(found.run) if found is not None else None
 
 
 def _taken_twice(step: Step) -> Hit:
-    name = step.callback.display_name
+    name = called(step.doer)
     return Hit(
         place=step.place,
         message=f'{name} takes {step.wanted} while it holds it: a threading.Lock waits for its '
         'own holder, for ever',
         help='use a threading.RLock, or take the lock in one of the two functions only',
-        subjects=(step.callback.name, step.held),
+        subjects=(step.doer.name, step.held),
         chain=step.chain,
         related=_where_held(step),
     )
@@ -106,26 +116,26 @@ def _where_held(step: Step) -> tuple[Remark, ...]:
     """The place where the lock was taken before, and the callback."""
     before = [
         act.source
-        for act in step.callback.locks
+        for act in step.doer.locks
         if act.name == step.held and act.source and act != step.act
     ]
     first = (Remark(before[0], f'{step.held} is taken here'),) if before else ()
-    return (*first, *made_at(step.callback))
+    return (*first, *made_at(step.doer))
 
 
 def _crossed(one: Step, other: Step, run: Evidence | None) -> Hit:
-    first, second = one.callback.display_name, other.callback.display_name
-    whom = 'a second run of it' if one.callback == other.callback else second
+    first, second = called(one.doer), called(other.doer)
+    whom = 'a second run of it' if one.doer == other.doer else second
     return Hit(
         place=one.place,
         message=f'{first} holds {one.held} and waits for {one.wanted}, and {whom} may hold '
         f'{other.held} and wait for {other.wanted} at the same time: both wait for ever',
         help='take the two locks in the same order everywhere, or use one lock',
-        subjects=(one.callback.name, other.callback.name, one.held, one.wanted),
+        subjects=(one.doer.name, other.doer.name, one.held, one.wanted),
         chain=one.chain,
         related=(
             Remark(other.place, f'{second} takes {other.wanted} here, holding {other.held}'),
-            *made_at(one.callback, other.callback),
+            *made_at(one.doer, other.doer),
         ),
         run=run,
     )
@@ -136,9 +146,9 @@ RULE = Rule(
     slug='lock-order',
     severity=Severity.ERROR,
     title='Locks taken in a circle',
-    what='Two callbacks that may run at the same time take two locks in opposite order; or a '
-    'callback takes a `threading.Lock` that it holds already. Each waits for the other, and the '
-    'threads and groups they keep never come back.',
+    what='Two callbacks, or a callback and a thread of the program, that may run at the same time '
+    'take two locks in opposite order; or one takes a `threading.Lock` that it holds already. '
+    'Each waits for the other, and the threads and groups they keep never come back.',
     why='A `threading.Lock` knows no owner: its holder waits for it like everybody else. Whether '
     'two callbacks may overlap is decided by the model where it was verified, else by their '
     'groups and the number of threads. Locks taken with a time-out, read locks, and circles of '

@@ -41,9 +41,9 @@ def find(context: Context) -> Iterator[Hit]:
 
 
 def _held(wait: Wait) -> Iterator[str]:
-    """The locks that are held over a wait that others must end."""
-    others_end_it = bool(wait.needs) and not wait.has_timeout
-    if others_end_it or wait.kind in (*_SPINS, WaitKind.PRESENCE):
+    """The locks that are held over a wait that others must end; a time-out ends all but a spin."""
+    others_end_it = bool(wait.needs) or wait.kind is WaitKind.PRESENCE
+    if wait.kind in _SPINS or (others_end_it and not wait.has_timeout):
         yield from (lock.removesuffix(RE_ENTRANT) for lock in wait.block.held)
 
 

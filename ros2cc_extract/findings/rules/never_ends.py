@@ -1,4 +1,4 @@
-"""CC109: the model knows a run in which a callback never ends, and no other rule says why."""
+"""CC109: the model knows a run in which somebody waits for ever, and no other rule says why."""
 
 from __future__ import annotations
 
@@ -17,16 +17,19 @@ from ros2cc_extract.findings.rules import (
     rate_on_one_thread,
 )
 from ros2cc_extract.findings.stuck import Stuck, stuck_in, why_stuck
+from ros2cc_extract.findings.used_up import used_up
 from ros2cc_extract.findings.verdicts import (
     PROGRESS,
     refuting_run,
     rests_on_absent_service,
     shown_hang,
 )
-from ros2cc_extract.findings.waits import waits_in
-from ros2cc_extract.findings.words import listing
+from ros2cc_extract.findings.waits import Wait, waits_in
+from ros2cc_extract.findings.words import called, listing, made_at
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.spec.model import Activity, ActivityKind
 
 EXPLAINED = (
     own_group_call,
@@ -41,13 +44,34 @@ EXPLAINED = (
 
 def find(context: Context) -> Iterator[Hit]:
     """
-    One finding for all callbacks that hang together, where all facts are known.
+    One finding for all that hang together, where all facts are known.
 
     Who is held up by a wait that another rule explains is no finding of its own.
     """
     if not open_facts(context):
         for together, stuck in unexplained(context):
             yield _hit(together, stuck, context)
+        for wait in used_up(context):
+            yield _once_used_up(wait, context)
+
+
+def _once_used_up(wait: Wait, context: Context) -> Hit:
+    givers = tuple(dict.fromkeys(waker.by for waker in wait.block.wakers))
+    who, what = called(wait.caller), wait.block.resource or 'it'
+    by = listing(called(context.by_name[name]) for name in givers)
+    cannot = f'{by} cannot run meanwhile' if givers else 'nobody gives back'
+    return Hit(
+        place=wait.place,
+        message=f'{who} waits in {waits_in(wait)} for {what} once nothing of it is left, and '
+        f'{cannot}: it waits for ever',
+        help=f'let {by} run beside {who}, on a thread and in a group of its own, or do not wait'
+        if givers
+        else 'end it somewhere, or give it a time-out',
+        severity=Severity.WARNING,
+        subjects=(wait.caller.name, *givers),
+        chain=wait.chain,
+        related=tuple(made_at(wait.caller, *(context.by_name[name] for name in givers))),
+    )
 
 
 def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
@@ -56,15 +80,17 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
         subject for rule in EXPLAINED for hit in rule.find(context) for subject in hit.subjects
     }
     told: set[str] = set()
-    for caller in context.written:
+    for caller in context.doers:
         run = refuting_run(PROGRESS, context, caller)
         if run is None or rests_on_absent_service(run) or caller.name in told:
             continue
         stuck = stuck_in(run, context)
-        names = {each.callback.name for each in stuck}
+        names = {each.doer.name for each in stuck}
         if caller.name in names and not names & explained:
             together = _together(caller.name, stuck)
-            told.update(each.callback.name for each in together)
+            if together[0].wait.block.call == WORKING_LOOP:
+                continue
+            told.update(each.doer.name for each in together)
             yield together, stuck
 
 
@@ -86,57 +112,64 @@ def _together(first: str, stuck: Sequence[Stuck]) -> list[Stuck]:
     """``first`` and those of the others that stand in its way, which begin with it."""
     names = {first}
     while True:
-        needed = {name for each in stuck if each.callback.name in names for name in each.enders}
-        wider = names | {each.callback.name for each in stuck if each.callback.name in needed}
+        needed = {name for each in stuck if each.doer.name in names for name in each.enders}
+        wider = names | {each.doer.name for each in stuck if each.doer.name in needed}
         if wider == names:
             return sorted(
-                (each for each in stuck if each.callback.name in names),
-                key=lambda each: each.callback.name != first,
+                (each for each in stuck if each.doer.name in names),
+                key=lambda each: each.doer.name != first,
             )
         names = wider
 
 
 def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit:
     first = together[0]
-    who = f'{first.wait.caller.display_name} waits in {waits_in(first.wait)}'
+    who = f'{called(first.doer)} waits in {waits_in(first.wait)}'
     named = f' for {first.what}' if first.what else ''
     workers = workers_of(context.unit.executor)
     reason = why_stuck(first, stuck, context)
     is_counted = isinstance(workers, Workers) and workers.is_default
-    names = [each.callback.name for each in together]
+    names = [each.doer.name for each in together]
     return Hit(
         place=first.wait.place,
         message=f'{who}{named}, but {reason}: it waits for ever',
         help=_help(first, together, context),
-        severity=Severity.WARNING if is_counted else None,
+        severity=Severity.WARNING if is_counted or _keeps_the_program(first) else None,
         subjects=tuple(dict.fromkeys([*names, *first.enders])),
         chain=first.wait.chain,
         related=tuple(
             Remark(
                 each.wait.place,
-                f'{each.callback.display_name} waits here in {waits_in(each.wait)}',
+                f'{called(each.doer)} waits here in {waits_in(each.wait)}',
             )
             for each in together[1:]
         ),
-        run=shown_hang(first.callback, {*names, *first.enders}, context),
+        run=shown_hang(first.doer, {*names, *first.enders}, context),
     )
+
+
+def _keeps_the_program(stuck: Stuck) -> bool:
+    """What nobody else touches may be meant to keep ``main`` from its end."""
+    is_main = isinstance(stuck.doer, Activity) and stuck.doer.kind is ActivityKind.MAIN
+    return is_main and not stuck.enders and stuck.wait.block.call == 'Event.wait'
 
 
 def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
     if not first.enders:
         return 'end it somewhere, or give it a time-out'
+    served = [name for name in first.enders if name in context.by_name]
     if len(together) > 1:
         return (
-            f'break the circle of {listing(each.callback.display_name for each in together)}: '
+            f'break the circle of {listing(called(each.doer) for each in together)}: '
             'one of them must not wait'
         )
-    if is_one_thread(context.unit.executor):
+    if served and is_one_thread(context.unit.executor):
         return (
-            f'use MultiThreadedExecutor(num_threads=2) or more, with {listing(first.enders)} in '
+            f'use MultiThreadedExecutor(num_threads=2) or more, with {listing(served)} in '
             'another group, or look from a timer instead of waiting'
         )
     return (
-        f'see to it that {listing(first.enders)} can run while {first.callback.display_name} '
+        f'see to it that {listing(first.enders)} can run while {called(first.doer)} '
         'waits, or give the wait a time-out'
     )
 
@@ -146,15 +179,16 @@ RULE = Rule(
     slug='never-ends',
     severity=Severity.ERROR,
     title='Callback that waits for ever',
-    what='The model of the unit knows a run after which a callback waits and nothing moves any '
-    'more: nobody ends the wait, or whoever could cannot run, comes too early, or waits itself. '
-    'This is the general rule; where a cause has a name of its own, its rule speaks instead. The '
-    'run is shown.',
-    why='A callback keeps its thread and its mutually exclusive group while it waits. Two '
-    'services that call each other each keep the group that the other needs. Decided by the '
-    'model of profile `rclpy`, in which a waiting callback stays where it is until what it '
-    'needs has run. Sources: rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, '
-    '`callback_groups.py`.',
+    what='The model of the unit knows a run after which a callback, `main` or a thread of the '
+    'program waits and nothing moves any more: nobody ends the wait, or whoever could cannot '
+    'run, comes too early, or waits itself. This is the general rule; where a cause has a name '
+    'of its own, its rule speaks instead. The run is shown. As a warning: a bounded queue or a '
+    'semaphore is used up by earlier runs, and who gives back cannot run while somebody waits.',
+    why='A thread of the program that is no daemon keeps the process from its end. A callback '
+    'keeps its thread and its mutually exclusive group while it waits. Two services that call '
+    'each other each keep the group that the other needs. Decided by the model of profile '
+    '`rclpy`, in which a waiting callback stays where it is until what it needs has run. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, `callback_groups.py`.',
     bad="""\
 class Arms(Node):            # on_left and on_right each in a group of its own,
     def on_left(self, request, response):     # as are the clients

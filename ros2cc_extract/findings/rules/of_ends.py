@@ -17,10 +17,12 @@ SERVED_NO_MORE = Rule(
     title='Nothing is served any more',
     what='A callback destroys its node, or takes it out of its executor, and that executor has no '
     'other node: the spin goes on, and nothing runs. Or a client is destroyed while somebody '
-    'waits for its answer, or a publisher is used in a callback that has shut rclpy down.',
+    'waits for its answer, a publisher while a thread or another callback may publish by it, or '
+    'one is used in a callback that has shut rclpy down.',
     why='`spin` ends with rclpy and not with the last node. `Client.call` waits for an event that '
     'the executor sets when it has taken the answer, which it does only for clients that are '
-    'there. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`spin`), `client.py` (`call`), '
+    'there. Who publishes by a publisher that is gone gets an exception, which ends its thread. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`spin`), `client.py` (`call`), '
     '`publisher.py`. Measured on both: a timer of 0.2 s falls silent, a call waits for ever, and '
     'a publisher raises `RCLError` or `InvalidHandle`.',
     bad="""\

@@ -15,9 +15,10 @@ NOBODY_SPINS = Rule(
     slug='nobody-spins',
     severity=Severity.ERROR,
     title='Wait for an answer while nobody spins',
-    what='Code outside callbacks waits for the answer of a service or an action, and no other '
-    'thread spins the node that must take it or, where both are in one program, the node that '
-    'must give it. The wait never ends. The same for `Rate.sleep` on a node that nobody has spun.',
+    what='Code outside callbacks waits for the answer of a service or an action, or for an '
+    'event, a queue or a future that a callback would end, and no other thread spins the node '
+    'that must take it or, where both are in one program, the node that must give it. The wait '
+    'never ends. The same for `Rate.sleep` on a node that nobody has spun.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '

@@ -12,7 +12,7 @@ from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
 from ros2cc_extract.findings.verdicts import run_in_which_one_hangs
-from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.waits import Wait, WaitKind, kind_of, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
@@ -38,16 +38,69 @@ def find(context: Context) -> Iterator[Hit]:
     executor = context.unit.executor
     if is_one_thread(executor) or isinstance(executor.kind, Unknown):
         return
-    waits = [wait for wait in waits_of(context) if _holds_a_worker(wait, context)]
-    if not waits:
-        return
+    everything = list(waits_of(context))
+    waits = [wait for wait in everything if _holds_a_worker(wait, context)]
+    hits = list(_found(waits, context)) if waits else []
+    yield from hits
+    if not hits:
+        looping = [wait for wait in everything if _looks_again(wait, context)]
+        yield from _found_looping([*waits, *looping], context) if looping else ()
+
+
+def _found(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)
     unbounded = tuple(caller for caller in capacity.unbounded if not lets_one_wait(caller))
     capacity = replace(capacity, unbounded=unbounded)
-    for hit in _judge(waits, capacity, workers_of(executor)):
+    for hit in _judge(waits, capacity, workers_of(context.unit.executor)):
         first = [wait for wait in waits if wait.caller.name == hit.subjects[0]]
-        yield replace(hit, run=run_in_which_one_hangs(first, context))
+        run = run_in_which_one_hangs(first, context)
+        is_shown = run is not None and _is_of_endless_services(hit, waits, context)
+        severity = Severity.WARNING if is_shown and hit.severity is Severity.NOTE else hit.severity
+        yield replace(hit, run=run, severity=severity)
+
+
+def _is_of_endless_services(hit: Hit, waits: Sequence[Wait], context: Context) -> bool:
+    """
+    Whether it tells of services that wait without a time-out, on a known number of threads.
+
+    Any client may ask while another one waits: what the model shows then is no matter of speed.
+    """
+    workers = workers_of(context.unit.executor)
+    own = [wait for wait in waits if wait.caller.name in hit.subjects]
+    is_counted = isinstance(workers, Workers) and not workers.is_default
+    are_services = all(wait.caller.entity is EntityKind.SERVICE for wait in own)
+    return is_counted and are_services and not any(wait.has_timeout for wait in own)
+
+
+def _found_looping(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
+    """
+    Loops that look again and again, and end otherwise too, take all the threads.
+
+    Only where their number is exact: whoever could end them runs when the first is over.
+    """
+    callers = {wait.caller.name: wait.caller for wait in waits}
+    capacity = capacity_of(tuple(callers.values()), context)
+    workers = workers_of(context.unit.executor)
+    if isinstance(workers, Unknown) or workers.is_default or capacity.at_least < workers.count:
+        return
+    kept = tuple(
+        dict.fromkeys(c for wait in waits for c in wait.needs if c not in callers.values())
+    )
+    if kept:
+        rest = (
+            f'on {plural(workers.count, "thread")}: then none is left for {shown(kept)}, and what '
+            'would end the loops comes when one is over'
+        )
+        yield _hit(waits, capacity, rest, Severity.WARNING)
+
+
+def _looks_again(wait: Wait, context: Context) -> bool:
+    """Whether it loops, with pauses, until another callback writes something, or time is over."""
+    sleeps = any(kind_of(block) is WaitKind.SLEEP for block in wait.caller.blocking)
+    is_loop = wait.block.call == 'polling loop' and wait.has_timeout and sleeps
+    is_made = wait.caller.when is When.CALLBACK
+    return is_loop and not is_made and bool(wait.needs) and shut_out_by(wait, context) is None
 
 
 def _holds_a_worker(wait: Wait, context: Context) -> bool:
@@ -178,7 +231,10 @@ RULE = Rule(
     'exact: a mutually exclusive group counts once, a reentrant callback for itself, branches '
     'of which only one is taken do not add up. That a callback may also overlap itself is a note; '
     'where a subscription or timer sleeps by a `Rate`, a warning, since each run sleeps a period '
-    'long. It is not said of one that claims a state under a lock, waits, and gives it back.',
+    'long, and of a service that waits without a time-out where the model shows a run in which '
+    'all threads are taken. It is not said of one that claims a state under a lock, waits, and '
+    'gives it back. Loops that sleep and look again whether another callback has written '
+    'something take threads too, where they end otherwise as well: a warning.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
     'are handled by the same workers, and the spinning thread runs no callbacks. Without '
     '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '

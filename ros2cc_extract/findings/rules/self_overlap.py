@@ -18,7 +18,7 @@ from ros2cc_extract.findings.self_races import (
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.spec.model import Activity, Callback, EntityKind
 
 _TWICE = {
     EntityKind.TIMER: 'when a run lasts longer than the period',
@@ -41,9 +41,25 @@ def _losing(context: Context) -> Iterator[SelfRace]:
     """The worst race of each attribute that two runs of one callback may have."""
     for callback in shared_by(context):
         if overlaps_itself(callback, context):
-            yield from self_races_of(callback)
+            yield from self_races_of(callback, _stored_by_others(callback, context))
         elif interleaves(callback, callback, context):
-            yield from self_races_over_awaits(callback)
+            yield from self_races_over_awaits(callback, _stored_by_others(callback, context))
+
+
+def _stored_by_others(callback: Callback, context: Context) -> frozenset[str]:
+    """Attributes in which other functions store values, and not only clear them."""
+    everybody: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)
+    others = (one for one in everybody if _text_of(one) != _text_of(callback))
+    return frozenset(
+        write.name
+        for other in others
+        for write in other.writes
+        if not write.in_place and not write.clears
+    )
+
+
+def _text_of(doer: Callback | Activity) -> str:
+    return doer.function.rpartition('.')[2] if doer.function else doer.name
 
 
 def _told_of_others(context: Context) -> Iterator[tuple[str, Place | str]]:

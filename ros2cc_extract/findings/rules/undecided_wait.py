@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.never_ends import open_facts, unexplained
+from ros2cc_extract.findings.used_up import is_used_up
 from ros2cc_extract.findings.verdicts import PROGRESS, surely_ends, verdict_on
 from ros2cc_extract.findings.waits import (
-    Wait,
+    AnyWait,
     WaitKind,
     at_one_place,
     callers_of,
@@ -19,11 +20,14 @@ from ros2cc_extract.findings.waits import (
     who_waits,
 )
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Blocking
+from ros2cc_extract.spec.deeds import OUTSIDE, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.verify.caveats import open_ends
 from ros2cc_extract.verify.unit import Verdict
 
 CODE = 'CC120'
+_TO_THE_END = frozenset({'Thread.join', 'polling loop'})
+_FOREIGN = frozenset({'await', 'unknown wait'})
 _NOBODY_KNOWN = 'it is not known who ends it'
 
 
@@ -39,13 +43,16 @@ def find_outside(context: Context) -> Iterator[Hit]:
 
 def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
     reasons: dict[int, str] = {}
-    waits: list[Wait] = []
+    waits: list[AnyWait] = []
     ends = open_ends(context.unit)
-    for caller in context.written:
+    for caller in context.doers:
         for block, reason in _open(caller.blocking, ends[caller.name]):
-            wait = Wait(caller, block, kind_of(block))
+            wait = AnyWait(caller, block, kind_of(block))
             is_settled = not is_outside and surely_ends(wait, context)
-            if _ends_outside(block) is is_outside and not is_settled:
+            is_none = is_settled or block.call == WORKING_LOOP or _is_for_spinning(wait)
+            is_none = is_none or is_used_up(block, caller, context)
+            is_none = is_none or _holds_nobody_up(wait, context)
+            if _ends_outside(block) is is_outside and not is_none:
                 waits.append(wait)
                 reasons[id(wait)] = reason
     if not is_outside:
@@ -80,7 +87,33 @@ def _ends_outside(block: Blocking) -> bool:
     return block.escapes is None and OUTSIDE in wakers
 
 
-def _cut_short(context: Context, told: Sequence[Wait]) -> Iterator[Wait]:
+def _is_for_spinning(wait: AnyWait) -> bool:
+    """
+    A thread that waits for the end of one that spins lives as long as the program.
+
+    So does one that goes round until a signal comes, or until the program ends.
+    """
+    is_end = isinstance(wait.caller, Activity) and wait.block.call in _TO_THE_END
+    return is_end and _ends_outside(wait.block)
+
+
+def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
+    """
+    Whether a thread waits in code that is not followed, and nobody needs it to go on.
+
+    A server on a loop of its own does nothing else. Whoever waits for the thread, for what it
+    signals, or for a lock that it holds meanwhile needs it.
+    """
+    block = wait.block
+    is_foreign = isinstance(block.on, Unknown) and block.call in _FOREIGN
+    if not is_foreign or not isinstance(wait.caller, Activity) or block.held:
+        return False
+    name = wait.caller.name
+    others = (each for doer in context.doers if doer.name != name for each in doer.blocking)
+    return not any(waker.by == name for each in others for waker in each.wakers)
+
+
+def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
     """
     Waits of callbacks about whose end a limit of the checker has left the question open.
 
@@ -88,30 +121,32 @@ def _cut_short(context: Context, told: Sequence[Wait]) -> Iterator[Wait]:
     ends may be open for its reason.
     """
     callers = {wait.caller.name for wait in told}
-    for caller in context.written:
+    for caller in context.doers:
         result = verdict_on(PROGRESS, context, caller)
         if result is None or result.verdict is not Verdict.UNDECIDED or caller.name in callers:
             continue
         if result.in_doubt or not told:
             yield from (
-                Wait(caller, block, kind_of(block))
+                AnyWait(caller, block, kind_of(block))
                 for block in caller.blocking
-                if kind_of(block) is not WaitKind.SLEEP and block.seconds is None
+                if kind_of(block) is not WaitKind.SLEEP
+                and block.seconds is None
+                and block.call != WORKING_LOOP
             )
 
 
-def _not_proven(context: Context) -> Iterator[Wait]:
+def _not_proven(context: Context) -> Iterator[AnyWait]:
     """Waits that last for ever in the model of a unit of which not all facts are known."""
     if open_facts(context):
         yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
 
 
-def _limit_of(wait: Wait, context: Context) -> str:
+def _limit_of(wait: AnyWait, context: Context) -> str:
     result = verdict_on(PROGRESS, context, wait.caller)
     return (result.reason if result else None) or 'a limit was hit'
 
 
-def _hit(waits: Sequence[Wait], reason: str, *, is_outside: bool) -> Hit:
+def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
     wait = waits[0]
     what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
     named = f' for {what}' if what else ''
@@ -138,10 +173,11 @@ UNDECIDED = Rule(
     slug='undecided-wait',
     severity=Severity.NOTE,
     title='Wait that could not be decided',
-    what='A callback waits for something, and whoever ends that wait could not be followed: the '
-    'object was handed to code that is not in sight, or nobody in sight ends it. Whether the '
-    'callback goes on is open, and so is every claim that rests on it. There is one line for each '
-    'wait, not for each callback that it may hold up. With `--strict` the exit status is 3.',
+    what='A callback, `main` or a thread waits for something, and whoever ends that wait could '
+    'not be followed: the object was handed to code that is not in sight, or nobody in sight '
+    'ends it. Whether the wait ends is open, and so is every claim that rests on it. There is '
+    'one line for each wait, not for each callback that it may hold up. With `--strict` the exit '
+    'status is 3.',
     why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
     'result means that no wait can last for ever; where that is not known it is said. Sources: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py`.',
@@ -170,9 +206,9 @@ OUTSIDE_WAIT = Rule(
     slug='outside-wait',
     severity=Severity.NOTE,
     title='Wait that only another program ends',
-    what='A callback waits without a time-out for a process, a socket, a serial line or a person. '
-    'The verdicts assume that it ends. If it does not, the callback keeps its thread and its '
-    'mutually exclusive group for ever.',
+    what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
+    'serial line or a person. The verdicts assume that it ends. If it does not, a callback keeps '
+    'its thread and its mutually exclusive group for ever, and a thread keeps the process.',
     why='Nothing in this program ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
     'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '

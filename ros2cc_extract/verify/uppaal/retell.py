@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from ros2cc_extract.checker.api import Model, Query, load_model, read_model
+from ros2cc_extract.checker.api import Model, Query, load_model, model_text, read_model
 from ros2cc_extract.checker.named import NamedState, replay_named
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
@@ -18,6 +19,7 @@ from ros2cc_extract.verify.uppaal.trace_xml import read_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import read_xtr
 from ros2cc_extract.verify.uppaal.verifyta_trace import read_runs
 
+MOST_RUN_BYTES = 256_000_000
 _SOME = Query('E<> true', '', None)
 _ENDLESS = Query('E[] true', '', None)
 
@@ -41,7 +43,7 @@ def retell_model(path: Path, run: Path) -> Evidence:
 
     :raises InputError: when one cannot be read, or the run is not of the model.
     """
-    return _retold(load_model(path), path.read_bytes(), run, Names())
+    return _retold(load_model(path), model_text(path), run, Names())
 
 
 def _retold(model: Model, xml: bytes, path: Path, names: Names) -> Evidence:
@@ -55,11 +57,9 @@ def _retold(model: Model, xml: bytes, path: Path, names: Names) -> Evidence:
 def _read(path: Path, model: Model, source: Place) -> tuple[NamedState, ...]:
     """Read any of the three layouts; of several printed runs the first."""
     try:
-        text = path.read_text(encoding='utf-8')
+        text = read_named(path, MOST_RUN_BYTES).decode('utf-8')
     except UnicodeDecodeError:
         raise InputError('no UTF-8 text', source, 'give a run that UPPAAL saved') from None
-    except OSError as error:
-        raise InputError(f'cannot be read: {error.strerror}', source) from None
     if text.lstrip().startswith('<'):
         return read_xml(text, source)
     printed = read_runs(text)

@@ -23,6 +23,7 @@ from itertools import chain
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.crew import ends_with_us
 from ros2cc_extract.errors import ToolNotFoundError
 from ros2cc_extract.places import Place
 from ros2cc_extract.verify.uppaal.verifyta_trace import PrintedRun, read_runs
@@ -100,7 +101,7 @@ def _candidates() -> Iterator[Path]:
     if found:
         yield Path(found)
     for folder in USUAL_FOLDERS:
-        parent = Path(folder).expanduser()
+        parent = Path(os.path.expanduser(folder))  # noqa: PTH111  Path's raises without a home
         installed = chain(parent.glob('uppaal*'), parent.glob('UPPAAL*'))
         for install in sorted(installed, reverse=True):
             yield from _inside(install)
@@ -167,6 +168,7 @@ def _call(command: Sequence[str], deadline: float | None) -> tuple[str, str, boo
         done = subprocess.run(
             command,
             stdin=subprocess.DEVNULL,
+            preexec_fn=ends_with_us(),
             capture_output=True,
             timeout=left,
             check=False,

@@ -33,7 +33,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.workers import SINGLE
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
 
 
@@ -547,3 +547,25 @@ def test_what_becomes_of_a_pool_that_is_used_up(
     ]
     finding = only(unit(threads(2), *timers, client('plan_client', 'free')), 'CC103')
     assert finding.message.endswith(words)
+
+
+def recorders(number: int, *, pauses: bool = True, timed: bool = True) -> list[str]:
+    """Two callbacks that look again and again whether ``cut`` has written something."""
+    seconds = Unknown('the loop also ends otherwise') if timed else None
+    loop = Blocking(call='polling loop', on='cut', seconds=seconds, source=at(40))
+    blocking = (*sleeps(0.1), loop) if pauses else (loop,)
+    callbacks = [service(f'take_{side}', side, blocking=blocking) for side in ('left', 'right')]
+    spec = unit(
+        threads(number),
+        *callbacks,
+        subscription('cut', 'other'),
+        groups=(OTHER, exclusive('left'), exclusive('right')),
+    )
+    return [code for code in found(spec) if code.startswith('CC103')]
+
+
+def test_loops_that_end_by_time_too_may_take_all_threads() -> None:
+    assert recorders(2) == ['CC103:40 warning']
+    assert recorders(3) == []
+    assert recorders(2, pauses=False) == []
+    assert recorders(2, timed=False) == []

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from finding_units import at, callback, found, outside, service, threads, timer, unit, updates
 
-from ros2cc_extract.spec.deeds import FLAG, Access, Act
+from ros2cc_extract.spec.deeds import FLAG, Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 BUSY = 'Arm.busy' + FLAG
@@ -42,6 +42,22 @@ def test_a_goal_that_is_let_in_alone_does_not_overlap_itself() -> None:
     assert told(goal(), execute()) == []
 
 
+def put_up_by_execute() -> Callback:
+    wait = Blocking(call='await', source=at(32))
+    reads = (Access(name='Arm.target', source=at(33), locks=(BUSY,)),)
+    target = Access(name='Arm.target', source=at(31), locks=(BUSY,))
+    writes = (flag(30, BUSY), target, flag(35, BUSY))
+    kind = EntityKind.ACTION_EXECUTE
+    return outside('execute', kind, reads=reads, writes=writes, blocking=(wait,), coroutine=True)
+
+
+def test_execute_may_put_up_the_flag_where_goals_come_one_by_one() -> None:
+    asks = callback('on_goal', EntityKind.ACTION_SERVER, 'arm_default', reads=(flag(20),))
+    one_by_one = found(unit(threads(1), asks, put_up_by_execute()))
+    assert [code for code in one_by_one if code.startswith('CC3')] == []
+    assert told(asks, put_up_by_execute()) == ['CC304:33 warning']
+
+
 def test_a_flag_that_two_may_find_down_at_once_keeps_nobody_out() -> None:
     assert 'CC304:30 warning' in told(goal(group='free'), execute())
     assert told(goal('lock', group='free'), execute()) == []
@@ -61,3 +77,25 @@ def test_a_test_and_a_setting_in_two_sections_keep_nobody_out() -> None:
 def test_a_flag_protects_against_those_who_hold_it_only() -> None:
     tick = timer('tick', 'other', writes=updates('Arm.steps', 40))
     assert told(goal('lock'), execute(), tick) == ['CC303:30 warning']
+
+
+def counted(name: str = 'Arm.running', *, asks: bool = True, looks: bool = False) -> list[str]:
+    """A goal callback that asks how many goals run, and an execute callback that counts them."""
+    asked = Access(name=name, source=at(20), locks=('lock',), admits=asks)
+    goal = callback('on_goal', EntityKind.ACTION_SERVER, 'arm_default', reads=(asked,))
+    counts = tuple(
+        Access(name=name, source=at(line), locks=('lock',), update=True) for line in (30, 35)
+    )
+    again = (Access(name=name, source=at(29), locks=('lock',)),) if looks else ()
+    run = outside('execute', EntityKind.ACTION_EXECUTE, reads=again, writes=counts)
+    run = replace(run, source=goal.source)
+    return told(goal, run)
+
+
+def test_goals_that_are_counted_later_than_they_are_let_in():
+    assert counted() == ['CC303:20 warning']
+
+
+def test_no_admission_where_it_decides_nothing_or_execute_looks_again():
+    assert counted(asks=False) == []
+    assert counted(looks=True) == []

@@ -189,10 +189,14 @@ def test_an_unresolved_group_gives_nothing() -> None:
     assert races(spec) == []
 
 
+def resting(accesses: tuple[Access, ...]) -> tuple[Access, ...]:
+    return tuple(replace(access, rests=True) for access in accesses)
+
+
 def test_plain_assignments_are_a_note_and_a_test_before_makes_it_a_warning() -> None:
     plain = timer('tick', writes=writes('Arm.goal', 30))
-    tested = timer('tick', reads=writes('Arm.goal', 29), writes=writes('Arm.goal', 30))
-    shown = timer('tick', reads=writes('Arm.goal', 31), writes=writes('Arm.goal', 30))
+    tested = timer('tick', reads=writes('Arm.goal', 29), writes=resting(writes('Arm.goal', 30)))
+    shown = timer('tick', reads=writes('Arm.goal', 29), writes=writes('Arm.goal', 30))
     other = subscription('on_goal', 'other', writes=writes('Arm.goal', 35))
     assert races(unit(threads(2), plain, other)) == ['CC302:30 note']
     assert races(unit(threads(2), shown, other)) == ['CC302:30 note']
@@ -213,7 +217,23 @@ def test_updates_in_place_do_not_disturb_each_other() -> None:
 def item_set(reads: tuple[Access, ...], line: int = 30) -> Callback:
     """``Arm.table[k] = …``, which looks the table up at the place of the write too."""
     looked_up = writes('Arm.table', line)
-    return timer('tick', reads=(*reads, *looked_up), writes=appends('Arm.table', line))
+    stored = appends('Arm.table', line)
+    return timer('tick', reads=(*reads, *looked_up), writes=resting(stored) if reads else stored)
+
+
+def test_who_takes_an_item_finds_it_whatever_others_put_in() -> None:
+    def moving(name: str, group: str, line: int, moves: str) -> Callback:
+        write = replace(appends('Arm.table', line)[0], moves=moves, rests=True)
+        return timer(name, group, reads=writes('Arm.table', line - 1), writes=(write,))
+
+    takes = moving('tick', 'arm_default', 30, 'takes')
+    puts = subscription(
+        'put', 'other', writes=(replace(appends('Arm.table', 35)[0], moves='adds'),)
+    )
+    assert races(unit(threads(2), takes, puts)) == []
+    assert races(unit(threads(2), takes, moving('steal', 'other', 35, 'takes'))) == [
+        'CC301:30 note'
+    ]
 
 
 def test_a_change_in_place_of_what_was_read_before() -> None:

@@ -72,6 +72,19 @@ def test_what_is_written_whatever_was_read_is_left_alone() -> None:
     assert told(node) == []
 
 
+def test_what_others_store_too_is_read_back_on_purpose() -> None:
+    own = service('on_go', 'free', **WRITTEN_THEN_READ, **WAITING)
+    stores = timer('tick', 'free', writes=(access(40),))
+    clears = timer('tick', 'free', writes=(access(40, clears=True),))
+    assert 'CC304:30 warning' not in told(own, stores)
+    assert 'CC304:30 warning' in told(own, clears)
+
+
+def test_who_compares_reckons_with_others() -> None:
+    asked = replace(access(30), compared=True)
+    assert told(service('on_go', 'free', reads=(asked,), writes=(access(20),), **WAITING)) == []
+
+
 def test_a_sum_in_one_statement_is_an_update() -> None:
     read = Access(name='Arm.goal', source=at(30, 21))
     node = service('on_go', 'free', reads=(read,), writes=(access(30, rests=True),))
@@ -140,7 +153,7 @@ def test_nothing_called_between_a_test_and_a_use_makes_it_a_note() -> None:
 
 
 def test_an_object_that_the_callback_stores_itself_is_there() -> None:
-    fresh = replace(using(), writes=(Access(name='Arm.goal', source=at(20, 30)),))
+    fresh = replace(using(), writes=(Access(name='Arm.goal', source=at(20, 30), rests=True),))
     codes = told(fresh, clearing())
     assert codes == ['CC301:20 warning'], 'its own write is what the other one disturbs'
 

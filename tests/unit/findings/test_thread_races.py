@@ -23,7 +23,7 @@ from finding_units import (
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
+from ros2cc_extract.spec.deeds import OUTSIDE, Access, Act, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Executor, Spec
 
 KIND = ActivityKind
@@ -154,6 +154,15 @@ def test_what_main_has_waited_for_comes_first() -> None:
     wait = Blocking(call='Event.wait', source=at(80), wakers=(Waker(by='tick'),))
     late = thread('main', KIND.MAIN, writes=writes('Arm.count', 85), blocking=(wait,))
     assert races(late, callbacks=(TICK,)) == []
+
+
+def test_what_main_does_before_it_makes_an_entity_comes_before_its_callback() -> None:
+    made = (Act(name='timer', source=at(28)),)
+    early = thread('main', KIND.MAIN, writes=writes('Arm.count', 27), changes=made)
+    tick = replace(TICK, source=at(28))
+    assert races(early, callbacks=(tick,)) == []
+    late = replace(early, writes=writes('Arm.count', 29))
+    assert races(late, callbacks=(tick,)) == ['CC301:30 warning']
 
 
 def test_two_threads_race_and_tasks_of_pools_may_take_turns() -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from finding_units import ONE_THREAD, calls, client, found, only, threads, timer, unit
+from finding_units import ONE_THREAD, at, calls, client, found, only, threads, timer, unit
 
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, Blocking, Needs, Waker
+from ros2cc_extract.spec.model import Activity, ActivityKind
 
 
 def test_a_wait_whose_end_nobody_knows_is_told() -> None:
@@ -50,6 +51,21 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
         'feed waits in subprocess.run without a time-out, and waits for ever if nobody outside '
         'this program ends it'
     )
+
+
+def serving(*locks: str) -> Activity:
+    on = Unknown('result of websockets.serve, which is not scanned')
+    wait = Blocking(call='await', on=on, source=at(60), held=locks)
+    return Activity(name='serve', kind=ActivityKind.THREAD, blocking=(wait,))
+
+
+def test_a_thread_that_waits_in_code_of_others_is_told_where_somebody_needs_it() -> None:
+    spec = unit(ONE_THREAD, timer('feed'))
+    assert found(replace(spec, activities=(serving(),))) == []
+    assert found(replace(spec, activities=(serving('lock'),))) == ['CC120:60 note']
+    join = Blocking(call='Thread.join', source=at(70), wakers=(Waker(by='serve'),))
+    needing = unit(ONE_THREAD, timer('feed', blocking=(join,)))
+    assert 'CC120:60 note' in found(replace(needing, activities=(serving(),)))
 
 
 def test_a_time_out_ends_it_in_any_case() -> None:

@@ -200,3 +200,18 @@ def test_waiting_for_a_service_to_be_there_needs_no_callback() -> None:
     refuted = progress(Verdict.NOT_SATISFIED, 'drive')
     assert found(own_group(call='wait_for_service'), refuted) == []
     assert found(own_group(call='Condition.wait_for'), refuted) == ['CC101:40']
+
+
+@pytest.mark.parametrize(('seconds', 'expected'), [(None, Severity.WARNING), (5.0, Severity.NOTE)])
+def test_a_service_that_overlaps_itself_weighs_more_where_a_run_shows_that_it_hangs(
+    seconds: float | None, expected: Severity
+) -> None:
+    """Its client in the unit asks, and one outside: two threads are taken."""
+    spec = unit(
+        threads(2),
+        service('quote', 'free', key='quote', blocking=calls('lookup', seconds=seconds)),
+        client('lookup', 'free'),
+        timer('scan', 'other', coroutine=True, blocking=calls('ask', 60, call='await')),
+        client('ask', 'free', key='quote'),
+    )
+    assert only(spec, 'CC103', judged(spec)).severity is expected

@@ -306,6 +306,24 @@ def test_a_join_on_a_thread_that_waits_for_a_callback(group: str, stuck: bool):
     assert said(closed) == (['dead-lock', 'drive', 'worker'] if stuck else [])
 
 
+@pytest.mark.parametrize(('call', 'stuck'), [('Thread.join', False), ('Event.wait', True)])
+def test_what_nobody_has_started_cannot_be_joined(call: str, stuck: bool):
+    """The starter may never run, or only after the join; an event is there without a thread."""
+    worker = 'name: worker, kind: thread, starts: [{by: tick, after: 0}]'
+    joins = blocking(wait('worker', 'by: worker').replace('Event.wait', call))
+    closed = unit(f'drive a: {joins}\ntick a', activities=beside(worker))
+    assert said(closed) == (['dead-lock', 'drive'] if stuck else [])
+
+
+def test_a_started_thread_that_never_ends_is_joined_in_vain():
+    worker = 'name: worker, kind: thread, starts: [{by: tick, after: 0}], ' + blocking(
+        wait('done', 'by: scan')
+    )
+    joins = blocking(wait('worker', 'by: worker').replace('Event.wait', 'Thread.join'))
+    closed = unit(f'drive a: {joins}\ntick a\nscan a', activities=beside(worker))
+    assert said(closed) == ['dead-lock', 'drive', 'worker']
+
+
 def test_a_thread_that_needs_a_lock_that_is_held_while_it_is_waited_for():
     worker = 'name: worker, kind: thread, node: arm, locks: [{name: lock}]'
     held = 'by: worker, after: 0, held: [lock]'

@@ -51,7 +51,7 @@ def test_a_process_is_entered_once() -> None:
     ('names', 'told'),
     [
         (('sys.remote_exec', 'hypno'), 'sys.remote_exec: no; hypno: no; '),
-        (('sys.remote_exec',), 'sys.remote_exec: no; .*pip install "ros2cc-extract\\[attach\\]"'),
+        (('sys.remote_exec',), 'sys.remote_exec: no; .*pip install "hypno>=1.1"'),
     ],
 )
 def test_what_each_way_was_told_is_said_when_none_is_let_in(

@@ -47,7 +47,7 @@ def test_the_summary_holds_all_findings_with_the_notes_folded() -> None:
         '<details><summary>1 note: CC501: 1</summary>\n\n'
         '| | code | place | what | help |\n'
         '|---|---|---|---|---|\n'
-        '| 🔵 | CC501 | `other.py` | topic of tick not resolved: a parameter\x00 |  |\n\n'
+        '| 🔵 | CC501 | `other.py` | topic of tick not resolved:\\\\na parameter\\\\x00 |  |\n\n'
         '</details>\n'
     )
 

@@ -41,7 +41,7 @@ def test_the_failure_holds_chain_and_help() -> None:
     )
 
 
-def test_notes_do_not_fail_and_what_xml_forbids_is_replaced() -> None:
+def test_notes_do_not_fail_and_what_xml_forbids_is_escaped() -> None:
     suite = ElementTree.fromstring(junit([NOTE], [], 'arm'))
     assert suite.get('failures') == '0'
-    assert (suite.findtext('system-out') or '').endswith('a parameter\ufffd')
+    assert (suite.findtext('system-out') or '').endswith('\\na parameter\\x00')

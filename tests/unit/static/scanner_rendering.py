@@ -167,6 +167,8 @@ def _blocking(block: Blocking) -> str:
         words.append(f'{block.times} times')
     if block.held:
         words.append(f'holding {", ".join(block.held)}')
+    if block.assumed:
+        words.append('assumed')
     if block.only_if:
         words.append(f'only if {block.only_if.partition(",")[0]}')
     return ' '.join(words) + _trail(block.source, block.chain)
@@ -196,6 +198,8 @@ def _access(access: Access) -> str:
     update += f' item {access.item}' if access.item else ''
     update += (' rests' if access.rests else '') + (' clears' if access.clears else '')
     update += ' constant' if access.constant else ''
+    update += ' compared' if access.compared else ''
+    update += ' admits' if access.admits else ''
     update += ' later' if access.later else ''
     locks = f' under {", ".join(access.locks)}' if access.locks else ''
     return f'{access.name}{update}{locks}{_trail(access.source, access.chain)}'

@@ -125,14 +125,14 @@ def test_program_without_end_is_cut_off_once(tmp_path: Path) -> None:
     callbacks = ''.join(
         f'    def on_{n}(self):\n' + '        self.x = 1\n' * 1_000 for n in range(40)
     )
-    made = ''.join(f'        self.create_timer(1.0, self.on_{n % 40})\n' for n in range(600))
+    made = ''.join(f'        self.create_timer(1.0, self.on_{n % 40})\n' for n in range(300))
     init = '    def __init__(self):\n        super().__init__("a")\n'
     program = f'{HEAD}class A(rclpy.node.Node):\n{init}{made}{callbacks}\nrclpy.spin(A())\n'
     path = tmp_path / 'node.py'
     path.write_text(program)
     found = scan([path])
     assert [d.slug for d in found.diagnostics] == ['not-followed']
-    assert [len(unit.callbacks) for unit in found.units] == [600]
+    assert [len(unit.callbacks) for unit in found.units] == [300]
     (lacking,) = [fact.source for fact in found.units[0].unresolved if fact.fact == 'entities']
     assert lacking == found.diagnostics[0].place
 
@@ -228,3 +228,55 @@ def test_scanned_code_is_never_run(tmp_path: Path) -> None:
     flag = tmp_path / 'flag'
     scan_text(f'import rclpy\nopen({str(flag)!r}, "w").write("x")\n' + SPIN)
     assert not flag.exists()
+
+
+def timers(set_up: str, before: str = '') -> str:
+    lines = (HEAD, before, 'n = rclpy.create_node("a")\n', set_up, 'rclpy.spin(n)\n')
+    return ''.join(lines)
+
+
+CALLS_THAT_DOUBLE = ''.join(
+    f'def f{i}(n):\n    f{i - 1}(n)\n    f{i - 1}(n)\n' for i in range(1, 31)
+)
+FIRST = 'def f0(n):\n    n.create_timer(1.0, print)\n'
+
+
+@pytest.mark.parametrize(
+    ('content', 'is_followed'),
+    [
+        (timers('x = [n]\n' + 'x = x + x\n' * 12), True),
+        (timers('x = [n]\n' + 'x = x + x\n' * 60), False),
+        (timers('x = [n]\n' + 'x += x\n' * 60), False),
+        (timers('x = [n]\n' + 'x.extend(x)\n' * 60), False),
+        (timers('x = [n]\n' + 'x = [*x, *x]\n' * 60), False),
+        (timers('x = [n]\n' + 'x = x * 900\n' * 60), False),
+        (timers('f9(n)\n', FIRST + CALLS_THAT_DOUBLE), True),
+        (timers('f30(n)\n', FIRST + CALLS_THAT_DOUBLE), False),
+    ],
+)
+def test_what_doubles_is_followed_for_some_time(
+    content: str, is_followed: bool, tmp_path: Path
+) -> None:
+    found = slugs(content, tmp_path)
+    assert (not found) is is_followed
+    assert len(found) <= 1
+
+
+def test_a_text_that_doubles_is_unknown(tmp_path: Path) -> None:
+    text = timers('x = "x"\n' + 'x = f"{x}{x}"\n' * 60 + 'n.create_publisher(int, x, 1)\n')
+    path = tmp_path / 'node.py'
+    path.write_text(text)
+    assert scan([path], root=tmp_path).diagnostics == ()
+
+
+def test_a_pool_has_as_many_threads_as_can_matter(tmp_path: Path) -> None:
+    path = tmp_path / 'node.py'
+    path.write_text(
+        HEAD
+        + 'from rclpy.executors import MultiThreadedExecutor\n'
+        + 'n = rclpy.create_node("a")\nn.create_timer(1.0, print)\n'
+        + 'e = MultiThreadedExecutor(10**9)\ne.add_node(n)\ne.spin()\n'
+    )
+    [unit] = scan([path], root=tmp_path).units
+    assert len(unit.executor.threads) == 256
+    assert unit.executor.assumed == '256 threads behave as 1000000000 do'

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.api import scan
 
 started = []
 start = crew.Crew._start_child
-crew.Crew._start_child = lambda self: (started.append(1), start(self))
+crew.Crew._start_child = lambda self, *given: (started.append(1), start(self, *given))
 print(scan([Path(p) for p in sys.argv[2:]], processes=int(sys.argv[1])))
 print(len(started), 'children', file=sys.stderr)
 """

@@ -1,0 +1,12 @@
+"""``python -m ros2cc_extract``: the command line, in whatever folder one stands."""
+
+import sys
+
+# Python looks first in the current folder, where anybody's `yaml.py` or `ast.py` may lie.
+if not (sys.flags.isolated or getattr(sys.flags, 'safe_path', False)):
+    del sys.path[0]
+
+if __name__ == '__main__':
+    from ros2cc_extract.cli.main import entry_point
+
+    entry_point()

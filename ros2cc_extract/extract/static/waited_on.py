@@ -1,0 +1,23 @@
+"""Objects whose only use is that somebody waits on them and somebody else ends the wait."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.values import Instance, Value
+from ros2cc_extract.extract.static.world import PlainState
+
+OF_LOOP = 'loop future'
+SETTABLE = frozenset(
+    {'event', 'future', OF_LOOP, 'condition', 'queue', 'semaphore', 'barrier', 'pool'}
+)
+
+
+def is_waited_on(value: Value) -> bool:
+    """Whether ``value`` is an event, a future, a queue …"""
+    state = value.state if isinstance(value, Instance) else None
+    return isinstance(state, PlainState) and state.kind in SETTABLE
+
+
+def is_of_loop(value: Value) -> bool:
+    """Whether ``value`` is a future of asyncio."""
+    state = value.state if isinstance(value, Instance) else None
+    return isinstance(state, PlainState) and state.kind == OF_LOOP

@@ -1,0 +1,42 @@
+"""
+Waits that end by themselves a number of times, and never after that.
+
+The room in a bounded queue and the value of a semaphore are used up by runs before. Models leave
+such a wait open; but where nobody who gives back can run while somebody waits, it never ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.findings.waits import Wait, kind_of
+from ros2cc_extract.findings.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking
+from ros2cc_extract.spec.model import Callback
+
+
+def used_up(context: Context) -> Iterator[Wait]:
+    """Waits of callbacks that never end once nothing is left."""
+    for caller in context.written:
+        for block in caller.blocking:
+            if is_used_up(block, caller, context):
+                yield Wait(caller, block, kind_of(block))
+
+
+def is_used_up(block: Blocking, caller: object, context: Context) -> bool:
+    """Whether everybody who gives back is kept from it by the one who waits."""
+    if not isinstance(caller, Callback) or block.seconds is not None:
+        return False
+    if block.escapes is None or not block.escapes.reason.endswith(BY_ITSELF):
+        return False
+    givers = [context.by_name.get(waker.by) for waker in block.wakers]
+    return all(giver is not None and _is_kept(giver, caller, context) for giver in givers)
+
+
+def _is_kept(giver: Callback, caller: Callback, context: Context) -> bool:
+    executor = context.unit.executor
+    if is_one_thread(executor):
+        return True
+    group = context.exclusive_group(caller)
+    return group is not None and honours_groups(executor) and giver.group == group.name

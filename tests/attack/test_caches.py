@@ -1,0 +1,227 @@
+"""Whatever lies in the cache folder: nothing of it runs, and results are those without it."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import random
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract import cachefile
+from tests.attack.running import Ended
+from tests.attack.test_attach import NOBODY, as_root
+
+NODE = Path(__file__).parents[2] / 'launch_free_examples/service_deadlock/node.py'
+CORRUPTIONS, CORRUPTIONS_OF_RECORD = 15, 1_000
+# Many runs in one process: to start it takes longer than a run, and the caches are read each time.
+RUN_MANY = """
+import functools, io, json, sys
+from ros2cc_extract import cachefile
+from ros2cc_extract.checker.uppaal import parsing
+from ros2cc_extract.cli.main import main
+for line in sys.stdin:
+    cachefile._own_folder.cache_clear()
+    parsing._parser.cache_clear()
+    parsing._tree.cache_clear()
+    told, complaints = io.StringIO(), io.StringIO()
+    status = main(json.loads(line), told, complaints)
+    print(json.dumps([status, told.getvalue(), complaints.getvalue()]), flush=True)
+"""
+
+
+class Evil:
+    """What makes its reader write a file."""
+
+    def __init__(self, canary: Path) -> None:
+        self._canary = canary
+
+    def __reduce__(self) -> tuple[Callable[..., object], tuple[str]]:
+        return os.mkdir, (str(self._canary),)
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """A cache that was filled by a check."""
+    run(tmp_path)
+    assert len(list(entries(tmp_path))) >= 3
+    return tmp_path
+
+
+def entries(home: Path) -> Iterator[Path]:
+    return iter(sorted((home / 'ros2cc-extract').iterdir()))
+
+
+def run(home: Path, *options: str) -> Ended:
+    done = subprocess.run(
+        [sys.executable, '-m', 'ros2cc_extract.cli.main', str(NODE), *options],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        env={**os.environ, 'XDG_CACHE_HOME': str(home)},
+    )
+    return Ended(done.returncode, done.stdout, done.stderr)
+
+
+def test_a_pickle_in_the_cache_is_not_run(home: Path, tmp_path: Path) -> None:
+    before, canary = run(home, '--no-cache'), tmp_path / 'canary'
+    for entry in entries(home):
+        header = entry.read_bytes().partition(b'\n')[0]
+        entry.write_bytes(pickle.dumps(Evil(canary)))
+        assert run(home) == before
+        entry.write_bytes(header + b'\n' + pickle.dumps(Evil(canary)))
+        assert run(home) == before
+    assert not canary.exists()
+
+
+def test_a_pickle_where_lark_had_its_tables_is_not_run(tmp_path: Path) -> None:
+    canary, folder = tmp_path / 'canary', tmp_path / 'ros2cc-extract'
+    folder.mkdir(mode=0o700)
+    evil = b'0' * 64 + b'\n' + pickle.dumps(Evil(canary))
+    (folder / 'uppaal-grammar.cache').write_bytes(evil)
+    assert run(tmp_path).status == 1
+    assert not canary.exists()
+
+
+@pytest.mark.parametrize('mode', [0o777, 0o770, 0o722])
+def test_a_folder_that_others_may_write_into_is_not_read_and_told(mode: int, home: Path) -> None:
+    before, folder = run(home, '--no-cache'), home / 'ros2cc-extract'
+    folder.chmod(mode)
+    read = {entry: entry.stat().st_mtime_ns for entry in entries(home)}
+    after = run(home)
+    assert (after.status, after.out) == (before.status, before.out)
+    assert f'{folder}: not used as a cache, as other users can change {folder}' in after.err
+    assert {entry: entry.stat().st_mtime_ns for entry in entries(home)} == read
+
+
+@as_root
+@pytest.mark.parametrize('level', ['ros2cc-extract', '.'])
+def test_a_folder_of_another_user_is_not_read(level: str, home: Path) -> None:
+    before = run(home, '--no-cache')
+    os.chown(home / level, NOBODY, NOBODY)
+    read = {entry: entry.stat().st_mtime_ns for entry in entries(home)}
+    after = run(home)
+    assert (after.status, after.out) == (before.status, before.out)
+    assert 'not used as a cache, as other users can change' in after.err
+    assert {entry: entry.stat().st_mtime_ns for entry in entries(home)} == read
+
+
+def chmod(entry: Path) -> None:
+    entry.chmod(0o666)
+
+
+def chown(entry: Path) -> None:
+    os.chown(entry, NOBODY, NOBODY)
+
+
+def link(entry: Path) -> None:
+    entry.rename(entry.parent.parent / entry.name)
+    entry.symlink_to(entry.parent.parent / entry.name)
+
+
+def pipe(entry: Path) -> None:
+    entry.unlink()
+    os.mkfifo(entry)
+
+
+@pytest.mark.parametrize('change', [chmod, pytest.param(chown, marks=as_root), link, pipe])
+def test_a_file_that_is_not_ours_alone_is_not_read(
+    change: Callable[[Path], None], home: Path
+) -> None:
+    for entry in entries(home):
+        content = cachefile.load_content(entry)
+        assert content
+        change(entry)
+        assert cachefile.load_content(entry) is None
+        cachefile.store_content(entry, content)
+        assert cachefile.load_content(entry) == content
+
+
+@pytest.mark.parametrize(
+    'rounds', [CORRUPTIONS, pytest.param(CORRUPTIONS_OF_RECORD, marks=pytest.mark.slow)]
+)
+def test_the_result_of_a_damaged_cache_is_that_without_one(rounds: int, home: Path) -> None:
+    chance, pristine = random.Random(rounds), home / 'pristine'
+    (home / 'ros2cc-extract').rename(pristine)
+    with many_runs(home) as ask:
+        before = ask('--no-cache')
+        for number in range(rounds):
+            shutil.rmtree(home / 'ros2cc-extract', ignore_errors=True)
+            shutil.copytree(pristine, home / 'ros2cc-extract')
+            done = chance.choice(DAMAGES)(home / 'ros2cc-extract', chance)
+            assert ask() == before, f'{number}: {done}'
+
+
+@contextmanager
+def many_runs(home: Path) -> Iterator[Callable[..., str]]:
+    with subprocess.Popen(
+        [sys.executable, '-c', RUN_MANY],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, 'XDG_CACHE_HOME': str(home)},
+    ) as process:
+        assert process.stdin is not None and process.stdout is not None
+        lines, answers = process.stdin, process.stdout
+
+        def ask(*options: str) -> str:
+            print(json.dumps([str(NODE), *options]), file=lines, flush=True)
+            answer = answers.readline()
+            assert json.loads(answer)[0] == 1
+            return answer
+
+        yield ask
+        lines.close()
+
+
+def flip_bits(folder: Path, chance: random.Random) -> str:
+    entry, content = picked(folder, chance)
+    bits = [chance.randrange(8 * len(content)) for _ in range(chance.randint(1, 14))]
+    for bit in bits:
+        content[bit // 8] ^= 1 << bit % 8
+    entry.write_bytes(content)
+    return f'{entry.name}: bits {bits}'
+
+
+def cut(folder: Path, chance: random.Random) -> str:
+    entry, content = picked(folder, chance)
+    length = chance.randrange(len(content))
+    entry.write_bytes(content[:length])
+    return f'{entry.name}: {length} bytes left'
+
+
+def overwrite(folder: Path, chance: random.Random) -> str:
+    entry, content = picked(folder, chance)
+    start, noise = chance.randrange(len(content)), chance.randbytes(chance.randint(1, 64))
+    entry.write_bytes(content[:start] + noise + content[start + len(noise) :])
+    return f'{entry.name}: {noise!r} at {start}'
+
+
+def splice(folder: Path, chance: random.Random) -> str:
+    (one, first), (_, second) = picked(folder, chance), picked(folder, chance)
+    one.write_bytes(first[: len(first) // 2] + second[len(second) // 2 :])
+    return f'{one.name}: half of another'
+
+
+def swap(folder: Path, chance: random.Random) -> str:
+    one, other = chance.sample(sorted(folder.iterdir()), 2)
+    first, second = one.read_bytes(), other.read_bytes()
+    one.write_bytes(second)
+    other.write_bytes(first)
+    return f'{one.name} and {other.name}'
+
+
+def picked(folder: Path, chance: random.Random) -> tuple[Path, bytearray]:
+    entry = chance.choice(sorted(folder.iterdir()))
+    return entry, bytearray(entry.read_bytes())
+
+
+DAMAGES = (flip_bits, cut, overwrite, splice, swap)
