@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.doing import ActivityState
-from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -68,8 +68,9 @@ def begin(
     :param turns: as of an ``ActivityState``.
     """
     world = machine.world
-    site = (call.place, world.chain, id(world.activity or world.current), _code_of(target, call))
-    known = next((each for each in world.activities if each.site == site), None)
+    text = (call.place, _code_of(target, call))
+    site = (text, world.chain, id(world.activity or world.current))
+    known = _own_text(world, text) or next((e for e in world.activities if e.site == site), None)
     state = known or ActivityState(
         kind, call.place, target, call, daemon=daemon, site=site, turns=turns
     )
@@ -77,6 +78,7 @@ def begin(
     if known is not None:
         known.count = known.count if world.again or runner in known.runners else _more(known)
         return
+    machine.charge(THING_STEPS)
     state.path, state.count = world.path, _count(world, call.place)
     state.thread, state.on_loop = world.threads + 1, on_loop
     world.activities.append(state)
@@ -88,6 +90,16 @@ def begin(
         world.activity = outer
     if state.serves:
         _go_on_beside(machine, call.place)
+
+
+def _own_text(world: World, text: object) -> ActivityState | None:
+    """That one which starts itself anew, itself or by others."""
+    each: object = world.activity
+    while isinstance(each, ActivityState):
+        if isinstance(each.site, tuple) and each.site[0] == text:
+            return each
+        each = each.starts[0].by if each.starts else None
+    return None
 
 
 def _more(known: ActivityState) -> int | Unknown:

@@ -36,6 +36,9 @@ from ros2cc_extract.extract.static.wakings import ClockRef, DataRef, Word
 from ros2cc_extract.extract.static.world import AccessKind, EntityState, World
 from ros2cc_extract.places import Place, Unknown
 
+THING_STEPS = 1_000
+"""What an entity or a thread costs all who come later, in steps: a program may make some 800."""
+
 
 class CannotCallError(Exception):
     """A call directly in the text of a ``try`` surely raises ``TypeError``."""

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.ending import (
     note_end,
 )
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.ros_builtins import (
     add_builtins_of_node,
     add_events_of,
@@ -58,9 +58,6 @@ from ros2cc_extract.spec.model import EntityKind, GroupType, When
 NODE = 'rclpy.node.Node'
 _BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
-
-_ENTITY_STEPS = 1_000
-"""What an entity costs all who come later, in steps: a program may make some 800."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +128,7 @@ def add_entity(
     machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
 ) -> EntityState:
     """Record an entity of ``node`` made here and now."""
-    machine.charge(_ENTITY_STEPS)
+    machine.charge(THING_STEPS)
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.assumed = world.assumed
