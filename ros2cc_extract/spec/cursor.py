@@ -14,6 +14,7 @@ from ros2cc_extract.places import Place
 
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 _TAG = 'tag:yaml.org,2002:'
+MOST_DEPTH = 100
 _KINDS = {
     'map': 'a mapping',
     'seq': 'a list',
@@ -157,14 +158,32 @@ def compose(text: str, file: str) -> Iterator[Cursor]:
     :raises SpecFormatError: when the text is no YAML.
     """
     try:
+        _check_depth(text, file)
         for root in yaml.compose_all(text, Loader=_LOADER):
             if root is not None:
                 yield Cursor(root, file)
     except yaml.MarkedYAMLError as error:
         raise SpecFormatError(_problem(error), _error_place(error, file), _NO_YAML) from None
-    except (yaml.YAMLError, RecursionError) as error:
-        what = 'nested too deeply' if isinstance(error, RecursionError) else str(error)
-        raise SpecFormatError(what.splitlines()[0], Place(file), _NO_YAML) from None
+    except yaml.YAMLError as error:
+        raise SpecFormatError(str(error).splitlines()[0], Place(file), _NO_YAML) from None
+
+
+def _check_depth(text: str, file: str) -> None:
+    """
+    Refuse what libyaml would compose by calls of itself until the stack is full.
+
+    PyYAML 6.0.2 composes recursively in C, and nothing bounds it; reading events keeps a list.
+    """
+    depth = 0
+    for event in yaml.parse(text, Loader=_LOADER):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+        if depth > MOST_DEPTH:
+            mark = event.start_mark
+            place = Place(file, mark.line + 1, mark.column + 1)
+            raise SpecFormatError('the YAML is nested too deeply', place, _NO_YAML)
 
 
 _NO_YAML = 'a specification is a YAML mapping with the key node'

@@ -38,7 +38,7 @@ from ros2cc_extract.spec.tables import (
     UNRESOLVED,
 )
 
-MOST_BYTES = 64_000_000
+MOST_BYTES = 8_000_000
 SPEC_VERSION = 2
 READ_VERSIONS = (1, 2)
 """Version 1 knows no wakers and no activities: who ends its waits is then open."""
@@ -195,10 +195,7 @@ def read_specs(text: str, file: str) -> tuple[Spec, ...]:
 
     :raises SpecFormatError: at the first fault, with file, line and how to mend it.
     """
-    try:
-        specs = tuple(_decode(cursor) for cursor in compose(text, file))
-    except RecursionError:
-        raise SpecFormatError('the YAML is nested too deeply', Place(file)) from None
+    specs = tuple(_decode(cursor) for cursor in compose(text, file))
     if not specs:
         raise SpecFormatError(
             'the file is empty', Place(file), 'a specification is a YAML mapping with the key node'

@@ -252,3 +252,12 @@ def test_an_activity_shares_the_name_space() -> None:
     text = WITH_WAKERS.replace('- name: feed', '- name: scan')
     with pytest.raises(SpecFormatError, match="duplicate name 'scan'"):
         read_specs(text, 'arm.yaml')
+
+
+@pytest.mark.parametrize('opening', ['[', '{a: ', '- ', '? '])
+def test_a_text_of_brackets_is_refused_where_it_gets_too_deep(opening: str) -> None:
+    # PyYAML 6.0.2 ends the process here: its composer calls itself in C.
+    with pytest.raises(SpecFormatError) as refused:
+        read_specs(opening * 50_000, 'deep.yaml')
+    assert refused.value.what == 'the YAML is nested too deeply'
+    assert refused.value.place == Place('deep.yaml', 1, 100 * len(opening) + 1)
