@@ -181,9 +181,9 @@ def _check_depth(text: str, file: str) -> None:
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
         if depth > MOST_DEPTH:
-            mark = event.start_mark
-            place = Place(file, mark.line + 1, mark.column + 1)
-            raise SpecFormatError('the YAML is nested too deeply', place, _NO_YAML)
+            raise SpecFormatError(
+                'the YAML is nested too deeply', _place_of(event.start_mark, file), _NO_YAML
+            )
 
 
 _NO_YAML = 'a specification is a YAML mapping with the key node'
@@ -194,5 +194,8 @@ def _problem(error: yaml.MarkedYAMLError) -> str:
 
 
 def _error_place(error: yaml.MarkedYAMLError, file: str) -> Place:
-    mark = error.problem_mark or error.context_mark
+    return _place_of(error.problem_mark or error.context_mark, file)
+
+
+def _place_of(mark: yaml.Mark | None, file: str) -> Place:
     return Place(file, mark.line + 1, mark.column + 1) if mark else Place(file)
