@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from enum import Enum
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import yaml
 
@@ -182,7 +182,9 @@ def _check_depth(text: str, file: str) -> None:
             depth -= 1
         if depth > MOST_DEPTH:
             raise SpecFormatError(
-                'the YAML is nested too deeply', _place_of(event.start_mark, file), _NO_YAML
+                'the YAML is nested too deeply',
+                _place_of(cast('yaml.Mark | None', event.start_mark), file),
+                _NO_YAML,
             )
 
 
