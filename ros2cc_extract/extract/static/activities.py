@@ -35,11 +35,12 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         return
     saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
-    loops = world.times, world.round
+    loops, ready = (world.times, world.round), world.ready
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
     world.times, world.round = 1, ()
+    world.ready = frozenset()
     try:
         result = machine.call(target, call)
         machine.run_if_coroutine(result, call.place)
@@ -48,6 +49,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
         world.times, world.round = loops
+        world.ready = ready
 
 
 def begin(
@@ -186,7 +188,7 @@ def begin_telling(world: World, state: ActivityState) -> None:
     world.path = world.callback_path = state.path
     world.again = world.retelling = True
     world.after_spin = False
-    world.asked = set()
+    world.asked, world.ready = set(), frozenset()
 
 
 def is_activity(doer: object) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static import flags, memo, plain_data, subclasses
+from ros2cc_extract.extract.static.answers import of_all
 from ros2cc_extract.extract.static.arguments import fits
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
@@ -138,6 +139,9 @@ class Calls(Machine):
             return self.evaluate(function.node.body, frame)
         flow = self.execute_block(function.node.body, frame)
         flags.leave(self.world, frame, goes_on=bool(flow & NEXT))
+        if frame.known_at_return:
+            ends = [self.world.ready] if flow & NEXT else []
+            self.world.ready = of_all([*ends, *frame.known_at_return])
         if frame.yields:
             made = Sequence(tuple(frame.yields), 'generator', None, dict(frame.many))
             self.world.yielding = made, frame.held

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from collections.abc import Sequence as Items
 
-from ros2cc_extract.extract.static import changing, loops
+from ros2cc_extract.extract.static import answers, changing, loops
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import Mystery, Scope, Value
@@ -34,13 +34,18 @@ class Comprehensions(Machine):
             if why is not None or isinstance(self.world.count, Unknown):
                 many[key] = Mystery(why) if why is not None else self.why_many()
 
+        ready = self.world.ready
         self._generate(node.generators, inner, collect, None)
+        picked, self.world.ready = self.world.ready - ready, ready
         if isinstance(node, ast.DictComp):
             return Mapping(dict(collected), None, many)
         values = tuple(value for _, value in collected)
         if isinstance(node, ast.SetComp):
             return loops.set_of(loops.Items(values, None, many), frame.place(node))
-        return Sequence(values, 'list', None, many)
+        made = Sequence(values, 'list', None, many)
+        if picked:
+            self.world.picked[made.serial] = picked
+        return made
 
     def _generate(
         self,
@@ -74,6 +79,7 @@ class Comprehensions(Machine):
         unsure: Unknown | None = None
         for condition in generator.ifs:
             holds = changing.decide(self, condition, frame)
+            answers.assume(self.world, answers.told_by(self.world.tested), holds=True)
             if holds is False:
                 return False, None
             if holds is None:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static import changing, folding
+from ros2cc_extract.extract.static import answers, changing, folding
 from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import Const, Mystery, Value, choice, options_of
@@ -16,20 +16,26 @@ def if_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     holds = changing.decide(machine, node.test, frame)
     if holds is not None:
         return machine.evaluate(node.body if holds else node.orelse, frame)
-    arms = (node.body, node.orelse)
-    return machine.branch(
-        [partial(machine.evaluate, arm, frame) for arm in arms], frame.place(node)
-    )
+    told = answers.told_by(machine.world.tested)
+
+    def arm(body: ast.expr, *, holds: bool) -> Value:
+        answers.assume(machine.world, told, holds=holds)
+        return machine.evaluate(body, frame)
+
+    arms = (partial(arm, node.body, holds=True), partial(arm, node.orelse, holds=False))
+    return machine.branch(arms, frame.place(node))
 
 
 def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
     stops_on = isinstance(node.op, ast.Or)
     found: list[Value] = []
     values: list[Value] = []
+    ready = machine.world.ready
     for index, part in enumerate(node.values):
         before = machine.world.changing
         value = machine.evaluate(part, frame)
         values.append(value)
+        answers.assume(machine.world, answers.told_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
         last = index == len(node.values) - 1
         for option in options_of(value):
@@ -38,7 +44,11 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
                 found.append(option)
         if not is_open and machine.truth(value) is stops_on:
             break
+    machine.world.ready = ready
     if len(values) == len(node.values):
+        answer = answers.joined(values, node)
+        if answer is not None:
+            return answer
         default = by_default(values, partial(_first_that, machine, stops_on))
         why = next((value.unknown for value in values if isinstance(value, Mystery)), None)
         if default is not None and why is not None:
@@ -77,6 +87,9 @@ def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
         truth = machine.truth(value)
         if truth is not None:
             return Const(not truth)
+        answer = answers.negated(value, node)
+        if answer is not None:
+            return answer
         return _open_condition(machine, [value], lambda held: _negated(machine, held), node, frame)
     folded = folding.unary(node.op, value)
     default = by_default([value], partial(folding.unary, node.op))
@@ -100,6 +113,9 @@ def compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     if verdict is None or machine.world.changing != before:
         if len(node.ops) > 1:
             return machine.mystery('a condition', frame.place(node))
+        answer = answers.compared(node.ops[0], first, right, node)
+        if answer is not None:
+            return answer
         act = partial(_compared, node.ops[0])
         return _open_condition(machine, [first, right], act, node, frame)
     return Const(verdict)

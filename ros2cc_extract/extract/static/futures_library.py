@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.activities import begin
+from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.containers import Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -145,7 +146,7 @@ def _for_all(name: str, position: int | None) -> Handler:
             for future in items.known:
                 machine.note_blocking(name, future, timeout, call.place)
                 if timeout in (None, NONE):
-                    machine.world.asked.add(id(future))
+                    machine.world.ready |= {(option, Word.SET) for option in options_of(future)}
             if name == 'futures.as_completed':
                 return Sequence(items.known, 'generator', None, items.many)
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
@@ -159,9 +160,15 @@ def _set(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
-    """Who has asked whether a future is done does not wait for it."""
-    machine.world.asked.add(id(receiver))
-    return machine.mystery('whether a future is done', call.place, 'done()')
+    return answer(receiver, Word.SET, call)
+
+
+def _cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
+    return cancelled(receiver, call)
+
+
+def _running(machine: Machine, receiver: Value, call: Call) -> Value:
+    return running(receiver, call)
 
 
 def _waits(name: str) -> Handler:
@@ -190,6 +197,8 @@ TABLE = Library(
                 'set_exception': _set,
                 'cancel': _set,
                 'done': _asked,
+                'cancelled': _cancelled,
+                'running': _running,
                 'result': _waits('Future.result'),
                 'exception': _waits('Future.exception'),
             },

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from ros2cc_extract.deadline import Deadline
+from ros2cc_extract.extract.static.answers import Facts, of_all
 from ros2cc_extract.extract.static.relevance import mangled
 from ros2cc_extract.extract.static.store import Store, Writes
 from ros2cc_extract.extract.static.values import (
@@ -56,6 +57,8 @@ class Frame:
     :param path: the undecided branches under which it began.
     :param many: what it yields any number of times, or perhaps not at all.
     :param breaks: what the branches that leave the running loop had written to own names.
+    :param known_at_break: what has surely happened there, see ``World.ready``; the same of each
+        ``return``.
     :param held: locks that were held at the first ``yield``.
     :param left: locks that are held at each ``return``, flags that were found down, and whether it
         turns down a goal.
@@ -76,6 +79,8 @@ class Frame:
     qualname: str = ''
     path: Path = ()
     breaks: list[Writes] = field(default_factory=list)
+    known_at_break: list[Facts] = field(default_factory=list)
+    known_at_return: list[Facts] = field(default_factory=list)
     continues: list[Writes] = field(default_factory=list)
     copies: frozenset[str] = frozenset()
     sources: dict[str, frozenset[str]] = field(default_factory=dict)
@@ -226,10 +231,6 @@ class Machine(ABC):
     @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:
         """Names of globals that some function of the module rebinds or changes in place."""
-
-    @abstractmethod
-    def note_loop(self, node: ast.While, frame: Frame) -> None:
-        """A ``while`` loop begins; matters when it waits for something."""
 
     @abstractmethod
     def note_endless(self, node: ast.While) -> None:
@@ -412,12 +413,17 @@ class Machine(ABC):
         A choice that ends the program leaves nothing behind, unless all do.
         """
         results: list[tuple[Value, Writes, bool]] = []
+        ready, ends = self.world.ready, []
         for index, attempt in enumerate(choices):
+            self.world.ready = ready
             with self.on_path(place, index):
                 mark = self.store.open_branch()
                 result = attempt()
                 stopped, self.world.stopped = self.world.stopped, False
                 results.append((result, self.store.close_branch(mark), stopped))
+                if not stopped:
+                    ends.append(self.world.ready)
+        self.world.ready = of_all(ends or [ready])
         going_on = [entry for entry in results if not entry[2]]
         self.world.stopped = not going_on
         kept = going_on or results

@@ -11,10 +11,18 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.extract.static.answers import Facts, Told, told_by
 from ros2cc_extract.extract.static.doing import Deeds
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.outside_waits import call_of_loop, is_endless, is_idle
+from ros2cc_extract.extract.static.outside_waits import (
+    awaits_each_round,
+    call_of_loop,
+    is_endless,
+    is_idle,
+    spins,
+)
 from ros2cc_extract.extract.static.relevance import walk
+from ros2cc_extract.extract.static.values import Heaped, Mystery, Value, choice
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef
 from ros2cc_extract.places import Unknown
@@ -28,7 +36,8 @@ _NEUTRAL = frozenset(
     ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
 )
 _CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
-_ASKED = frozenset(['done', 'is_set', 'wait_for_service', 'service_is_ready', 'server_is_ready'])
+_OF_SERVICES = frozenset(['wait_for_service', 'service_is_ready', 'server_is_ready'])
+_ASKED = _OF_SERVICES | {'done', 'is_set', 'is_alive'}
 
 
 @dataclass(frozen=True)
@@ -46,6 +55,118 @@ def mark(machine: Machine) -> Mark | None:
     return None if deeds is None else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own))
 
 
+def begin(machine: Machine, loop: ast.While, frame: Frame, told: Told | None) -> None:
+    """
+    A ``while`` loop begins; one that only waits for a future is a busy wait.
+
+    A coroutine that awaits in each round gives its thread back, as one that awaits the future.
+
+    :param told: what its test tells.
+    """
+    world = machine.world
+    if world.deeds is None and not is_idle(loop):
+        return
+    place = frame.place(loop)
+    is_known = told is not None and _note_things(machine, loop, frame, told)
+    if not is_known:
+        is_known = _note_by_name(machine, loop, frame)
+    if world.in_callback and not is_known and spins(loop):
+        # How many callbacks run before it ends is not one.
+        reason = f'what ends the loop: {ast.unparse(loop.test)}'
+        machine.note_blocking('busy wait', machine.mystery(reason, place), None, place)
+
+
+def _note_by_name(machine: Machine, loop: ast.While, frame: Frame) -> bool:
+    """Whether the test asks something by the name of such a method; what it asks is told."""
+    is_known = False
+    for part in ast.walk(loop.test):
+        if (
+            isinstance(part, ast.Call)
+            and isinstance(part.func, ast.Attribute)
+            and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
+        ):
+            is_known = True
+            if part.func.attr in ('done', 'is_set'):
+                owner = machine.evaluate(part.func.value, frame)
+                _note_busy(machine, loop, owner, None, frame)
+    return is_known
+
+
+def _note_busy(
+    machine: Machine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
+) -> None:
+    world = machine.world
+    frees = world.in_callback and not world.on_loop
+    gives_back = frees and awaits_each_round(loop)
+    call = 'await' if gives_back else call_of_loop(loop, 'busy wait', world.activity)
+    machine.note_blocking(call, on, seconds, frame.place(loop))
+
+
+def _note_things(machine: Machine, loop: ast.While, frame: Frame, told: Told) -> bool:
+    """Whether what happens to objects makes the test fail; the loop waits for that."""
+    tests = list(_exit_tests(loop))
+    place = frame.place(loop)
+    why = Unknown('the loop also ends otherwise', place)
+    is_timed = any(_ends_otherwise(machine, test, loop, frame) for test in tests)
+    seconds = Mystery(why) if is_timed else None
+    needed, any_of_them = _things(told.fails), _things(told.breaks)
+    if told.is_either and any_of_them:
+        _note_busy(machine, loop, choice(any_of_them), seconds, frame)
+    elif needed or len(any_of_them) == 1:
+        for thing in needed or any_of_them:
+            _note_busy(machine, loop, thing, seconds, frame)
+    elif any_of_them:
+        first = machine.mystery('it waits for the first of several', place)
+        _note_busy(machine, loop, first, seconds, frame)
+    return bool(any_of_them)
+
+
+def _things(facts: Facts) -> list[Value]:
+    """In the order in which they were made."""
+    found = dict.fromkeys(thing for thing, _ in facts)
+    return sorted(found, key=lambda thing: thing.serial if isinstance(thing, Heaped) else 0)
+
+
+def _ends_otherwise(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
+    """Whether a clock or a counter may end the loop as well, beside what is asked of objects."""
+    if isinstance(test, ast.BoolOp):
+        return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
+    if isinstance(test, ast.UnaryOp):
+        return _ends_otherwise(machine, test.operand, loop, frame)
+    return not _tells(machine, test, frame) and _runs_out(test, loop)
+
+
+def _runs_out(test: ast.expr, loop: ast.While) -> bool:
+    """Whether a clock is asked, or what each round of the loop changes."""
+    called = {_name_of(part) for part in walk(test) if isinstance(part, ast.Call)}
+    stored = {name for each in loop.body for part in walk(each) for name in _assigned(part)}
+    names = {part.id for part in walk(test) if isinstance(part, ast.Name)}
+    return not called.isdisjoint(_CLOCKS) or not names.isdisjoint(stored)
+
+
+def _tells(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+    return _asks_object(test) or _told_now(machine, test, frame) is not None
+
+
+def _told_now(machine: Machine, test: ast.expr, frame: Frame) -> Told | None:
+    """What a test tells where it stands, without any note of what it reads."""
+    world = machine.world
+    noted, ready, world.deeds = world.deeds, world.ready, Deeds()
+    try:
+        return told_by(machine.evaluate(test, frame))
+    finally:
+        world.deeds, world.ready = noted, ready
+
+
+def _told_by_exits(machine: Machine, loop: ast.While, frame: Frame) -> Told | None:
+    """What makes a loop end whose test tells of it only after a round, or stands inside."""
+    for test in _exit_tests(loop):
+        told = _told_now(machine, test, frame)
+        if told is not None:
+            return told if test is loop.test else told.negated()
+    return None
+
+
 def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
     """After one round of ``loop``."""
     deeds = machine.world.deeds
@@ -53,6 +174,9 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
         return
     _note_asked(machine, loop, deeds, before, frame)
     if _is_told(machine, loop, deeds, before):
+        return
+    told = _told_by_exits(machine, loop, frame)
+    if told is not None and _note_things(machine, loop, frame, told):
         return
     tests = list(_exit_tests(loop))
     if not tests:
@@ -93,7 +217,7 @@ def _note(
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
     elif (not ends_otherwise or _is_idle(loop, tests)) and not any(
-        _asks_object(test) for test in tests
+        _asks_for_service(test) for test in tests
     ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
@@ -216,9 +340,18 @@ def _name_of(call: ast.Call) -> str:
 
 def _asks_object(test: ast.expr) -> bool:
     """What is asked by a method is told where that is noted."""
+    return _calls_one_of(test, _ASKED)
+
+
+def _asks_for_service(test: ast.expr) -> bool:
+    """Whether others are there is a wait of its own."""
+    return _calls_one_of(test, _OF_SERVICES)
+
+
+def _calls_one_of(test: ast.expr, names: frozenset[str]) -> bool:
     return any(
         isinstance(part, ast.Call)
         and isinstance(part.func, ast.Attribute)
-        and part.func.attr in _ASKED
+        and part.func.attr in names
         for part in walk(test)
     )

@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 from ros2cc_extract.extract.static import builtin_methods, folding, loops
+from ros2cc_extract.extract.static.answers import of_items
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
@@ -195,6 +196,19 @@ def _scalar(kind: type) -> Handler:
     return handler
 
 
+def _of_all(*, stops_on: bool) -> Handler:
+    """``any(…)`` and ``all(…)`` of what objects answer."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        given = call.args[0] if call.args else NONE
+        items = loops.items_in(machine, given, call.place)
+        is_known = items.others is None
+        answer = of_items(items.known, call, stops_on=stops_on) if is_known else None
+        return answer or machine.mystery('any or all of several', call.place, call.text or '')
+
+    return handler
+
+
 def _extreme(act: str) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         values = call.args
@@ -364,6 +378,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.bool': _scalar(bool),
     'builtins.ord': _letter(ord),
     'builtins.chr': _letter(chr),
+    'builtins.any': _of_all(stops_on=True),
+    'builtins.all': _of_all(stops_on=False),
     'builtins.max': _extreme('max'),
     'builtins.min': _extreme('min'),
     'builtins.sum': _sum,

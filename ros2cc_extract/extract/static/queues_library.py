@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
@@ -66,9 +67,17 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
-    """Who has asked whether there is something, or room, does not wait for it."""
-    machine.world.asked.add(id(receiver))
+def _is_empty(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.PUT, call, if_true=False)
+
+
+def _is_full(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.GET, call, if_true=False)
+
+
+def _size(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who has asked how much there is, be it in a test or for a loop, takes no more than that."""
+    machine.world.ready |= {(receiver, Word.PUT), (receiver, Word.GET)}
     return machine.mystery('how full a queue is', call.place, 'queue')
 
 
@@ -79,9 +88,9 @@ QUEUE_METHODS: dict[str, Handler] = {
     'put_nowait': _without_waiting(Word.PUT),
     'task_done': _without_waiting(Word.DONE),
     'join': _join,
-    'empty': _asked,
-    'full': _asked,
-    'qsize': _asked,
+    'empty': _is_empty,
+    'full': _is_full,
+    'qsize': _size,
 }
 _QUEUE = LibraryClass(
     state=lambda machine, instance: PlainState('queue', place=instance.place),

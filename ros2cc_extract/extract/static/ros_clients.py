@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.activities import begin
+from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.ending import CANCEL, note_end, note_published, note_use
 from ros2cc_extract.extract.static.futures_library import FUTURE
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
@@ -125,9 +126,15 @@ def _future_exception(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _future_done(machine: Machine, receiver: Value, call: Call) -> Value:
-    """Who has asked whether it is done does not wait for it."""
-    machine.world.asked.add(id(receiver))
-    return machine.mystery('whether a future is done', call.place, 'done()')
+    return answer(receiver, Word.SET, call)
+
+
+def _future_cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
+    return cancelled(receiver, call)
+
+
+def _future_running(machine: Machine, receiver: Value, call: Call) -> Value:
+    return running(receiver, call)
 
 
 def _set_result(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -167,6 +174,9 @@ def future_class(kind: str) -> LibraryClass:
             'result': _future_result,
             'exception': _future_exception,
             'done': _future_done,
+            'cancelled': _future_cancelled,
+            'running': _future_running,
+            'cancel': _set_result,
             'set_result': _set_result,
             'set_exception': _set_result,
         },

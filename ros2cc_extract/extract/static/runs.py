@@ -287,7 +287,7 @@ def _run_callback(
 ) -> None:
     def follow() -> None:
         world = machine.world
-        world.again, world.asked = again, set()
+        world.again, world.asked, world.ready = again, set(), frozenset()
         world.deeds, world.current, world.after_spin = deeds, entity, False
         transition = _transition_of(entity, callback)
         if transition:

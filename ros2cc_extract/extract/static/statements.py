@@ -10,11 +10,20 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import reduce
+from functools import partial, reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, flags, loops, memo, polls, same_tests, settings
+from ros2cc_extract.extract.static import (
+    answers,
+    changing,
+    flags,
+    loops,
+    memo,
+    polls,
+    same_tests,
+    settings,
+)
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import Frame, Machine
@@ -77,8 +86,9 @@ class Statements(Machine):
         """Run alternatives from one state; joins what may hold after them."""
         ends: list[tuple[int, Writes]] = []
         held, kept = self.world.held, []
+        ready, known = self.world.ready, []
         for index, body in enumerate(bodies):
-            self.world.held = held
+            self.world.held, self.world.ready = held, ready
             with self.on_path(place, index):
                 mark = self.store.open_branch()
                 flow = body()
@@ -87,7 +97,9 @@ class Statements(Machine):
                 ends.append((flow, self.store.close_branch(mark)))
                 if flow & NEXT:
                     kept.append(self.world.held)
+                    known.append(self.world.ready)
         self.world.held = _held_by_all(kept or [held])
+        self.world.ready = answers.of_all(known or [ready])
         live = [end for end in ends if end[0] & ~DEAD]
         if not live:
             self.store.join([writes for _, writes in ends])
@@ -120,13 +132,13 @@ def _held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
 @contextmanager
 def _loop(machine: Statements, frame: Frame) -> Iterator[None]:
     """A loop runs inside; afterwards what held at any ``break`` may hold."""
-    outer = frame.breaks, frame.continues
-    frame.breaks, frame.continues = [], []
+    outer = frame.breaks, frame.continues, frame.known_at_break
+    frame.breaks, frame.continues, frame.known_at_break = [], [], []
     try:
         yield
         machine.store.join([{}], frame.breaks)
     finally:
-        frame.breaks, frame.continues = outer
+        frame.breaks, frame.continues, frame.known_at_break = outer
 
 
 def _round(machine: Statements, body: Sequence[ast.stmt], frame: Frame) -> int:
@@ -216,6 +228,7 @@ def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
     with machine.world.reading.of(found):
         frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
     flags.note_return(machine.world, frame, node, found)
+    frame.known_at_return.append(machine.world.ready)
     return RETURN
 
 
@@ -242,18 +255,48 @@ def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
 
 def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], int]]:
     """The arms of an undecided ``if … elif … else`` as alternatives of one statement."""
-    arms: list[Callable[[], int]] = [lambda: machine.execute_block(node.body, frame)]
+    told = answers.told_by(machine.world.tested)
+    so_far: tuple[answers.Told, ...] = ()
+    is_one_of_two = not (len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If))
+    arm = partial(_arm, machine, frame, is_one_of_two=is_one_of_two)
+    arms: list[Callable[[], int]] = [arm(node.body, so_far, told)]
     rest = node.orelse
     while len(rest) == 1 and isinstance(rest[0], ast.If):
         inner = rest[0]
+        so_far = (*so_far, told) if told is not None else so_far
         holds = changing.decide_branch(machine, inner, frame, node)
+        told = answers.told_by(machine.world.tested)
         if holds is not False:
-            arms.append(lambda body=inner.body: machine.execute_block(body, frame))  # type: ignore[misc]
+            arms.append(arm(inner.body, so_far, told))
         if holds is True:
             return arms
         rest = inner.orelse
-    arms.append(lambda: machine.execute_block(rest, frame))
+    so_far = (*so_far, told) if told is not None else so_far
+    arms.append(arm(rest, so_far, None))
     return arms
+
+
+def _arm(
+    machine: Statements,
+    frame: Frame,
+    body: Sequence[ast.stmt],
+    fails: Sequence[answers.Told],
+    holds: answers.Told | None,
+    *,
+    is_one_of_two: bool,
+) -> Callable[[], int]:
+    """An arm that is run where some tests have failed, and its own, if any, has held."""
+
+    def run() -> int:
+        for told in fails:
+            answers.assume(machine.world, told, holds=False)
+        answers.assume(machine.world, holds, holds=True)
+        if is_one_of_two:
+            skipped = holds.fails if holds is not None else fails[0].holds if fails else None
+            machine.world.skipped_if[machine.world.path[-1]] = skipped or answers.NOTHING
+        return machine.execute_block(body, frame)
+
+    return run
 
 
 def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
@@ -311,6 +354,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
             def once(item: Value) -> int:
                 begin(item)
                 machine.assign(node.target, item, frame)
+                answers.assume_picked(machine.world, values, item)
                 return _round(machine, node.body, frame)
 
             flow = loops.run_loop(machine, items, once, place)
@@ -330,19 +374,30 @@ def _or_else(machine: Statements, node: ast.For | ast.AsyncFor, flow: int, frame
     return rest | ends
 
 
+def _break(machine: Statements, node: ast.Break, frame: Frame) -> int:
+    frame.known_at_break.append(machine.world.ready)
+    return BREAK
+
+
 def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
     holds = changing.decide(machine, node.test, frame)
     if holds is False:
         return machine.execute_block(node.orelse, frame)
+    told, ready = answers.told_by(machine.world.tested), machine.world.ready
     before = polls.mark(machine)
-    machine.note_loop(node, frame)
+    polls.begin(machine, node, frame, told)
     reason = Unknown('made in a while loop', frame.place(node))
     with loops.counted(machine, reason), _loop(machine, frame):
+        answers.assume(machine.world, told, holds=True)
         flow = _round(machine, node.body, frame)
+        ends = [] if holds else [ready | (told.fails if told is not None else answers.NOTHING)]
+        after = answers.of_all([*ends, *frame.known_at_break] or [ready])
+    machine.world.ready = ready
     if not flow & (BREAK | RETURN):
         machine.note_endless(node)
     if flow & (NEXT | CONTINUE):
         polls.note(machine, node, frame, before)
+    machine.world.ready = after
     return loops.after_loop(flow)
 
 
@@ -462,7 +517,7 @@ _STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
     ast.ImportFrom: _import_from,
     ast.Global: _global,
     ast.Nonlocal: _nonlocal,
-    ast.Break: _constant_flow(BREAK),
+    ast.Break: _break,
     ast.Continue: _constant_flow(CONTINUE),
     ast.Assert: _assert,
     ast.Delete: _delete,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.activities import begin
+from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
@@ -202,7 +203,11 @@ def _is_set(machine: Machine, receiver: Value, call: Call) -> Value:
     is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
     if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
         return flag
-    return machine.mystery('whether an event is set', call.place, 'is_set()')
+    return answer(receiver, Word.SET, call)
+
+
+def _is_alive(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.END, call, if_true=False)
 
 
 def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -254,7 +259,7 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
 _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
-    methods={'start': _start, 'join': _join},
+    methods={'start': _start, 'join': _join, 'is_alive': _is_alive},
 )
 
 _JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')
@@ -270,7 +275,7 @@ TABLE = Library(
         'multiprocessing.Process': LibraryClass(
             state=_thread_state(ActivityKind.PROCESS),
             init=_thread_init,
-            methods={'start': _start, 'join': _JOIN_PROCESS},
+            methods={'start': _start, 'join': _JOIN_PROCESS, 'is_alive': _is_alive},
         ),
         'threading.Lock': _plain('lock'),
         'threading.RLock': _plain('rlock'),

@@ -5,16 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
+from ros2cc_extract.extract.static.answers import Facts
 from ros2cc_extract.extract.static.flow import DEAD, LEAVING, NEXT
 from ros2cc_extract.extract.static.lock_paths import locks_given_back
 from ros2cc_extract.extract.static.machine import CannotCallError, Frame, Machine
-from ros2cc_extract.places import Place
 
 
 def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     """Body, ``else`` and ``finally`` run as if nothing went wrong; handlers are branches."""
-    place = frame.place(node)
 
     def regular() -> int:
         flow = machine.execute_block(node.body, frame)
@@ -22,7 +22,7 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
             flow = (flow & ~NEXT) | machine.execute_block(node.orelse, frame)
         return flow
 
-    path = machine.world.path
+    path, ready = machine.world.path, machine.world.ready
     try:
         with _trying(machine, any(_catches_type_error(each) for each in node.handlers)):
             flow = regular()
@@ -33,7 +33,7 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     stopped, machine.world.stopped = machine.world.stopped, False
     machine.world.path = path
     if node.handlers:
-        flow = _handle(machine, node, frame, place, DEAD if stopped else flow)
+        flow = _handle(machine, node, frame, ready, DEAD if stopped else flow)
         stopped = False
     flow = _finally(machine, node, frame, flow)
     machine.world.stopped = machine.world.stopped or stopped
@@ -83,11 +83,18 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
         return DEAD
 
 
-def _handle(machine: Machine, node: ast.Try, frame: Frame, place: Place, flow: int) -> int:
-    """Run the handlers after the body; each is a branch of its own."""
+def _handle(machine: Machine, node: ast.Try, frame: Frame, ready: Facts, flow: int) -> int:
+    """
+    Run the handlers after the body; each is a branch of its own.
+
+    :param ready: what had happened before, which is all that a handler knows.
+    """
     bodies: list[Callable[[], int]] = [lambda: flow]
 
-    for handler in node.handlers:
-        bodies.append(lambda each=handler: _run_handler(machine, each, frame))  # type: ignore[misc]
-    ends = machine.branches(bodies, place, frame)
+    def run(handler: ast.ExceptHandler) -> int:
+        machine.world.ready = ready
+        return _run_handler(machine, handler, frame)
+
+    bodies += [partial(run, handler) for handler in node.handlers]
+    ends = machine.branches(bodies, frame.place(node), frame)
     return ends & ~LEAVING if flow & NEXT else ends

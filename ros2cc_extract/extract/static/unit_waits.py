@@ -304,11 +304,12 @@ class UnitWaits:
             yield Waker(by=OUTSIDE, source=place)
             return
         after = None if waking.word is Word.END else self.after(waking)
+        stays = reference.is_kept and reference.number not in self._world.cleared
         yield Waker(
             by=name,
             source=place,
             after=after,
-            conditional=waking.conditional,
+            conditional=waking.conditional and not (stays and waking.unless_done),
             held=waking.held,
         )
 

@@ -6,11 +6,12 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static.answers import is_ready as is_ready_for
 from ros2cc_extract.extract.static.clock_times import slept
 from ros2cc_extract.extract.static.defaults import assumption, default_of
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.held_locks import held_over
-from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.settings import only_if
 from ros2cc_extract.extract.static.uncalled import waking_of
 from ros2cc_extract.extract.static.unknown_waits import (
@@ -48,6 +49,7 @@ from ros2cc_extract.extract.static.world import (
     ExecutorState,
     NodeState,
     PlainState,
+    World,
 )
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Blocking, Needs
@@ -56,34 +58,6 @@ from ros2cc_extract.spec.model import ActivityKind, When
 
 class Waits(Machine):
     """Notes for the callback or activity that is being followed."""
-
-    def note_loop(self, node: ast.While, frame: Frame) -> None:
-        """
-        A ``while`` loop begins; one that only waits for a future is a busy wait.
-
-        A coroutine that awaits in each round gives its thread back, as one that awaits the future.
-        """
-        deeds = self.world.deeds
-        if deeds is None and not outside_waits.is_idle(node):
-            return
-        frees = self.world.in_callback and not self.world.on_loop
-        gives_back = frees and outside_waits.awaits_each_round(node)
-        place, is_known = frame.place(node), False
-        for part in ast.walk(node.test):
-            if (
-                isinstance(part, ast.Call)
-                and isinstance(part.func, ast.Attribute)
-                and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
-            ):
-                owner = self.evaluate(part.func.value, frame)
-                is_known = True
-                if part.func.attr in ('done', 'is_set'):
-                    call = outside_waits.call_of_loop(node, 'busy wait', self.world.activity)
-                    self.note_blocking('await' if gives_back else call, owner, None, place)
-        if self.world.in_callback and not is_known and outside_waits.spins(node):
-            # How many callbacks run before it ends is not one.
-            reason = f'what ends the loop: {ast.unparse(node.test)}'
-            self.note_blocking('busy wait', self.mystery(reason, place), None, place)
 
     def note_endless(self, node: ast.While) -> None:
         """A loop was followed that nothing but the end of the program ends."""
@@ -97,11 +71,14 @@ class Waits(Machine):
     ) -> None:
         """A call that can hold its thread."""
         world, deeds = self.world, self.world.deeds
+        row = WAITS.get(name, NO_ROW)
+        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
+        if is_ready and row.rival is None:
+            return
         if deeds is None or _is_main(world.activity):
             self.note_outside_wait(name, on, seconds, place)
         if deeds is None:
             return
-        row = WAITS.get(name, NO_ROW)
         thing, why = _one_object(on, place)
         block = Blocking(
             call=name,
@@ -111,7 +88,7 @@ class Waits(Machine):
             assumed=_assumed_seconds(seconds),
             chain=world.chain[1:],
             held=held_over(world, on),
-            resource=self._resource(thing, row),
+            resource=self._resource(thing, row, asked=is_ready),
             needs=row.needs,
             escapes=why if row is not NO_ROW else None,
             conditional=world.path != world.callback_path,
@@ -170,13 +147,15 @@ class Waits(Machine):
         if why is not None:
             self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
 
-    def _resource(self, thing: Instance | None, row: WaitRow) -> ResourceRef | None:
+    def _resource(
+        self, thing: Instance | None, row: WaitRow, *, asked: bool
+    ) -> ResourceRef | None:
         if thing is None or not row.ended_by or _is_of_entity(thing):
             return None
         reference = ResourceRef(thing.hint or thing.class_name)
         reference.number = id(thing)
         reference.ended_by = row.ended_by
-        reference.asked = row.unless_asked and id(thing) in self.world.asked
+        reference.asked = asked
         reference.is_kept = row.needs is Needs.ONCE
         reference.initial = _initial(thing, row)
         reference.made = thing.place
@@ -259,6 +238,7 @@ class Waits(Machine):
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
             held=held_over(world, thing),
             is_counted=not world.path and world.count == 1,
+            unless_done=doer is not None and _only_unless_done(world, thing, word),
         )
 
     def note_nested_spin(
@@ -281,6 +261,12 @@ class Waits(Machine):
         if node is not None:
             self.note_change(change, node, place)
         return True
+
+
+def _only_unless_done(world: World, thing: Value, word: Word) -> bool:
+    """Whether no branch skips what is done to ``thing`` but where it has been done before."""
+    more = world.path[len(world.callback_path) :]
+    return all((thing, word) in world.skipped_if.get(step, ()) for step in more)
 
 
 def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:

@@ -77,6 +77,7 @@ class Waking:
     :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
     :param uncalled: in whose text, which nobody in sight calls, it stands.
     :param is_counted: it happens once, whatever branches are taken.
+    :param unless_done: branches skip it only where it has been done before.
     """
 
     word: Word
@@ -88,6 +89,7 @@ class Waking:
     uncalled: str | None = None
     held: tuple[str, ...] = ()
     is_counted: bool = False
+    unless_done: bool = False
 
 
 class DataRef(EntityRef):

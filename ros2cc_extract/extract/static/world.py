@@ -297,7 +297,11 @@ class World:
     :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them.
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
     :param wakings: what is done to an object that others may wait on, by its identity.
-    :param asked: objects that the function has been asked of whether a wait would wait.
+    :param asked: marks of questions that the function has asked.
+    :param ready: what has surely happened to objects that others may wait for, see ``answers.py``.
+    :param picked: what had happened to items for which they were put into a collection, by its
+        serial number.
+    :param skipped_if: of a branch, what has surely happened where it is not taken.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
@@ -373,6 +377,11 @@ class World:
     current: EntityState | None = None
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
+    picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
+    skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
+        default_factory=dict
+    )
+    ready: frozenset[tuple[Value, Word]] = frozenset()
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     cleared: set[int] = field(default_factory=set)
