@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -58,28 +58,45 @@ class TimeOverError(BaseException):
 
 
 @contextmanager
-def ended_by(deadline: Deadline | None) -> Iterator[None]:
+def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] | None]:
     """
-    End what still runs some time after ``deadline``, wherever it is.
+    End what still runs after ``seconds``, wherever it is.
 
-    Threads that hear no signals, and alarms of somebody else, are left alone.
+    Gives what takes the alarm back, or ``None`` where none was set: without a limit, in threads
+    that hear no signals, and where there are alarms of somebody else.
 
+    :param again_s: what is raised inside a callback of the garbage collector is lost, so it
+        rings again after so long.
     :raises TimeOverError: then.
     """
     is_heard = threading.current_thread() is threading.main_thread()
-    if deadline is None or not is_heard or signal.getsignal(signal.SIGALRM) is not signal.SIG_DFL:
-        yield
+    if seconds is None or not is_heard or signal.getsignal(signal.SIGALRM) is not signal.SIG_DFL:
+        yield None
         return
 
     def hear(number: int, frame: object) -> None:
         raise TimeOverError
 
     signal.signal(signal.SIGALRM, hear)
-    left = max(0.0, deadline.at - time.monotonic())
-    # What is raised inside a callback of the garbage collector is lost: it rings again.
-    signal.setitimer(signal.ITIMER_REAL, left + GRACE_S, GRACE_S)
+    signal.setitimer(signal.ITIMER_REAL, max(seconds, 0.001), again_s)
     try:
-        yield
+        yield _disarm
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        _disarm()
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
+
+
+def _disarm() -> None:
+    signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+@contextmanager
+def ended_by(deadline: Deadline | None) -> Iterator[None]:
+    """
+    End what still runs some time after ``deadline``, wherever it is; see ``alarm``.
+
+    :raises TimeOverError: then.
+    """
+    left = None if deadline is None else max(0.0, deadline.at - time.monotonic()) + GRACE_S
+    with alarm(left, GRACE_S):
+        yield
