@@ -236,7 +236,8 @@ def _resources_of(
             return
     is_each = block.needs is Needs.EACH
     has_some = is_each and not may_be_used_up(block, spec)
-    yield Resource(name, is_each, block.initial if has_some else 0), block.wakers
+    initial = block.initial if has_some else 0
+    yield Resource(name, is_each, initial, forgets=is_each and block.forgets), block.wakers
 
 
 def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:

@@ -41,11 +41,13 @@ class Resource:
 
     :param is_each: a signal ends one wait; else the first ends all, for good.
     :param initial: how many waits end without a signal.
+    :param forgets: a signal is lost while nobody waits.
     """
 
     name: str
     is_each: bool
     initial: int = 0
+    forgets: bool = False
 
 
 @dataclass(frozen=True)

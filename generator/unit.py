@@ -98,12 +98,14 @@ class UnitResource:
     What callbacks wait for and give signals to.
 
     :param most: how many signals are kept; more would end no more waits.
+    :param forgets: they are kept for those alone who wait already.
     """
 
     name: str
     is_each: bool
     initial: int
     most: int
+    forgets: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,6 +150,11 @@ class Unit:
     def has_tokens(self) -> bool:
         """True when each signal ends one wait."""
         return any(resource.is_each for resource in self.resources)
+
+    @property
+    def has_forgetful(self) -> bool:
+        """True when signals are lost for which nobody waits."""
+        return any(resource.forgets for resource in self.resources)
 
     @property
     def has_skips(self) -> bool:
@@ -380,6 +387,7 @@ def _number_resource(
         is_each=resource.is_each,
         initial=resource.initial,
         most=_most_signals(resource, steps, max_cycle),
+        forgets=resource.forgets,
     )
 
 

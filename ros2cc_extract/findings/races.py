@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
+from ros2cc_extract.findings import begun
 from ros2cc_extract.findings.beside import beside, node_of, repeats_freely, sharing
 from ros2cc_extract.findings.flags import as_shared, shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
@@ -209,6 +210,7 @@ def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
         together = overlap(one, other, context)
         if together is None:
             yield from _over_awaits(one, other, context)
+        one, other = begun.meeting(one, other, context), begun.meeting(other, one, context)
     elif (meeting := beside(one, other, context)) is not None:
         together, (one, other) = Overlap(), meeting
     if together is not None:

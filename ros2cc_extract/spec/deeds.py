@@ -69,6 +69,8 @@ class Blocking:
     :param wakers: who can end it, as far as is known.
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
+    :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
+        waited on without asking first).
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
         room in a queue.
     :param escapes: why somebody else might end it too, or who ends it is not known.
@@ -88,6 +90,7 @@ class Blocking:
     resource: str | None = None
     wakers: tuple[Waker, ...] = ()
     needs: Needs = Needs.ONCE
+    forgets: bool = False
     initial: int = 0
     escapes: Unknown | None = None
     conditional: bool = False

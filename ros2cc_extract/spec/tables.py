@@ -96,6 +96,7 @@ BLOCKING = record(
                 ('foreign', 'foreign', FLAG),
                 ('resource', 'resource', optional(TEXT)),
                 ('needs', 'needs', member(Needs)),
+                ('forgets', 'forgets', FLAG),
                 ('initial', 'initial', COUNT),
                 ('wakers', 'wakers', listing(WAKER)),
                 ('conditional', 'conditional', FLAG),

@@ -179,7 +179,8 @@ class _Numbers:
         if step.resource is None:
             return step.may_skip, words
         place, resource = self.resources.index(step.resource), step.resource
-        return place, resource.is_each, resource.initial, step.may_skip, words
+        kind = resource.is_each, resource.initial, resource.forgets
+        return place, kind, step.may_skip, words
 
     def _held(self, wait: NamedWait) -> Sequence[int]:
         return tuple(sorted(self.locks[lock] for lock in wait.held))

@@ -236,6 +236,7 @@ def _signalled(names: list[str], random: Random) -> Blocking:
         needs=needs,
         wakers=wakers,
         initial=random.choice((0, 0, 1)),
+        forgets=random.random() < 0.3,
         escapes=Unknown('given away') if random.random() < 0.15 else None,
         conditional=random.random() < 0.15,
         held=random.choice(((), (), ('other',))),

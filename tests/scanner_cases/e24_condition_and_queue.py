@@ -57,7 +57,7 @@ if __name__ == '__main__':
 #       ended by ?
 #     locks filled @23
 #   service take in a_default key=take
-#     blocks Condition.wait on on_in through filled each @31
+#     blocks Condition.wait on on_in through filled each forgets @31
 #       ended by on_in @24
 #     blocks Queue.get on on_in through orders each @32
 #       ended by on_in conditional @26

@@ -96,9 +96,8 @@ if __name__ == '__main__':
 #     blocks Event.wait on feed through fed @42
 #       ended by feed conditional @24
 #       ended by ?
-#     blocks Condition.wait on heat through warm each @44
-#       ended by heat conditional @35
-#       ended by ?
+#     blocks Condition.wait on heat through warm each forgets @44
+#       ended by heat @35
 #     locks warm @43
 #   timer prepare in starter_default every 1 node=starter one_shot
 #     writes Starter.is_ready under ready @58

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.doing import ActivityState
+from ros2cc_extract.extract.static.heard import note_begun
 from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -35,7 +36,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         return
     saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
-    loops, ready = (world.times, world.round), world.ready
+    loops, ready, holds = (world.times, world.round), world.ready, world.holds
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
@@ -48,7 +49,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
-        world.times, world.round = loops
+        (world.times, world.round), world.holds = loops, holds
         world.ready = ready
 
 
@@ -77,6 +78,7 @@ def begin(
         kind, call.place, target, call, daemon=daemon, site=site, turns=turns
     )
     _note_start(machine, state, runner)
+    note_begun(world, call.place)
     if known is not None:
         known.count = known.count if world.again or runner in known.runners else _more(known)
         return

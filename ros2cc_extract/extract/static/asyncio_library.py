@@ -82,14 +82,14 @@ def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
     """The event loop runs it later: the callback that hands it over does none of it."""
     world = machine.world
     _note_touch(machine, receiver, 'create_task', call)
-    deeds, held = world.deeds, world.held
+    deeds, held, holds = world.deeds, world.held, world.holds
     if deeds is None or (world.activity is not None and world.when is When.START):
         return _run_coroutine(machine, receiver, call)
     world.deeds, world.held = None, ()
     try:
         _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
     finally:
-        world.deeds, world.held = deeds, held
+        world.deeds, world.held, world.holds = deeds, held, holds
     return machine.mystery('a task of asyncio', call.place, 'asyncio task')
 
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static import flags, loops
+from ros2cc_extract.extract.static import flags, heard, loops
 from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.reading import names_in
+from ros2cc_extract.extract.static.reading import Asked, names_in
 from ros2cc_extract.extract.static.relevance import (
     assignments_of_attributes,
     noted_on,
@@ -57,7 +57,18 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     if node is outer:
         reading.tested_at[place] = calls
         flags.note_test(reading, node, found, place)
+    heard.note_test(machine.world, node.test, place, reading.tests[place])
     return holds
+
+
+def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:
+    """As ``decide``, for a loop: what it does in its rounds rests on what is read here."""
+    found = set[str]()
+    with machine.world.reading.of(found):
+        holds = decide(machine, node.test, frame)
+    names = frozenset(found) | _computed_from(node.test, frame)
+    place = frame.place(node)
+    return holds, heard.note_test(machine.world, node.test, place, names, repeats=True)
 
 
 def evaluate_copied(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.values import Call, Path, Value
-from ros2cc_extract.extract.static.wakings import Waking
+from ros2cc_extract.extract.static.wakings import Hold, Waking
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import ActivityKind
@@ -19,6 +19,7 @@ class Deeds:
     :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
     :param own: names of what only the loop around it asks for: changes of objects that nobody
         else has, and of what lies in a collection.
+    :param stored: names of what is written in a hold of a lock, see ``heard.py``.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -31,6 +32,7 @@ class Deeds:
     rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
     own: list[str] = field(default_factory=list)
     behind: object = None
+    stored: dict[Hold, set[str]] = field(default_factory=dict)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
 
 

@@ -6,8 +6,9 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import flags
+from ros2cc_extract.extract.static import flags, heard
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
+from ros2cc_extract.extract.static.held_locks import lock_of
 from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -123,6 +124,8 @@ class Effects(Waits):
         if not is_read:
             is_open = self.world.path != self.world.callback_path
             deeds.written.setdefault((name, place), (deeds.behind, is_open))
+            for hold in heard.holds_of(self.world):
+                deeds.stored.setdefault(hold, set()).add(name)
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
@@ -196,7 +199,7 @@ class Effects(Waits):
 
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
         """A lock is taken; with a time-out it may not be."""
-        for option in options_of(lock):
+        for option in map(lock_of, options_of(lock)):
             if (
                 isinstance(option, Instance)
                 and isinstance(option.state, PlainState)
@@ -214,6 +217,7 @@ class Effects(Waits):
                     tries=may_fail,
                 )
                 self.world.held = (*self.world.held, name)
+                heard.begin_hold(self.world, name)
                 if self.world.deeds is not None:
                     note_once(self.world.deeds.locks, act)
 
@@ -238,7 +242,7 @@ class Effects(Waits):
 
     def note_release(self, lock: Value) -> None:
         """A lock is given back."""
-        for option in options_of(lock):
+        for option in map(lock_of, options_of(lock)):
             if isinstance(option, Instance) and isinstance(option.state, PlainState):
                 given_back = self._lock_name(option, option.state.kind)
                 held = [name for name in self.world.held if name != given_back]

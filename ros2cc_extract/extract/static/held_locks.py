@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.values import Instance, Value, options_of
+from ros2cc_extract.extract.static.values import NONE, Instance, Value, options_of
 from ros2cc_extract.extract.static.world import PlainState, World
 from ros2cc_extract.spec.deeds import RE_ENTRANT
+
+GIVEN = '__given_lock__'
+"""Slot of a condition for the lock that it was made with."""
 
 #: Source: ``threading.py``; a ``Condition`` holds an ``RLock`` where it is given none.
 _RE_ENTRANT = {'lock': False, 'rlock': True, 'condition': True}
@@ -24,12 +27,22 @@ def held_over(world: World, on: Value | None) -> tuple[str, ...]:
         name + RE_ENTRANT * _RE_ENTRANT[kind]
         for name in dict.fromkeys(world.held)
         if name not in tried
-        for lock, kind in _locks_named(name, world)
-        if on is None or all(option is not lock for option in options_of(on))
+        for lock, kind in locks_named(name, world)
+        if on is None or all(lock_of(option) is not lock for option in options_of(on))
     )
 
 
-def _locks_named(name: str, world: World) -> Iterator[tuple[Instance, str]]:
+def lock_of(thing: Value) -> Value:
+    """The lock that is taken with ``thing``: a condition may have been given one."""
+    given = thing.slots.get(GIVEN) if isinstance(thing, Instance) else None
+    options = options_of(given) if isinstance(given, Value) and given != NONE else ()
+    state = options[0].state if len(options) == 1 and isinstance(options[0], Instance) else None
+    is_lock = isinstance(state, PlainState) and state.kind in ('lock', 'rlock')
+    return options[0] if is_lock else thing
+
+
+def locks_named(name: str, world: World) -> Iterator[tuple[Instance, str]]:
+    """The lock of that name, with its kind."""
     hint, _, number = name.rpartition('#')
     for stored, place in ((name, 0), (hint, int(number) - 1 if number.isdecimal() else -1)):
         locks = world.locks.get(stored, ())

@@ -19,6 +19,21 @@ from ros2cc_extract.places import Place
 _IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
 
 
+@dataclass(frozen=True)
+class Asked:
+    """
+    A test, as far as it tells that somebody waits for a condition in time.
+
+    :param names: of the data that it reads.
+    :param holds: the locks that were held then, see ``heard.py``.
+    :param is_open: its answer may rest on more.
+    """
+
+    names: frozenset[str]
+    holds: frozenset[tuple[str, int]]
+    is_open: bool
+
+
 @dataclass
 class Reading:
     """
@@ -34,6 +49,7 @@ class Reading:
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
     :param refusing: names because of which a goal was turned down.
+    :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
     """
 
@@ -46,6 +62,8 @@ class Reading:
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
+    asked: dict[Place, Asked] = field(default_factory=dict)
+    loops: list[Asked] = field(default_factory=list)
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
 

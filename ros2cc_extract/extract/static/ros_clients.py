@@ -7,6 +7,7 @@ from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.ending import CANCEL, note_end, note_published, note_use
 from ros2cc_extract.extract.static.futures_library import FUTURE
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.heard import note_begun
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clocks import note_sleep
 from ros2cc_extract.extract.static.ros_executors import (
@@ -94,6 +95,7 @@ def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
 def _reset(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
         receiver.state.restarted = True
+        note_begun(machine.world, receiver.state.place)
     return NONE
 
 

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.ending import (
     note_end,
 )
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.heard import note_begun
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
 from ros2cc_extract.extract.static.values import (
@@ -356,6 +357,7 @@ def add_task(
         node = world.current.node if world.current else next(iter(world.nodes), None)
     if node is None:
         return None
+    note_begun(world, place)
     run = callback.function if isinstance(callback, Coroutine) else callback
     for known in world.by_node.get(id(node), ()):
         is_here = known.place == place and known.kind is kind

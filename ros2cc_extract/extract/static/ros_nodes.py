@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.ending import (
     note_end,
 )
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.heard import note_begun
 from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.ros_builtins import (
     add_builtins_of_node,
@@ -133,6 +134,7 @@ def add_entity(
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.assumed = world.assumed
     entity.when = world.when
+    entity.maker = world.activity or world.current
     entity.number = len(world.entities) + len(world.builtins)
     world.entities.append(entity)
     world.by_node.setdefault(id(node), []).append(entity)
@@ -179,6 +181,7 @@ def _creator(row: CreateCall) -> Handler:
         )
         key = call.argument(*row.key) if row.key else None
         callback = call.argument(*row.callback) if row.callback else None
+        note_begun(machine.world, call.place)
         known = entity_made_before(machine, receiver, row.kind, key, call.place, callback)
         if known is not None:
             return known

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static import (
     answers,
     changing,
     flags,
+    heard,
     loops,
     memo,
     polls,
@@ -348,7 +349,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     machine.note_iteration(node.iter, frame)
     items = loops.items_to_run(machine, values, place)
 
-    with _loop(machine, frame):
+    with _loop(machine, frame), heard.in_loop(machine.world, heard.NOTHING_ASKED):
         with loops.repeated(machine, items, node.body) as begin:
 
             def once(item: Value) -> int:
@@ -380,14 +381,18 @@ def _break(machine: Statements, node: ast.Break, frame: Frame) -> int:
 
 
 def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
-    holds = changing.decide(machine, node.test, frame)
+    holds, asked = changing.decide_loop(machine, node, frame)
     if holds is False:
         return machine.execute_block(node.orelse, frame)
     told, ready = answers.told_by(machine.world.tested), machine.world.ready
     before = polls.mark(machine)
     polls.begin(machine, node, frame, told)
     reason = Unknown('made in a while loop', frame.place(node))
-    with loops.counted(machine, reason), _loop(machine, frame):
+    with (
+        loops.counted(machine, reason),
+        _loop(machine, frame),
+        heard.in_loop(machine.world, asked),
+    ):
         answers.assume(machine.world, told, holds=True)
         flow = _round(machine, node.body, frame)
         ends = [] if holds else [ready | (told.fails if told is not None else answers.NOTHING)]

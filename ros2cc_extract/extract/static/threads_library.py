@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ros2cc_extract.extract.static import heard
 from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.containers import Mapping
+from ros2cc_extract.extract.static.held_locks import GIVEN
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.reading import Asked
 from ros2cc_extract.extract.static.values import (
     NONE,
     Bound,
@@ -95,7 +98,13 @@ def _semaphore_init(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-_INITS: dict[str, Handler] = {'semaphore': _semaphore_init}
+def _condition_init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, GIVEN, call.argument(0, 'lock') or NONE)
+    return NONE
+
+
+_INITS: dict[str, Handler] = {'semaphore': _semaphore_init, 'condition': _condition_init}
 
 
 def _plain(kind: str) -> LibraryClass:
@@ -113,6 +122,21 @@ def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
         return machine.mystery(f'result of {call_name}', call.place)
 
     return handler
+
+
+def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
+    """It asks its predicate before it waits, and each time that it is notified."""
+    world, found = machine.world, set[str]()
+    predicate = call.argument(0, 'predicate')
+    if world.deeds is not None and predicate is not None:
+        with world.reading.of(found):
+            machine.call(predicate, Call(call.place))
+    asked = Asked(frozenset(found), heard.holds_of(world), is_open=True)
+    with heard.in_loop(world, asked):
+        machine.note_blocking(
+            'Condition.wait_for', receiver, call.argument(1, 'timeout'), call.place
+        )
+    return machine.mystery('result of Condition.wait_for', call.place)
 
 
 def _wakes(word: Word) -> Handler:
@@ -223,7 +247,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
     'condition': {
         **_LOCK_METHODS,
         'wait': _blocking('Condition.wait', 0, 'timeout'),
-        'wait_for': _blocking('Condition.wait_for', 1, 'timeout'),
+        'wait_for': _wait_for,
         'notify': _wakes(Word.SET),
         'notify_all': _wakes(Word.SET),
         'notifyAll': _wakes(Word.SET),

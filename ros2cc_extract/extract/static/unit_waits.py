@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
-from ros2cc_extract.extract.static.unsure_wakers import why_gone, why_lost
+from ros2cc_extract.extract.static.unsure_wakers import forgets, why_gone, why_lost
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
 from ros2cc_extract.extract.static.wakings import (
     ClockRef,
@@ -221,6 +221,7 @@ class UnitWaits:
             more, why = self._wakers_of(raw, raw.resource, doer)
             wakers += more
             escapes = escapes or why
+            named = replace(named, forgets=self._forgets(raw.resource, doer))
             initial = self._initial(raw.resource, wakings_of(self._world, raw.resource))
             if initial != 0:
                 # A model of so many runs cannot say when they are used up.
@@ -249,6 +250,10 @@ class UnitWaits:
         why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)
         return found, why
 
+    def _forgets(self, reference: ResourceRef, doer: Doer) -> bool:
+        wakings = wakings_of(self._world, reference)
+        return forgets(reference, [w for w in wakings if w.word in reference.ended_by], doer)
+
     def _why_unsure(
         self, raw: Blocking, reference: ResourceRef, mine: list[Waking], doer: Doer
     ) -> Unknown | None:
@@ -261,7 +266,9 @@ class UnitWaits:
 
         wakers = [waking.by for waking in mine]
         why = why_gone(self._world, wakers, comes_after, self._name)
-        return why or why_lost(self._world, raw, reference, mine, self._name)
+        if why is not None or forgets(reference, mine, doer):
+            return why
+        return why_lost(self._world, reference, mine, doer, self._doers, self._name)
 
     def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
         """Whether ``doer`` itself ends it, when it has waited."""

@@ -19,13 +19,17 @@ from ros2cc_extract.extract.static.ending import (
     REMOVE_NODE,
     SHUTDOWN,
 )
+from ros2cc_extract.extract.static.heard import Notifier, is_heard
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.model import EntityKind, When
 
+Doer = EntityState | ActivityState
 Names = Callable[[object], str | None]
+_RECURRING = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE)
+_ONCE = (EntityKind.DONE_CALLBACK, EntityKind.TASK, EntityKind.LIFECYCLE_SERVICE)
 _DOES = {
     CANCEL: 'cancels the timer of {}, which ends it',
     DESTROY: 'destroys what calls {}, which ends it',
@@ -82,21 +86,97 @@ def _ends_all(end: End, world: World) -> bool:
 
 
 def why_lost(
-    world: World, block: Blocking, reference: ResourceRef, mine: Sequence[Waking], name: Names
+    world: World,
+    reference: ResourceRef,
+    mine: Sequence[Waking],
+    doer: Doer,
+    doers: Sequence[Doer],
+    name: Names,
 ) -> Unknown | None:
-    """Why what ends a wait, which comes once only, may come before anybody waits."""
-    is_cleared = reference.is_kept and reference.number in world.cleared
-    # A loop that asks before it waits misses nothing.
-    forgets = block.call == 'Condition.wait' and not block.conditional
-    if not mine or not (is_cleared or forgets) or not all(_comes_once(w.by) for w in mine):
+    """
+    Why what ends a wait, which comes once only, may come before anybody waits.
+
+    What a condition forgets is the model's to say, see ``forgets``.
+    """
+    if not mine or not all(_comes_once(waking, doer) for waking in mine):
+        return None
+    when = _when_lost(world, reference, mine, doer, doers)
+    if when is None:
         return None
     first = mine[0]
-    when = 'before it is cleared' if is_cleared else 'before anybody waits'
     who = name(first.by) or 'a callback'
     return Unknown(f'{who}, which ends it, runs once only, and perhaps {when}', first.place)
 
 
-def _comes_once(by: object) -> bool:
+def _when_lost(
+    world: World,
+    reference: ResourceRef,
+    mine: Sequence[Waking],
+    doer: Doer,
+    doers: Sequence[Doer],
+) -> str | None:
+    if reference.is_kept:
+        return 'before it is cleared' if reference.number in world.cleared else None
+    guard = reference.guard
+    if guard is None:
+        return None
+    notifiers = [_notifier(waking) for waking in mine]
+    if not is_heard(guard, notifiers):
+        return 'before anybody waits'
+    wakers = [waking.by for waking in mine]
+    others = (each for each in doers if each not in wakers)
+    names = guard.names.intersection(*(each.wrote for each in notifiers))
+    taken_back = any(names & _written_by(other) for other in others)
+    return 'what it tells is taken back' if taken_back and _comes_again(world, doer) else None
+
+
+def _notifier(waking: Waking) -> Notifier:
+    by = waking.by
+    if not isinstance(by, (EntityState, ActivityState)):
+        return Notifier(waking, None, frozenset(), {})
+    stored = by.deeds.stored if by.deeds is not None else {}
+    return Notifier(waking, by.place, _written_by(by), stored)
+
+
+def _written_by(doer: Doer) -> frozenset[str]:
+    return frozenset(access.name for access in doer.deeds.writes) if doer.deeds else frozenset()
+
+
+def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
+    """
+    Whether a wait misses what comes before it, of wakers whose coming the model has.
+
+    It has what comes by itself again and again, and what comes once.
+    """
+    guard = reference.guard
+    if guard is None or not mine or not all(_is_modelled(waking, doer) for waking in mine):
+        return False
+    return not is_heard(guard, [_notifier(waking) for waking in mine])
+
+
+def _is_modelled(waking: Waking, doer: Doer) -> bool:
+    by = waking.by
+    if waking.repeats or waking.conditional:
+        return False
     if isinstance(by, EntityState):
-        return by.one_shot and not by.restarted
-    return isinstance(by, ActivityState) and by.count == 1 and not by.loops
+        return by.kind in _RECURRING and (by.when is not When.CALLBACK or by.maker is doer)
+    return _comes_once(waking, doer)
+
+
+def _comes_once(waking: Waking, doer: Doer) -> bool:
+    """Whether it comes once, or once for each time that ``doer`` itself begins it."""
+    by = waking.by
+    if isinstance(by, EntityState):
+        is_asked_for = by.kind is EntityKind.DONE_CALLBACK and by.maker is doer
+        return is_asked_for or (by.one_shot and not by.restarted)
+    if not isinstance(by, ActivityState) or by.loops or waking.repeats:
+        return False
+    return by.count == 1 or all(start.by is doer for start in by.starts)
+
+
+def _comes_again(world: World, doer: Doer) -> bool:
+    """Whether it surely runs more than once, as long as the program does."""
+    if isinstance(doer, ActivityState):
+        return doer.loops
+    is_plain = not doer.one_shot and not doer.destroyed and doer.kind not in _ONCE
+    return is_plain and not any(end.doer is doer for end in world.ends)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import outside_waits
+from ros2cc_extract.extract.static import heard, outside_waits
 from ros2cc_extract.extract.static.answers import is_ready as is_ready_for
 from ros2cc_extract.extract.static.clock_times import slept
 from ros2cc_extract.extract.static.defaults import assumption, default_of
@@ -88,7 +88,7 @@ class Waits(Machine):
             assumed=_assumed_seconds(seconds),
             chain=world.chain[1:],
             held=held_over(world, on),
-            resource=self._resource(thing, row, asked=is_ready),
+            resource=self._resource(name, thing, row, asked=is_ready),
             needs=row.needs,
             escapes=why if row is not NO_ROW else None,
             conditional=world.path != world.callback_path,
@@ -148,7 +148,7 @@ class Waits(Machine):
             self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
 
     def _resource(
-        self, thing: Instance | None, row: WaitRow, *, asked: bool
+        self, name: str, thing: Instance | None, row: WaitRow, *, asked: bool
     ) -> ResourceRef | None:
         if thing is None or not row.ended_by or _is_of_entity(thing):
             return None
@@ -160,6 +160,8 @@ class Waits(Machine):
         reference.initial = _initial(thing, row)
         reference.made = thing.place
         reference.like = self._made_there(thing)
+        if name in heard.CONDITION_WAITS:
+            reference.guard = heard.guard_of(self.world, thing)
         return reference
 
     def _made_there(self, thing: Instance) -> list[int]:
@@ -239,6 +241,9 @@ class Waits(Machine):
             held=held_over(world, thing),
             is_counted=not world.path and world.count == 1,
             unless_done=doer is not None and _only_unless_done(world, thing, word),
+            repeats=bool(world.reading.loops),
+            told=frozenset(access.name for access in (world.deeds or Deeds()).writes),
+            holds=heard.holds_of(world),
         )
 
     def note_nested_spin(

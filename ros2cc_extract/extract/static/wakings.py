@@ -47,6 +47,27 @@ class Word(Enum):
     WRITE = 'write'
 
 
+Hold = tuple[str, int]
+"""A lock, and which time it is that it was taken."""
+
+
+@dataclass(frozen=True)
+class Guard:
+    """
+    What a wait for a condition rests on, see ``heard.py``.
+
+    :param hold: of the lock of the condition; ``None`` where that was not followed.
+    :param names: of the data that was asked for in that hold.
+    :param is_open: something was asked for besides.
+    :param begun: where something is made or started in that hold.
+    """
+
+    hold: Hold | None
+    names: frozenset[str]
+    is_open: bool = False
+    begun: frozenset[Place] = frozenset()
+
+
 class ResourceRef(SettableRef):
     """
     Stands for what is waited on until the unit has given it a name.
@@ -57,6 +78,7 @@ class ResourceRef(SettableRef):
     :param initial: how many waits end by themselves; ``None`` where that is not known.
     :param made: where it is made.
     :param is_kept: what ends the wait ends all that come after it.
+    :param guard: of a condition.
     """
 
     ended_by: frozenset[Word] = frozenset()
@@ -65,6 +87,7 @@ class ResourceRef(SettableRef):
     like: Sequence[int] = ()
     initial: int | None = 0
     made: Place | None = None
+    guard: Guard | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +101,9 @@ class Waking:
     :param uncalled: in whose text, which nobody in sight calls, it stands.
     :param is_counted: it happens once, whatever branches are taken.
     :param unless_done: branches skip it only where it has been done before.
+    :param repeats: it stands in a loop.
+    :param told: names of the data that ``by`` has written by then.
+    :param holds: the locks that are held then.
     """
 
     word: Word
@@ -90,6 +116,9 @@ class Waking:
     held: tuple[str, ...] = ()
     is_counted: bool = False
     unless_done: bool = False
+    repeats: bool = False
+    told: frozenset[str] = frozenset()
+    holds: frozenset[Hold] = frozenset()
 
 
 class DataRef(EntityRef):

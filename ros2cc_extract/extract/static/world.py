@@ -111,6 +111,7 @@ class EntityState:
     :param assumed: the rule by which it is assumed to be there.
     :param held: flags that its maker has handed over to it, see ``flags.py``.
     :param ran: how many of its functions were followed; -1 before any is.
+    :param maker: the callback or activity that makes it, if any does.
     :param part_of: the subscription whose event it handles.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
@@ -141,6 +142,7 @@ class EntityState:
     defers: bool = False
     held: tuple[str, ...] | None = None
     number: int = 0
+    maker: object = None
     part_of: EntityState | None = None
     assumed: str | None = None
 
@@ -325,6 +327,8 @@ class World:
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
     :param without_caller: the objects on which those were followed that nobody in sight calls.
     :param locks: the locks that were taken, by the name they are stored under.
+    :param takes: how often each of them was taken; ``holds`` the number of the present hold,
+        and ``begun`` where something was made or started in one.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param accepted: what the last function held wherever it did not turn down a goal.
     :param admitted: flags that hold for an accepted goal, by node and place of the action server.
@@ -404,6 +408,9 @@ class World:
     open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
     still_down: frozenset[str] = frozenset()
     locks: dict[str, list[Instance]] = field(default_factory=dict)
+    takes: Counter[str] = field(default_factory=Counter)
+    holds: dict[str, int] = field(default_factory=dict)
+    begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     after_spin: bool = False
     on_loop: bool = False

@@ -157,6 +157,11 @@ def _keeps_the_program(stuck: Stuck) -> bool:
 def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
     if not first.enders:
         return 'end it somewhere, or give it a time-out'
+    if first.wait.block.forgets:
+        return (
+            'ask for what is waited for before waiting, under the lock and in a loop '
+            '(`while not self.ready: self.condition.wait()`), or give the wait a time-out'
+        )
     served = [name for name in first.enders if name in context.by_name]
     if len(together) > 1:
         return (

@@ -112,6 +112,27 @@ def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
     ]
 
 
+@pytest.mark.parametrize(
+    ('forgets', 'once', 'stuck'),
+    [
+        ('true', 'true', ['dead-lock', 'drive']),
+        ('true', 'false', []),
+        ('false', 'true', []),
+    ],
+)
+def test_what_is_forgotten_while_nobody_waits_must_come_again(
+    forgets: str, once: str, stuck: list[str]
+):
+    told = blocking(wait('cond', 'by: tick', needs='each', more=f', forgets: {forgets}'))
+    assert said(unit(f'drive a: {told}\ntick c: one_shot: {once}')) == stuck
+
+
+def test_a_thread_that_tells_once_may_come_before_the_wait():
+    told = blocking(wait('cond', 'by: work, after: 0', needs='each', more=', forgets: true'))
+    thread = 'activities: [{name: work, kind: thread}]'
+    assert said(unit(f'drive a: {told}', activities=thread)) == ['dead-lock', 'drive']
+
+
 def test_a_semaphore_that_nobody_gives_back_may_have_been_used_up_by_earlier_runs():
     one = blocking(wait('room', needs='each', more=', initial: 1'))
     reason = 'it is not known whether Event.wait ends'

@@ -159,6 +159,7 @@ def _blocking(block: Blocking) -> str:
     if block.resource not in (None, block.on):
         words.append(f'through {block.resource}')
     words += [block.needs.value] if block.needs is not Needs.ONCE else []
+    words += ['forgets'] if block.forgets else []
     words += [f'initial={block.initial}'] if block.initial else []
     words += ['conditional'] if block.conditional else []
     if block.seconds is not None:
