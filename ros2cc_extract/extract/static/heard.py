@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.held_locks import lock_of, locks_named
 from ros2cc_extract.extract.static.reading import Asked
-from ros2cc_extract.extract.static.values import Instance, Value
+from ros2cc_extract.extract.static.values import Instance
 from ros2cc_extract.extract.static.wakings import Guard, Hold, Waking
 from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place

@@ -6,8 +6,8 @@ from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.ending import CANCEL, note_end, note_published, note_use
 from ros2cc_extract.extract.static.futures_library import FUTURE
-from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clocks import note_sleep
 from ros2cc_extract.extract.static.ros_executors import (

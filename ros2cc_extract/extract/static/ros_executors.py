@@ -17,8 +17,8 @@ from ros2cc_extract.extract.static.ending import (
     SHUTDOWN_EXECUTOR,
     note_end,
 )
-from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
 from ros2cc_extract.extract.static.values import (

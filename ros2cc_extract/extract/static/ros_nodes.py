@@ -17,8 +17,8 @@ from ros2cc_extract.extract.static.ending import (
     DESTROY_PUBLISHER,
     note_end,
 )
-from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.ros_builtins import (
     add_builtins_of_node,

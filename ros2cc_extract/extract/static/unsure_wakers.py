@@ -23,7 +23,6 @@ from ros2cc_extract.extract.static.heard import Notifier, is_heard
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import EntityKind, When
 
 Doer = EntityState | ActivityState

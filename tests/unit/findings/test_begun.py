@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
