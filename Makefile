@@ -1,4 +1,4 @@
-# Everything a new machine needs: python3, a C++ compiler, and these two words.
+# Everything a new machine needs: make, python3, a C++ compiler, and these two words.
 #   make demo   install into .venv and check an example node
 #   make test   the whole test suite, live tests with real rclpy included
 
@@ -7,13 +7,14 @@ VENV := .venv
 # Real rclpy from PyPI, an environment for each distribution.
 JAZZY := .venv-jazzy
 KILTED := .venv-kilted
+RELEASE := .venv-release
 BIN := $(VENV)/bin
 # mypy does not know setuptools' package-dir: it is shown the installed layout by links.
 TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack lint schema paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -105,6 +106,15 @@ paper: $(VENV)/developed $(JAZZY)/installed
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[bench]'
 	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python benchmarks/paper.py
 
+# dist/: sources, and wheels for each CPython that is here with its headers, on glibc and musl, x86-64
+# and aarch64; audited, installed where no compiler is, and their tests run (aarch64 by qemu-user-static).
+WHEELS ?= dist
+release_with = $(RELEASE)/bin/python -m release.$(1)
+wheels: $(RELEASE)/prepared
+	$(call release_with,wheels) -o $(WHEELS)
+	$(call release_with,audit) $(WHEELS)
+	$(call release_with,trial) $(WHEELS)
+
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
 	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
@@ -122,10 +132,14 @@ sarif-schema:
 	cd .cache && tar xzf microsoft-sarif-multitool-linux-*.tgz --strip-components=1 package/sarif-2.1.0.json
 	rm .cache/microsoft-sarif-multitool-linux-*.tgz
 
+$(RELEASE)/prepared: $(RELEASE)/bin/python release/requirements.txt
+	$(RELEASE)/bin/python -m pip install $(PIP_FLAGS) -r release/requirements.txt
+	@touch $@
+
 $(VENV)/bin/python:
 	@./scripts/make-venv $(PYTHON) $(VENV)
 
-$(JAZZY)/bin/python $(KILTED)/bin/python:
+$(JAZZY)/bin/python $(KILTED)/bin/python $(RELEASE)/bin/python:
 	@./scripts/make-venv $(PYTHON) $(@:/bin/python=)
 
 $(VENV)/installed: $(VENV)/bin/python pyproject.toml
@@ -141,4 +155,4 @@ $(VENV)/developed: $(VENV)/bin/python pyproject.toml
 	@touch $@
 
 clean:
-	rm -rf $(VENV) $(JAZZY) $(KILTED) build dist *.egg-info
+	rm -rf $(VENV) $(JAZZY) $(KILTED) $(RELEASE) build dist *.egg-info

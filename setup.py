@@ -1,5 +1,7 @@
 """Builds what is native: the checker, and the journal of the hook; the rest is pyproject.toml."""
 
+import os
+
 from setuptools import Extension, setup
 
 try:
@@ -11,10 +13,20 @@ except ImportError:
 else:
     INCLUDES = [get_include()]
 
+# What is native: 'required' where its absence must not pass, as in a release; 'none' leaves it
+# out. Otherwise the package also works without a compiler: the checker, or the hook, then is pure
+# Python, and what that costs is in docs/install.md.
+NATIVE = os.environ.get('ROS2CC_NATIVE_BUILD', 'optional')
+if NATIVE not in ('optional', 'required', 'none'):
+    raise SystemExit(f'ROS2CC_NATIVE_BUILD is optional, required or none, and not {NATIVE}')
+IS_OPTIONAL = NATIVE == 'optional'
+
 setup(
     # colcon evaluates what it reads here as literals; from pyproject.toml this comes as none.
     python_requires='>=3.10',
-    ext_modules=[
+    ext_modules=[]
+    if NATIVE == 'none'
+    else [
         Extension(
             'ros2cc_extract.checker._core',
             sources=[f'ros2cc_extract/checker/native/{name}.cpp' for name in ('binding', 'core')],
@@ -41,15 +53,13 @@ setup(
             language='c++',
             extra_compile_args=['-std=c++17', '-O3', '-fvisibility=hidden', '-g0', '-pthread'],
             extra_link_args=['-pthread'],
-            # Without a compiler the package still works: the checker then is pure Python.
-            optional=True,
+            optional=IS_OPTIONAL,
         ),
         Extension(
             'ros2cc_extract.extract.live._journal',
             sources=['ros2cc_extract/extract/live/native/journal.c'],
             extra_compile_args=['-std=c11', '-O2', '-fvisibility=hidden', '-g0'],
-            # As above: the hook then is pure Python, and what it costs is in docs/live.md.
-            optional=True,
+            optional=IS_OPTIONAL,
         ),
     ],
 )

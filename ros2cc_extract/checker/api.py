@@ -145,7 +145,7 @@ class CheckResult:
     """
 
     engine: str
-    note: str
+    note: str = ''
     states: int
     transitions: int
     seconds: float
@@ -252,7 +252,6 @@ def _unsearched(queries: Sequence[Query], limits: Limits, engine: engines.Engine
     reason = limits.deadline.reason if limits.deadline else None
     return CheckResult(
         engine=engine.name,
-        note=engine.note,
         states=0,
         transitions=0,
         seconds=0.0,
@@ -307,7 +306,6 @@ def _check(
             _ = answer.path  # a reduction that goes wrong must fail before its verdict is seen
     return CheckResult(
         engine=chosen.name,
-        note=chosen.note,
         states=result.states,
         transitions=result.transitions,
         seconds=result.seconds,

@@ -34,11 +34,10 @@ class Search(Protocol):
 
 @dataclass(frozen=True)
 class Engine:
-    """An engine, and what the user should know about its choice."""
+    """An engine under its name."""
 
     name: str
     search: Search
-    note: str = ''
 
 
 def choose(wanted: str) -> Engine:
@@ -48,21 +47,21 @@ def choose(wanted: str) -> Engine:
     :raises ToolNotFoundError: the native core was asked for by name and is not built.
     """
     if wanted == REFERENCE:
-        return _reference('')
+        return _reference()
     try:
         importlib.import_module('ros2cc_extract.checker._core')
     except ImportError as error:
         if wanted == NATIVE:
             what = f'the native core of the checker is not built ({error})'
             raise ToolNotFoundError(what, None, _MEND) from None
-        return _reference(f'the native core is not built, so this is slow; {_MEND}')
+        return _reference()
     from ros2cc_extract.checker import native
 
     return Engine(NATIVE, native.search)
 
 
-def _reference(note: str) -> Engine:
+def _reference() -> Engine:
     # Imported late, as the native engine is: each start needs one of the two.
     from ros2cc_extract.checker import reference
 
-    return Engine(REFERENCE, reference.search, note)
+    return Engine(REFERENCE, reference.search)

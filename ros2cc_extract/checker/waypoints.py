@@ -123,7 +123,6 @@ class _Search:
         """The answers, with what it took."""
         return CheckResult(
             engine=self._engine.name,
-            note=self._engine.note,
             states=self._states,
             transitions=self._transitions,
             seconds=0.0,

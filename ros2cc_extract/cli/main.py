@@ -17,6 +17,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Protocol, TextIO, cast
 
+from ros2cc_extract.cli.missing_parts import tell_what_is_missing
 from ros2cc_extract.cli.streams import as_utf_8, silence, with_streams
 from ros2cc_extract.cli.termination import termination_as_interrupt
 from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
@@ -124,6 +125,7 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         args = parser.parse_args(argv)
     except SystemExit as exit_:
         return EXIT_CLEAN if not exit_.code else EXIT_ERROR
+    tell_what_is_missing(name, args, stderr)
     if name in WRITES_DATA or getattr(args, 'output_format', 'text') != 'text':
         as_utf_8(raw(stdout))
     with termination_as_interrupt() if name not in HEARS_ITSELF else nullcontext() as request:

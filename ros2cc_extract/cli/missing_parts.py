@@ -1,0 +1,48 @@
+"""Says once, before a command runs, that a native part is not there, and what that costs."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+from collections.abc import Iterator
+from typing import TextIO
+
+MEND = (
+    'install a wheel for this Python, or a C++ compiler and Python.h and this package again '
+    '(docs/install.md)'
+)
+CORE = 'ros2cc_extract.checker._core'
+JOURNAL = 'ros2cc_extract.extract.live._journal'
+PARTS = {
+    CORE: (
+        'the native core of the checker',
+        'a check takes some twenty times as long, and large units stay undecided',
+    ),
+    JOURNAL: (
+        'the native journal of the hook',
+        'each step of an observed process costs two to three times as much',
+    ),
+}
+"""Of each native part what it is, and what it costs to do without."""
+HOOKS = {'run', 'env', 'attach'}
+"""Commands that put the hook into a process."""
+
+
+def tell_what_is_missing(name: str, args: argparse.Namespace, stderr: TextIO) -> None:
+    """Tell of what ``name`` would use; who asked for plain Python knows."""
+    for module in _used(name, args):
+        try:
+            importlib.import_module(module)
+        except ImportError as error:
+            part, cost = PARTS[module]
+            told = f'{part} is not built, or does not load here ({error}): {cost}; {MEND}'
+            print(f'ros2cc-extract: note: {told}', file=stderr)
+
+
+def _used(name: str, args: argparse.Namespace) -> Iterator[str]:
+    if getattr(args, 'engine', '') == 'auto':
+        yield CORE
+    # As extract/live/journal.py reads it, which is not imported for that.
+    if name in HOOKS and os.environ.get('ROS2CC_LIVE_NATIVE') != '0':
+        yield JOURNAL
