@@ -19,7 +19,7 @@ from .events import pack
 
 NATIVE_VARIABLE = 'ROS2CC_LIVE_NATIVE'
 # Of what is called in native/journal.c.
-_REVISION = 3
+_REVISION = 4
 
 
 class Journal(Protocol):

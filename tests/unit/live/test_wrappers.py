@@ -62,6 +62,46 @@ def test_group_is_reported_and_its_answer_given_back(
     assert recorder.loss_count == 0
 
 
+class ExternalShutdownException(Exception):
+    """As that of rclpy."""
+
+
+def run_in(group: Any, entity: Any, error: type[BaseException] | None) -> None:
+    """As the handler of an executor: the group is told of the end, however it ends."""
+    group.beginning_execution(entity)
+    try:
+        if error is not None:
+            raise error
+    finally:
+        group.ending_execution(entity)
+
+
+@pytest.mark.parametrize('error', [KeyboardInterrupt, ExternalShutdownException])
+def test_what_is_taken_off_from_outside_has_not_ended(
+    recorder: Recorder, group_class: type, told: Told, error: type[BaseException]
+) -> None:
+    class Group(group_class):  # type: ignore[misc]
+        def ending_execution(self, entity: Any) -> None:
+            pass
+
+    method = reporting(recorder, Group, 'ending_execution', END, END)
+    Group.ending_execution = method  # type: ignore[method-assign]
+    group = Group()
+    entity = Entity(group)
+    number = recorder.note_entity(group, entity).number
+    with pytest.raises(error):
+        run_in(group, entity, error)
+    assert told() == [('begin', number)]
+    with pytest.raises(ValueError):
+        run_in(group, entity, ValueError)
+    try:
+        raise error
+    except error:
+        run_in(group, entity, None)
+    assert told() == [('begin', number), ('end', number)] * 2
+    assert recorder.loss_count == 0
+
+
 def test_wrapper_looks_like_what_it_wraps(group_class: Any) -> None:
     method = group_class.beginning_execution
     assert (method.__name__, method.__doc__) == (

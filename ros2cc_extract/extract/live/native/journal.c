@@ -29,7 +29,7 @@ typedef struct {
 _Static_assert(sizeof(Event) == 24, "events.py unpacks it so");
 
 /* REVISION: counted up, also in journal.py, when what Python calls here changes. */
-enum { REVISION = 3, MOST_ARGUMENTS = 16 };
+enum { REVISION = 4, MOST_ARGUMENTS = 16 };
 
 static PyObject *str_number, *str_callback_group, *str_only_executor, *str_handler, *str_record,
     *str_submitted, *str_suspended, *str_qualname;
@@ -372,7 +372,7 @@ static PyObject *record_of(Wrapper *self, PyObject *group, PyObject *entity) {
 
 /* ---- group_method: beginning_execution and ending_execution ---- */
 
-/* third: the class that was wrapped, and the name of its method. */
+/* third: the class that was wrapped, the name of its method, and who tells what is taken off. */
 static int is_reported_by(Wrapper *self, PyObject *group) {
     PyObject *type = (PyObject *)Py_TYPE(group);
     if (type == PyTuple_GET_ITEM(self->third, 0)) return 1;
@@ -407,6 +407,24 @@ static int report_group(Wrapper *self, int64_t clock_ns, PyObject *group, PyObje
     return done;
 }
 
+/* Whether the callback that ends here was ended by something from outside. */
+static int is_taken_off(Wrapper *self) {
+    PyObject *type, *error, *traceback, *answer;
+    PyErr_GetExcInfo(&type, &error, &traceback);
+    int taken_off = 0;
+    if (error && error != Py_None) {
+        PyObject *frame = (PyObject *)PyEval_GetFrame();
+        answer = PyObject_CallFunctionObjArgs(PyTuple_GET_ITEM(self->third, 2), error,
+                                              frame ? frame : Py_None, NULL);
+        taken_off = answer ? PyObject_IsTrue(answer) : -1;
+        Py_XDECREF(answer);
+    }
+    Py_XDECREF(type);
+    Py_XDECREF(error);
+    Py_XDECREF(traceback);
+    return taken_off;
+}
+
 /* As groups.py says: a group is entered before its begin is told, and left after its end. */
 static PyObject *call_group_method(PyObject *wrapper, PyObject *const *args, size_t flags,
                                    PyObject *names) {
@@ -416,6 +434,9 @@ static PyObject *call_group_method(PyObject *wrapper, PyObject *const *args, siz
     PyObject *result = PyObject_Vectorcall(self->original, args, flags, names);
     if (!result) return NULL;
     if (!is_end) clock_ns = read_clock();
+    int taken_off = is_end ? is_taken_off(self) : 0;
+    if (taken_off > 0) return result;
+    if (taken_off < 0) return after_all(self, result);
     PyObject *entity = asked_about(args, PyVectorcall_NARGS(flags), names);
     if (entity && report_group(self, clock_ns, args[0], entity, result) == 0) return result;
     return after_all(self, result);
@@ -429,8 +450,8 @@ static PyObject *group_method(PyObject *Py_UNUSED(module), PyObject *args) {
                           &JournalType, &journal, &PyDict_Type, &entities, &find, &lose)) {
         return NULL;
     }
-    if (PyTuple_GET_SIZE(owner) != 2) {
-        PyErr_SetString(PyExc_ValueError, "owner must be a class and a name");
+    if (PyTuple_GET_SIZE(owner) != 3) {
+        PyErr_SetString(PyExc_ValueError, "owner must be a class, a name and a function");
         return NULL;
     }
     Wrapper *self = wrap(call_group_method, original, lose, journal, entities, find, owner);
@@ -684,7 +705,7 @@ static PyObject *run_method(PyObject *Py_UNUSED(module), PyObject *args) {
 
 static PyMethodDef functions[] = {
     {"group_method", group_method, METH_VARARGS,
-     "(original, (owner, name), what, otherwise, journal, entities, find, lose)"},
+     "(original, (owner, name, is_taken_off), what, otherwise, journal, entities, find, lose)"},
     {"wait_method", wait_method, METH_VARARGS,
      "(original, begin, end, journal, recorder, lap, asker, lose)"},
     {"make_handler", make_handler, METH_VARARGS,
