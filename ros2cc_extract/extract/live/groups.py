@@ -48,21 +48,15 @@ def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: 
     if native is None:
         return _plain(recorder, group, name, what, otherwise)
     journal, find, lose = recorder.journal, recorder.note_entity, recorder.lose
+    owner = group, name, is_taken_off
     method = native.group_method(
-        original,
-        (group, name, is_taken_off),
-        what,
-        otherwise,
-        journal,
-        recorder.entities,
-        find,
-        lose,
+        original, owner, what, otherwise, journal, recorder.entities, find, lose
     )
     return functools.update_wrapper(method, original)
 
 
 def is_taken_off(error: BaseException, frame: Any) -> bool:
-    """Tell whether ``error``, which is dealt with now, has ended from outside what ``frame`` ran."""
+    """Tell whether ``error``, which is dealt with now, ends from outside what ``frame`` runs."""
     traceback = error.__traceback__
     if traceback is None or traceback.tb_frame is not frame:
         return False  # dealt with by whoever called it

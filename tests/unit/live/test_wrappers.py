@@ -62,7 +62,7 @@ def test_group_is_reported_and_its_answer_given_back(
     assert recorder.loss_count == 0
 
 
-class ExternalShutdownException(Exception):
+class ExternalShutdownException(Exception):  # noqa: N818
     """As that of rclpy."""
 
 
