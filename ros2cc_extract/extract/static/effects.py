@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static import flags, heard
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
-from ros2cc_extract.extract.static.held_locks import lock_of
+from ros2cc_extract.extract.static.held_locks import is_counter, lock_of
 from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -204,6 +204,7 @@ class Effects(Waits):
                 isinstance(option, Instance)
                 and isinstance(option.state, PlainState)
                 and option.state.kind in _LOCKS
+                and not is_counter(self.world, option)
             ):
                 name = self._lock_name(option, option.state.kind)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
@@ -285,6 +286,8 @@ class Effects(Waits):
         """What ``with value as x`` binds to ``x``; locks are held inside."""
         if isinstance(value, Instance):
             if isinstance(value.state, (PlainState, ExecutorState)):
+                if _is_semaphore(value):
+                    self.note_blocking('Semaphore.acquire', value, None, place)
                 self.note_acquire(value, place)
                 return value
             method = self.attribute(value, '__enter__', place)
@@ -325,6 +328,10 @@ def _iterated(node: ast.expr) -> Iterator[ast.expr]:
         elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
             for argument in node.args:
                 yield from _iterated(argument)
+
+
+def _is_semaphore(value: Instance) -> bool:
+    return isinstance(value.state, PlainState) and value.state.kind == 'semaphore'
 
 
 def _holds_lock(owner: Instance) -> bool:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.values import NONE, Instance, Value, options_of
+from ros2cc_extract.extract.static.values import NONE, Const, Instance, Value, options_of
+from ros2cc_extract.extract.static.wait_table import INITIAL
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState, World
 from ros2cc_extract.spec.deeds import RE_ENTRANT
 
@@ -30,6 +32,18 @@ def held_over(world: World, on: Value | None) -> tuple[str, ...]:
         for lock, kind in locks_named(name, world)
         if on is None or all(lock_of(option) is not lock for option in options_of(on))
     )
+
+
+def is_counter(world: World, thing: Instance) -> bool:
+    """
+    Whether a semaphore begins with nothing to take: others must give first, so it is no lock.
+
+    What the set-up gives is there before anybody takes it.
+    """
+    if thing.slots.get(INITIAL) != Const(0):
+        return False
+    given = world.wakings.get(id(thing), ())
+    return not any(waking.by is None and waking.word is Word.RELEASE for waking in given)
 
 
 def lock_of(thing: Value) -> Value:

@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import NodeState, PlainState, ThreadState
 from ros2cc_extract.places import Place, Unknown
 
@@ -241,6 +242,10 @@ class Libraries(Machine):
         """A ``with`` over ``value`` ends; a pool waits for all that was handed to it."""
         if is_pool(value):
             note_leaving(self, value, place)
+        state = value.state if isinstance(value, Instance) else None
+        if isinstance(state, PlainState) and state.kind == 'semaphore':
+            self.note_wake(value, Word.RELEASE, place)
+            self.note_release(value)
 
     def awaited(self, future: Instance, place: Place) -> Value:
         """What awaiting a future gives."""

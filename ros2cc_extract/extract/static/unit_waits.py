@@ -102,7 +102,9 @@ class UnitWaits:
         if raw.call != 'Semaphore.acquire' or not isinstance(reference, ResourceRef):
             return False
         wakings = wakings_of(self._world, reference)
-        return any(waking.by is doer for waking in wakings if waking.word is Word.RELEASE)
+        given = [waking for waking in wakings if waking.word is Word.RELEASE]
+        is_counter = self._initial(reference, given) == 0
+        return not is_counter and any(waking.by is doer for waking in given)
 
     def _named(self, raw: Blocking) -> Blocking:
         resource = raw.resource
