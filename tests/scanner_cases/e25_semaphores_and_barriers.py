@@ -59,8 +59,7 @@ if __name__ == '__main__':
 #       ended by on_in @26
 #     blocks Queue.get on orders each @35
 #       ended by ?
-#     locks signal @31
-#     locks places holding signal @32
+#     locks places @32
 #   timer listen in a_default every 1
 #     blocks wait_for_message on out @38
 #       ended by on_in after 1 @28

@@ -131,6 +131,7 @@ def may_be_filled(machine: Machine, value: Collection) -> bool:
 def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
     """Everything made inside is made ``count`` times as often."""
     before = machine.world.count
+    machine.world.open_loops += isinstance(count, Unknown)
     if isinstance(count, Unknown) or isinstance(before, Unknown):
         machine.world.count = before if isinstance(before, Unknown) else count
     else:
@@ -139,6 +140,7 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
         yield
     finally:
         machine.world.count = before
+        machine.world.open_loops -= isinstance(count, Unknown)
 
 
 @contextmanager

@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.values import (
 from ros2cc_extract.extract.static.wait_table import INITIAL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
+from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 
 _IS_SET = '__set__'
@@ -175,9 +176,17 @@ def _meet(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('result of Barrier.wait', call.place)
 
 
+def _break_off(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Whoever waits at the barrier gets an error (``threading.py``, ``Barrier.abort``)."""
+    why = Unknown('somebody breaks it off', call.place)
+    machine.world.given.setdefault(id(receiver), why)
+    return NONE
+
+
 def _barrier_init(machine: Machine, receiver: Value, call: Call) -> Value:
     """Its time-out is that of all who wait at it."""
     assert isinstance(receiver, Instance)
+    machine.store.write(receiver, INITIAL, call.argument(0, 'parties') or NONE)
     machine.store.write(receiver, _PATIENCE, call.argument(2, 'timeout') or NONE)
     return NONE
 
@@ -259,7 +268,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         'clear': _clear,
         'is_set': _is_set,
     },
-    'barrier': {'wait': _meet},
+    'barrier': {'wait': _meet, 'abort': _break_off, 'reset': _break_off},
 }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
+from ros2cc_extract.extract.static import barriers
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
@@ -243,10 +244,18 @@ class UnitWaits:
     ) -> tuple[list[Waker], Unknown | None]:
         wakings = wakings_of(self._world, reference)
         mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        uneven: Unknown | None = None
         if Word.ARRIVE in reference.ended_by:
+            visits = barriers.visits_of(reference, self._doers)
+            uneven = barriers.why_rounds_differ(raw, reference, visits, mine)
             mine = [waking for waking in mine if waking.by is not doer]
+            if reference.parties == 1:
+                return [Waker(by=TIME)], None
+            if barriers.is_in_vain(reference, visits, mine):
+                return [], self._why_open(mine, reference)
+            mine = barriers.of_its_round(raw, doer, visits, mine)
         found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
-        unsure = self._why_unsure(raw, reference, mine, doer)
+        unsure = uneven or self._why_unsure(raw, reference, mine, doer)
         if unsure is not None:
             found = list(_unsure(found))
         why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)

@@ -158,7 +158,9 @@ class Waits(Machine):
         reference.asked = asked
         reference.is_kept = row.needs is Needs.ONCE
         reference.initial = _initial(thing, row)
-        reference.made = thing.place
+        reference.made, reference.is_own = thing.place, thing.born is not None
+        if Word.ARRIVE in row.ended_by:
+            reference.parties = _number(thing.slots.get(INITIAL))
         reference.like = self._made_there(thing)
         if name in heard.CONDITION_WAITS:
             reference.guard = heard.guard_of(self.world, thing)
@@ -240,6 +242,7 @@ class Waits(Machine):
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
             held=held_over(world, thing),
             is_counted=not world.path and world.count == 1,
+            in_loop=world.open_loops > 0,
             unless_done=doer is not None and _only_unless_done(world, thing, word),
             repeats=bool(world.reading.loops),
             told=frozenset(access.name for access in (world.deeds or Deeds()).writes),
@@ -301,7 +304,10 @@ def _initial(thing: Instance, row: WaitRow) -> int | None:
     """How many waits end by themselves: the value of a semaphore, the room in a queue."""
     if row.rival is not Word.PUT and Word.RELEASE not in row.ended_by:
         return 0
-    value = thing.slots.get(INITIAL)
+    return _number(thing.slots.get(INITIAL))
+
+
+def _number(value: object) -> int | None:
     number = value.value if isinstance(value, Const) else None
     return number if isinstance(number, int) else None
 

@@ -78,6 +78,8 @@ class ResourceRef(SettableRef):
     :param initial: how many waits end by themselves; ``None`` where that is not known.
     :param made: where it is made.
     :param is_kept: what ends the wait ends all that come after it.
+    :param parties: of a barrier, how many must come; ``None`` where that is not known.
+    :param is_own: a callback makes it anew in each run.
     :param guard: of a condition.
     """
 
@@ -87,6 +89,8 @@ class ResourceRef(SettableRef):
     like: Sequence[int] = ()
     initial: int | None = 0
     made: Place | None = None
+    parties: int | None = None
+    is_own = False
     guard: Guard | None = None
 
 
@@ -100,6 +104,7 @@ class Waking:
     :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
     :param uncalled: in whose text, which nobody in sight calls, it stands.
     :param is_counted: it happens once, whatever branches are taken.
+    :param in_loop: it stands in a loop of which nobody knows how often it goes round.
     :param unless_done: branches skip it only where it has been done before.
     :param repeats: it stands in a loop.
     :param told: names of the data that ``by`` has written by then.
@@ -116,6 +121,7 @@ class Waking:
     held: tuple[str, ...] = ()
     is_counted: bool = False
     unless_done: bool = False
+    in_loop: bool = False
     repeats: bool = False
     told: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()

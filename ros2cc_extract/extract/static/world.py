@@ -300,6 +300,7 @@ class World:
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: marks of questions that the function has asked.
+    :param open_loops: how many loops are followed of which nobody knows how often they go round.
     :param ready: what has surely happened to objects that others may wait for, see ``answers.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
         serial number.
@@ -381,6 +382,7 @@ class World:
     current: EntityState | None = None
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
+    open_loops: int = 0
     picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
     skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
         default_factory=dict
