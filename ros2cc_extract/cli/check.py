@@ -185,6 +185,7 @@ def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) 
         sources=outcome.sources,
         root=job.root.as_posix(),
         package=job.root.name,
+        docs_url=job.config.docs_url,
     )
     stdout.write(write(checked, form))
     if form == 'github':

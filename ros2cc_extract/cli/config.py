@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -27,7 +28,8 @@ TABLE = 'ros2cc'
 REQUIREMENTS = ('never_together', 'can_overlap', 'never_starves')
 MOST_BYTES = 8_000_000
 LONGEST_S = 1e9
-KEYS = (*REQUIREMENTS, 'ignore', 'per_path', 'assume', 'baseline', 'timeout')
+ADDRESS = re.compile(r'(?:https?://|file:///)[!-~]+')
+KEYS = (*REQUIREMENTS, 'ignore', 'per_path', 'assume', 'baseline', 'timeout', 'docs_url')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +38,7 @@ class Config:
     What the table says; the command line goes before it.
 
     :param root: folder of the file, to which paths in it are relative.
+    :param docs_url: where the pages of ``docs/`` stand on the web, as ``make site`` builds them.
     """
 
     root: Path
@@ -44,6 +47,7 @@ class Config:
     assumptions: tuple[str, ...] = ()
     baseline: Path | None = None
     timeout: float | None = None
+    docs_url: str = ''
 
 
 def load_config(start: Path) -> Config:
@@ -119,7 +123,19 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
         assumptions=_texts(table.get('assume', []), path, 'assume'),
         baseline=path.parent / baseline if baseline is not None else None,
         timeout=timeout,
+        docs_url=_address(table.get('docs_url', ''), path),
     )
+
+
+def _address(value: object, path: Path) -> str:
+    """An absolute address, since whoever reads a report stands elsewhere."""
+    if value == '':
+        return ''
+    if not isinstance(value, str) or not ADDRESS.fullmatch(value):
+        raise _malformed(
+            path, 'docs_url', 'an address that begins with https://, http:// or file:///'
+        )
+    return value
 
 
 def _is_seconds(value: object) -> bool:

@@ -26,6 +26,7 @@ class Checked:
     :param sources: text of those files that could be read, by the path that places name.
     :param root: absolute path of the repository; paths below it become relative.
     :param package: name of the test suite.
+    :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
     """
 
     units: Sequence[Spec]
@@ -36,6 +37,7 @@ class Checked:
     sources: Mapping[str, str]
     root: str = ''
     package: str = 'ros2cc'
+    docs_url: str = ''
 
 
 def write(checked: Checked, format: str) -> str:
@@ -60,7 +62,7 @@ def _mermaid(checked: Checked) -> str:
 
 WRITERS: Mapping[str, Callable[[Checked], str]] = {
     'json': _json,
-    'sarif': lambda checked: sarif(checked.findings, root=checked.root),
+    'sarif': lambda checked: sarif(checked.findings, root=checked.root, docs_url=checked.docs_url),
     'junit': lambda checked: junit(checked.findings, checked.files, checked.package),
     'github': lambda checked: workflow_commands(checked.findings, root=checked.root),
     'html': _html,

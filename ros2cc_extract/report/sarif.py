@@ -40,8 +40,8 @@ def sarif(findings: Sequence[Finding], *, root: str = '', docs_url: str = '') ->
     Write one SARIF log with one run.
 
     :param root: absolute path of the repository; paths below it become relative.
-    :param docs_url: folder of the rule pages on the web, for ``helpUri``; the whole help text
-        is in the file in any case.
+    :param docs_url: where the site of ``docs/`` stands, for ``helpUri``; no address is made up,
+        and the whole help text is in the file in any case.
     """
     log = {
         '$schema': SCHEMA,
@@ -74,7 +74,7 @@ def _rule(rule: Rule, docs_url: str) -> Data:
         'shortDescription': _text(rule.title),
         'fullDescription': _text(rule.what),
         'help': {'text': rule.mend, 'markdown': page(rule)},
-        **({'helpUri': f'{docs_url.rstrip("/")}/{rule.code}.md'} if docs_url else {}),
+        **({'helpUri': f'{docs_url.rstrip("/")}/rules/{rule.code}.html'} if docs_url else {}),
         'defaultConfiguration': {'level': _LEVELS[rule.severity]},
         'properties': {'tags': ['ros2', 'concurrency'], 'precision': 'high'},
     }

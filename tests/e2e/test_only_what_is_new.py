@@ -111,6 +111,8 @@ def test_a_demand_about_nobody_is_a_finding(run: Run, folder: Path) -> None:
         ('per_path = {"a*" = ["CC9"]}', '\'CC9\' in per_path."a*" of [tool.ros2cc] is no rule'),
         ('ignore = "CC101"', 'ignore of [tool.ros2cc] must be a list of texts'),
         ('timeout = -1', 'timeout of [tool.ros2cc] must be a number of seconds'),
+        ('docs_url = "docs/"', 'docs_url of [tool.ros2cc] must be an address that begins with'),
+        ('docs_url = "https://a b"', 'docs_url of [tool.ros2cc] must be an address'),
         ('baseline = 3', 'baseline of [tool.ros2cc] must be a path'),
         ('never_together = [["drive"]]', 'never_together'),
         ('ignore = [', 'no TOML'),
@@ -123,6 +125,23 @@ def test_wrong_settings_are_refused(run: Run, folder: Path, line: str, told: str
     assert 'pyproject.toml' in outcome.err
     assert told in outcome.err
     assert len(outcome.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ('line', 'expected'),
+    [
+        ('docs_url = "https://example.org/1.2/"', 'https://example.org/1.2/rules/CC101.html'),
+        ('docs_url = ""', None),
+        ('timeout = 60', None),
+    ],
+)
+def test_sarif_points_to_the_pages_where_a_project_keeps_them(
+    run: Run, folder: Path, line: str, expected: str | None
+) -> None:
+    settings(folder, line)
+    log = json.loads(check(run, '--output-format', 'sarif').out)
+    rules = log['runs'][0]['tool']['driver']['rules']
+    assert {rule['id']: rule.get('helpUri') for rule in rules}['CC101'] == expected
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def results_of(*findings: Any, **options: Any) -> Any:
 def test_valid_by_the_published_schema() -> None:
     schema = json.loads(SCHEMA.read_text(encoding='utf-8-sig'))
     validator = jsonschema.Draft202012Validator(schema)
-    for options in ({}, {'docs_url': 'https://example.org/rules'}):
+    for options in ({}, {'docs_url': 'https://example.org/docs'}):
         assert list(validator.iter_errors(json.loads(sarif(FINDINGS, **options)))) == []
 
 
@@ -92,10 +92,10 @@ def test_a_long_run_is_cut_below_the_limit() -> None:
 
 
 def test_every_rule_is_described_and_found_by_its_index() -> None:
-    run = run_of(*FINDINGS, docs_url='https://example.org/rules/')
+    run = run_of(*FINDINGS, docs_url='https://example.org/docs/')
     rules = run['tool']['driver']['rules']
     assert [rule['id'] for rule in rules] == [rule.code for rule in RULES]
-    assert rules[0]['helpUri'] == 'https://example.org/rules/CC101.md'
+    assert rules[0]['helpUri'] == 'https://example.org/docs/rules/CC101.html'
     nowhere = run_of(*FINDINGS)['tool']['driver']['rules']
     assert not any('helpUri' in rule for rule in nowhere)
     assert [rules[r['ruleIndex']]['id'] for r in run['results']] == ['CC101', 'CC301', 'CC501']
