@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels lint schema paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies lint schema paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -114,6 +114,14 @@ wheels: $(RELEASE)/prepared
 	$(call release_with,wheels) -o $(WHEELS)
 	$(call release_with,audit) $(WHEELS)
 	$(call release_with,trial) $(WHEELS)
+
+# All that a release needs and that can be done without publishing.
+release-check: wheels dependencies
+	$(call release_with,check) $(WHEELS)
+
+# Tests with the lowest versions of all dependencies on the lowest CPython here, and the newest on the newest.
+dependencies: $(RELEASE)/prepared
+	$(call release_with,dependencies)
 
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \

@@ -18,11 +18,6 @@ from ros2cc_extract.findings.selection import Selection
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.assume import Assumptions, read_assumptions
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
 FILE = 'pyproject.toml'
 TABLE = 'ros2cc'
 REQUIREMENTS = ('never_together', 'can_overlap', 'never_starves')
@@ -87,7 +82,7 @@ def assumptions_of(config: Config, given: Sequence[str]) -> Assumptions:
 
 def _parse(path: Path, mend: str = 'mend the file') -> Mapping[str, Any] | None:
     try:
-        data = tomllib.loads(read_named(path, MOST_BYTES, mend).decode('utf-8'))
+        data = _read_toml(read_named(path, MOST_BYTES, mend).decode('utf-8'), path)
     except UnicodeDecodeError:
         raise InputError('no TOML: no UTF-8 text', Place(str(path)), mend) from None
     except ValueError as error:  # also of a number or a date that Python has not
@@ -97,6 +92,22 @@ def _parse(path: Path, mend: str = 'mend the file') -> Mapping[str, Any] | None:
     if table is not None and not isinstance(table, dict):
         raise _malformed(path, TABLE, 'a table')
     return table
+
+
+def _read_toml(text: str, path: Path) -> Mapping[str, Any]:
+    """Read it where that can be done: of Python 3.10, as in Humble, rosdep names no tomli."""
+    try:
+        if sys.version_info >= (3, 11):
+            import tomllib
+        else:
+            import tomli as tomllib
+    except ImportError:
+        if TABLE not in text:
+            return {}
+        what = f'Python {sys.version_info[0]}.{sys.version_info[1]} cannot read TOML by itself'
+        raise InputError(what, Place(str(path)), 'install tomli') from None
+    read: Mapping[str, Any] = tomllib.loads(text)
+    return read
 
 
 def _config(table: Mapping[str, Any], path: Path) -> Config:
