@@ -24,11 +24,13 @@ class Stuck:
 
     :param wait: as the source has it.
     :param enders: names of those that could end it, and of the service that answers a client.
+    :param holder: who has the lock that is waited for, as the source calls it.
     """
 
     wait: AnyWait
     standstill: Standstill
     enders: tuple[str, ...]
+    holder: str = ''
 
     @property
     def doer(self) -> Doer:
@@ -39,7 +41,7 @@ class Stuck:
     def what(self) -> str:
         """What is waited for, in words; empty where the wait says it all."""
         if self.standstill.is_for_lock:
-            return f'the lock of {self.standstill.needed}'
+            return f'the lock of {self.holder}'
         block = self.wait.block
         return block.resource or (block.on if isinstance(block.on, str) else '')
 
@@ -52,7 +54,9 @@ def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
         block = _block(doer, standstill, context) if doer is not None else None
         if doer is not None and block is not None:
             enders = tuple(_with_servers(standstill.enders, context))
-            found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders))
+            holder = context.by_name.get(standstill.needed)
+            name = holder.display_name if holder is not None else standstill.needed
+            found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders, name))
     return found
 
 
@@ -88,8 +92,8 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
         on_it = stuck.doer if isinstance(stuck.doer, Callback) else holder
         keeps = f'{called(on_it)} holds the only thread of the executor'
         return f'{_names(served)} cannot run: {keeps}'
-    shut = [ender for ender in served if _keeper(ender, others, context) is not None]
-    if shut and (len(shut) == len(enders) or any(is_client(ender) for ender in shut)):
+    shut = _shut_out_of(enders, others, context)
+    if shut:
         return listing(_shut_out(ender, others, context) for ender in shut)
     if served and _is_full(others, context):
         threads = plural(len(context.unit.executor.threads), 'thread')
@@ -102,6 +106,21 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     if stuck.wait.block.needs is not Needs.EACH:
         early = 'is not sure to come'
     return f'what {_names(enders)} does for it {early}'
+
+
+def shut_out_for(stuck: Stuck, others: Sequence[Stuck], context: Context) -> list[str]:
+    """Who could end a wait and is kept from it by a closed group, by display name."""
+    enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
+    return [ender.display_name for ender in _shut_out_of(enders, others, context)]
+
+
+def _shut_out_of(
+    enders: Sequence[Doer], others: Sequence[Stuck], context: Context
+) -> list[Callback]:
+    served = (ender for ender in enders if isinstance(ender, Callback))
+    shut = [ender for ender in served if _keeper(ender, others, context) is not None]
+    is_all = len(shut) == len(enders) or any(is_client(ender) for ender in shut)
+    return shut if is_all else []
 
 
 def _follows(thread: Activity) -> bool:

@@ -29,6 +29,9 @@ BY_ITSELF = 'of these waits end by themselves'
 WORKING_LOOP = 'working loop'
 """A loop in which a thread works until somebody ends it: only its end is waited for."""
 
+ENDLESS_LOOP = 'endless loop'
+"""A loop that nothing in sight leaves."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Waker:

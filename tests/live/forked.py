@@ -17,6 +17,7 @@ import signal
 import sys
 import threading
 import time
+import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from selectors import EVENT_READ, DefaultSelector
@@ -111,6 +112,8 @@ def _become(name: str, path: str, text: str) -> None:
     sys.stdout = Lines()
     try:
         exec(compile(text, path, 'exec'), {'__name__': '__main__', '__file__': path})
+    except BaseException:
+        traceback.print_exc()
     finally:
         os._exit(0)
 

@@ -155,7 +155,8 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
         place=place,
         message='asyncio awaits an rclpy future: from rclpy 7.1.9 on this raises RuntimeError '
         'unless the future is done already',
-        help='await it in a callback or an executor task, or spin until it is done',
+        help='await it in a callback or an executor task, or await an asyncio future that its '
+        'done-callback sets by loop.call_soon_threadsafe',
     )
 
 
@@ -200,7 +201,7 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
         slug='nobody-spins',
         place=wait.place,
         message=f'{wait.call} waits for {name}, but {what}: it waits for ever',
-        help='spin the node in a thread before'
+        help='spin the node in a thread before, and only there'
         if nodes
         else 'end it somewhere, or give it a time-out',
     )
@@ -244,8 +245,8 @@ def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic
         place=wait.place,
         message=f'{call} waits for {awaited} while nobody spins the node that {what}: '
         'it waits for ever',
-        help='use time.sleep, or spin the node in a thread before'
+        help='use time.sleep, or spin the node in a thread before, and only there'
         if wait.call == _RATE
-        else 'spin the nodes concerned in a thread, or wait by spin_until_future_complete on an '
-        'executor that has them',
+        else 'spin the nodes concerned in a thread before, and only there, or wait by '
+        'spin_until_future_complete on an executor that has them',
     )

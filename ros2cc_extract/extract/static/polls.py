@@ -26,10 +26,9 @@ from ros2cc_extract.extract.static.values import Heaped, Mystery, Value, choice
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import TIME
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, TIME
 
 POLL = 'polling loop'
-ENDLESS = 'endless loop'
 _LEAVES = (ast.Break, ast.Return, ast.Raise)
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 _NEUTRAL = frozenset(
@@ -183,7 +182,7 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
         if is_endless(loop) and machine.world.in_callback and not _leaves(loop):
             place = frame.place(loop)
             unknown = Unknown('nothing but the end of the program ends the loop', place)
-            machine.note_loop_on_data(ENDLESS, unknown, None, place)
+            machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
         return
     names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
     written = {access.name for access in deeds.writes[before.writes :]}

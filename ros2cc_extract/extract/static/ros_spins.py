@@ -139,9 +139,19 @@ def _warn_of_theft(
                     if executor.state.is_global
                     else 'another'
                 ),
-                help=f'call {name}.{how}() or pass executor={name}',
+                help=_instead(machine, other, name, how),
             )
         )
+
+
+def _instead(machine: Machine, other: Instance, name: str, how: str) -> str:
+    """What a thread spins already is not to be spun by a second one."""
+    spins = machine.world.spins.values()
+    if not any(spin.executor is other and spin.in_thread for spin in spins):
+        return f'call {name}.{how}() or pass executor={name}'
+    wait = ', and wait for the future by an Event that its done-callback sets'
+    is_wait = how == 'spin_until_future_complete'
+    return f'leave this out, a thread spins {name} already{wait if is_wait else ""}'
 
 
 TABLE = Library(

@@ -16,7 +16,7 @@ from ros2cc_extract.spec.model import Callback
 
 HELP = (
     'take a copy first (x = self.x; if x is not None: x.…), or hold one lock around the test and '
-    'the use'
+    'the use, and where it is set to None'
 )
 
 

@@ -22,7 +22,7 @@ def find(context: Context) -> Iterator[Hit]:
                 message=f'{wait.caller.display_name} calls {wait.block.call} on the executor '
                 f'that runs it: {_consequence(refused)}',
                 help='do not spin in a callback: use call_async and continue in a done-callback, '
-                'or await in a coroutine callback',
+                'or await in a coroutine callback, with what it awaits in another group',
                 severity=Severity.ERROR if refused else None,
                 subjects=(wait.caller.name, executor.name),
                 chain=wait.chain,

@@ -77,7 +77,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
         place=wait.place,
         message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
         f'holds {held}: {" and ".join(stopped)} of the node wait that long',
-        help='let a timer go on after the pause'
+        help='let a timer that cancels itself go on after the pause'
         + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
         subjects=(wait.caller.name,),
         chain=wait.chain,

@@ -44,7 +44,7 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
         message=f'{names} {calls} {wait.block.call} on {node} inside {where}: '
         f'{_consequence(wait, context)}',
         help='do not spin in a callback: use call_async and continue in a done-callback, or await '
-        'in a coroutine callback',
+        'in a coroutine callback, with what it awaits in another group',
         severity=_severity(wait, unit, is_own),
         subjects=callers,
         chain=wait.chain,

@@ -16,7 +16,7 @@ from ros2cc_extract.findings.rules import (
     pool_exhausted,
     rate_on_one_thread,
 )
-from ros2cc_extract.findings.stuck import Stuck, stuck_in, why_stuck
+from ros2cc_extract.findings.stuck import Stuck, shut_out_for, stuck_in, why_stuck
 from ros2cc_extract.findings.used_up import used_up
 from ros2cc_extract.findings.verdicts import (
     PROGRESS,
@@ -173,6 +173,9 @@ def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
             f'use MultiThreadedExecutor(num_threads=2) or more, with {listing(served)} in '
             'another group, or look from a timer instead of waiting'
         )
+    shut_out = shut_out_for(first, together, context)
+    if shut_out:
+        return f'give {listing(shut_out)} a callback group of its own, or the wait a time-out'
     return (
         f'see to it that {listing(first.enders)} can run while {called(first.doer)} '
         'waits, or give the wait a time-out'

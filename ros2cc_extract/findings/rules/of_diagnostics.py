@@ -47,9 +47,11 @@ rclpy.spin_until_future_complete(node, future)   # the node leaves the executor
 """,
     good="""\
 threading.Thread(target=executor.spin).start()
-executor.spin_until_future_complete(future)      # or wait for the future in this thread
+future.add_done_callback(lambda done: answered.set())
+answered.wait()
 """,
-    mend='Spin a node by the executor that serves it.',
+    mend='Spin a node by the executor that serves it, and by one thread only: where that spins '
+    'already, wait for the future by an `Event` that its done-callback sets.',
 )
 UNREADABLE = Rule(
     code='CC500',

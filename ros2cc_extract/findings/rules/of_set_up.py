@@ -40,8 +40,8 @@ def main():
     rclpy.spin_until_future_complete(node, future)
     rclpy.spin(node)
 """,
-    mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let a thread spin an '
-    'executor that has all nodes concerned.',
+    mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let one thread spin an '
+    'executor that has all nodes concerned, from before the wait on.',
 )
 LOCK_KEPT = Rule(
     code='CC112',
@@ -86,17 +86,21 @@ ASYNCIO_AWAIT = Rule(
     '`task.py` (`Future.__await__`); ros2/rclpy issue 1588, pull requests 1469 and 1560. Measured '
     'on 7.1.6: it works; with the new `__await__` it raises.',
     bad="""\
-async def main():
+async def main():                        # a thread spins the node
     answer = await node.client.call_async(Trigger.Request())
 
 asyncio.run(main())
 """,
     good="""\
-def main():
+async def main():
+    loop = asyncio.get_running_loop()
+    answered = loop.create_future()
     future = node.client.call_async(Trigger.Request())
-    rclpy.spin_until_future_complete(node, future)
+    future.add_done_callback(
+        lambda done: loop.call_soon_threadsafe(answered.set_result, done.result()))
+    answer = await answered
 """,
-    mend='Await rclpy futures in callbacks and executor tasks only. In asyncio, turn one into an '
-    'asyncio future: set that by `loop.call_soon_threadsafe` in a done-callback.',
+    mend='Await rclpy futures in callbacks and executor tasks only. In asyncio, await an asyncio '
+    'future that a done-callback sets by `loop.call_soon_threadsafe`.',
     since=FUTURE_YIELDS_ITSELF,
 )

@@ -57,7 +57,7 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
 
 def _help(wait: Wait, is_answer: bool, context: Context) -> str:
     shut_out = shut_out_by(wait, context)
-    group = f' and give the {what(shut_out)} a group of its own' if shut_out else ''
+    group = f' and give {what(shut_out)} a group of its own' if shut_out else ''
     other = 'call_async and go on in a done-callback' if is_answer else 'look from a timer'
     return (
         f'use MultiThreadedExecutor(num_threads=2) or more{group}, or {other} instead of waiting'

@@ -68,7 +68,7 @@ def _hit(waits: Sequence[Wait], shut_out: Callback, context: Context) -> Hit:
         message=f'{who_waits(waits)} in {waits_in(wait)} for {waits_for(wait)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
         f'runs: {how_it_ends(waits)}',
-        help=f'give the {what(shut_out)} a callback group of its own{_instead(wait)}',
+        help=f'give {what(shut_out)} a callback group of its own{_instead(wait)}',
         severity=Severity.WARNING if wait.has_timeout else None,
         subjects=(*callers_of(waits), shut_out.name),
         chain=wait.chain,
@@ -78,8 +78,8 @@ def _hit(waits: Sequence[Wait], shut_out: Callback, context: Context) -> Hit:
 
 
 def what(callback: Callback) -> str:
-    """Name an entity by its kind."""
-    return callback.entity.value.replace('_', ' ') if callback.entity else callback.display_name
+    """Name whom the reader has to move: a client has no function of its own."""
+    return 'the client' if is_client(callback) else callback.display_name
 
 
 def _blocked(shut_out: Callback, wait: Wait) -> str:

@@ -121,13 +121,13 @@ def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown
     elif workers.is_default and capacity.at_least > 1:
         rest = (
             f'with as many threads as CPUs, so on a machine with {capacity.at_least} or fewer '
-            f'CPUs no thread is left for the answers and {_what_becomes_of(waits)}'
+            f'CPUs no thread is left for {_awaited(waits)} and {_what_becomes_of(waits)}'
         )
         usual = capacity.at_least >= USUAL_CPUS
         yield _hit(waits, capacity, rest, Severity.WARNING if usual else Severity.NOTE)
     elif not workers.is_default and capacity.at_least >= workers.count:
         rest = (
-            f'on {plural(workers.count, "thread")}: then none is left for the answers and '
+            f'on {plural(workers.count, "thread")}: then none is left for {_awaited(waits)} and '
             f'{_what_becomes_of(waits)}'
         )
         timed = all(wait.has_timeout for wait in waits)
@@ -143,6 +143,14 @@ def _what_becomes_of(waits: Sequence[Wait]) -> str:
     if any(wait.has_timeout for wait in waits):
         return 'all wait, at least until the first time-out'
     return 'all wait for ever'
+
+
+def _awaited(waits: Sequence[Wait]) -> str:
+    """What needs one more thread."""
+    kinds = {wait.kind for wait in waits}
+    if kinds == {WaitKind.RATE}:
+        return 'the timer that ends the sleep' if len(waits) == 1 else 'the timers of their rates'
+    return 'the answers' if kinds <= {WaitKind.ANSWER} else 'what ends the waits'
 
 
 def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:
@@ -179,7 +187,8 @@ def _remedy(unbounded: Sequence[Callback]) -> str:
     outside = dict.fromkeys(
         _OUTSIDE.get(c.entity or EntityKind.TASK, _TASK) for c in unbounded if c.groupless
     )
-    who = 'it' if not outside else shown(members)
+    it = 'it' if len(members) == 1 else 'each of them'
+    who = it if not outside else shown(members)
     ways = [f'put {who} into a mutually exclusive group of its own'] if members else []
     return '; '.join((*ways, *outside))
 
@@ -198,7 +207,7 @@ def _overlap_hit(waits: Sequence[Wait], capacity: Capacity, workers: Workers) ->
     return Hit(
         place=first.place,
         message=f'{who} {when}{runs} can hold all {threads}, and no thread is left for '
-        f'{"the timer that ends the sleep" if is_rate else "the answers"}',
+        f'{_awaited([first])}',
         help=f'{_remedy(capacity.unbounded)}; then {plural(capacity.at_least + 1, "thread")} are '
         'enough',
         severity=Severity.WARNING if is_rate and comes_by_itself else Severity.NOTE,

@@ -20,7 +20,7 @@ from ros2cc_extract.findings.waits import (
     who_waits,
 )
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.verify.caveats import open_ends
 from ros2cc_extract.verify.unit import Verdict
@@ -158,14 +158,22 @@ def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
         message=f'{start} without a time-out, {ends}'
         if is_outside
         else f'not decided: {start}, and {reason}',
-        help=''
-        if is_outside
-        else 'give it a time-out, or see to it that whoever ends it can be followed',
+        help=_help(wait, is_outside=is_outside),
         subjects=callers_of(waits),
         chain=wait.chain,
         related=tuple(ways_of_others(waits)),
         cause=waits_in(wait),
     )
+
+
+def _help(wait: AnyWait, *, is_outside: bool) -> str:
+    """A loop has no time-out; who waits in a thread of its own is in one already."""
+    if is_outside:
+        own = '' if isinstance(wait.caller, Activity) else ', or do it in a thread of its own'
+        return f'give it a time-out{own}'
+    if wait.block.call == ENDLESS_LOOP:
+        return 'let a timer do the work of the loop'
+    return 'give it a time-out, or see to it that whoever ends it can be followed'
 
 
 UNDECIDED = Rule(

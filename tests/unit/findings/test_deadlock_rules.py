@@ -203,7 +203,7 @@ def test_an_event_that_a_member_of_the_group_sets() -> None:
     assert found(spec) == ['CC101:40', 'CC403:90 note']
     finding = only(spec, 'CC101')
     assert finding.message.endswith('waits for ever, unless the event was set before')
-    assert finding.help == 'give the subscription a callback group of its own'
+    assert finding.help == 'give on_done a callback group of its own'
 
 
 def test_a_done_callback_needs_the_client_of_its_answer() -> None:
