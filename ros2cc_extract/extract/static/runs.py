@@ -31,6 +31,7 @@ from ros2cc_extract.extract.static.relevance import creates_entities, is_test
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.spun_twice import note_spun_twice
 from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
+from ros2cc_extract.extract.static.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.values import (
     Bound,
     Call,
@@ -43,8 +44,9 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import Cut, EntityState, NodeState, World
+from ros2cc_extract.extract.static.world import Cut, EntityState, NodeState, World, note_once
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import EntityKind, When
 
 _PARAMETERS = {
@@ -125,26 +127,28 @@ def _run_escaped_one(machine: Interpreter, value: Value, function: Function, pla
 
 def guarded(
     machine: Interpreter, act: object, place: Place, text: ast.Module | None = None
-) -> None:
+) -> str:
     """
     Do ``act``; a program too large to be followed ends in a diagnostic.
 
     :param text: the file that is run; where it leads to nothing of ROS, nothing is missing.
+    :returns: why it was not followed to its end; empty where it was.
     """
     world = machine.world
     if not machine.steps_left or _is_late(machine):
         reason = _why_cut(machine)
         if not any(cut.reason == reason for cut in world.cut):
             world.cut.append(Cut(reason, place))
-        return
+        return reason
+    why = ''
     machine.steps, machine.step_limit = 0, min(STEP_LIMIT, machine.steps_left)
     try:
         act()  # type: ignore[operator]
     except BudgetError:
         if world.nodes or text is None or not leads_nowhere(world, text):
-            _complain(world, place, _why_cut(machine))
+            why = _why_cut(machine)
     except RecursionError:
-        _complain(world, place, 'set-up is nested too deeply to be followed')
+        why = 'set-up is nested too deeply to be followed'
     finally:
         machine.steps_left -= min(machine.steps, machine.steps_left)
         machine.stack.clear()
@@ -155,6 +159,17 @@ def guarded(
         world.in_thread, world.when, world.thread = False, When.START, 0
         world.activity, world.again, world.retelling = None, False, False
         machine.store.reset()
+    if why:
+        _complain(world, place, why)
+    return why
+
+
+def _note_cut(deeds: Deeds, why: str, place: Place) -> None:
+    """What was not followed may wait for anything."""
+    if why:
+        note_once(
+            deeds.blocking, Blocking(call=UNKNOWN_WAIT, source=place, on=Unknown(why, place))
+        )
 
 
 def _is_late(machine: Interpreter) -> bool:
@@ -258,7 +273,7 @@ def _tell(machine: Interpreter, state: ActivityState) -> None:
             machine.run_if_coroutine(machine.call(option, call), state.place)
         _end_branch(machine, mark)
 
-    guarded(machine, follow, state.place)
+    _note_cut(state.deeds, guarded(machine, follow, state.place), state.place)
 
 
 def _end_branch(machine: Interpreter, mark: int) -> None:
@@ -304,7 +319,7 @@ def _run_callback(
         if mark is not None:
             _end_branch(machine, mark)
 
-    guarded(machine, follow, entity.place)
+    _note_cut(deeds, guarded(machine, follow, entity.place), entity.place)
 
 
 def _transition_of(entity: EntityState, callback: Value) -> str:
