@@ -44,7 +44,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.world import Cut, EntityState, NodeState, World, note_once
+from ros2cc_extract.extract.static.world import Cut, EntityState, NodeState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import EntityKind, When
@@ -166,10 +166,9 @@ def guarded(
 
 def _note_cut(deeds: Deeds, why: str, place: Place) -> None:
     """What was not followed may wait for anything."""
-    if why:
-        note_once(
-            deeds.blocking, Blocking(call=UNKNOWN_WAIT, source=place, on=Unknown(why, place))
-        )
+    wait = Blocking(call=UNKNOWN_WAIT, source=place, on=Unknown(why, place))
+    if why and wait not in deeds.blocking:
+        deeds.blocking.append(wait)
 
 
 def _is_late(machine: Interpreter) -> bool:
