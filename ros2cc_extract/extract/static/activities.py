@@ -37,6 +37,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
     saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
+    tries, world.tries = world.tries, 0
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
@@ -50,7 +51,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
-        world.ready = ready
+        world.ready, world.tries = ready, tries
 
 
 def begin(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import Instance, Mystery, Value, options_of
 from ros2cc_extract.extract.static.world import RECENT, End, EntityState, ExecutorState
@@ -11,7 +13,10 @@ SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
 DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
 CANCEL = 'cancel'
 DESTROY_PUBLISHER, PUBLISHED = 'destroy_publisher', 'publish'
+RAISES = 'raise'
 USED = 'used when rclpy was shut down'
+# Of base classes, and of generators; a Ctrl-C is not for an executor.
+_NO_END = frozenset({'NotImplementedError', 'StopIteration', 'KeyboardInterrupt'})
 
 
 def note_use(machine: Machine, what: str, place: Place) -> None:
@@ -44,7 +49,11 @@ def note_shutdown(machine: Machine, place: Place) -> None:
 
 
 def note_end(
-    machine: Machine, kind: str, what: Instance | EntityState | None, place: Place
+    machine: Machine,
+    kind: str,
+    what: Instance | EntityState | None,
+    place: Place,
+    text: str = '',
 ) -> None:
     """A callback, or a thread of the program's own, ends something."""
     world = machine.world
@@ -53,7 +62,15 @@ def note_end(
     doer = world.activity or (world.current if world.in_callback else None)
     if doer is not None and not world.shutting_down and not world.after_spin:
         behind = world.deeds.behind if world.deeds is not None else None
-        world.ends.append(End(kind, what, doer, place, behind=behind, locks=world.held))
+        world.ends.append(End(kind, what, doer, place, text, behind=behind, locks=world.held))
+
+
+def note_raised(machine: Machine, error: ast.expr, place: Place) -> None:
+    """A callback raises, and nothing in it catches that."""
+    called = error.func if isinstance(error, ast.Call) else error
+    name = called.attr if isinstance(called, ast.Attribute) else getattr(called, 'id', '')
+    if name[:1].isupper() and name not in _NO_END and machine.world.tries == 0:
+        note_end(machine, RAISES, None, place, name)
 
 
 def _slot(entity: EntityState) -> str:

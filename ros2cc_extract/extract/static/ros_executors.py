@@ -237,6 +237,7 @@ def record_spin(
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
     spin.repeated = isinstance(world.count, Unknown)
     spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
+    spin.is_tried = world.tries > 0
     spin.from_callback, spin.over = world.current is not None, world.spins_over
     if not any(_is_the_same(spin, other) for other in world.spins.values()):
         world.spins.setdefault(spin.key, spin)

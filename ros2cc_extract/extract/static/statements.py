@@ -17,6 +17,7 @@ from typing import Any
 from ros2cc_extract.extract.static import (
     answers,
     changing,
+    ending,
     flags,
     heard,
     loops,
@@ -236,6 +237,7 @@ def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
 def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
     if node.exc is not None:
         machine.evaluate(node.exc, frame)
+        ending.note_raised(machine, node.exc, frame.place(node))
     return DEAD
 
 

@@ -24,7 +24,11 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
 
     path, ready = machine.world.path, machine.world.ready
     try:
-        with _trying(machine, any(_catches_type_error(each) for each in node.handlers)):
+        is_caught = bool(node.handlers)
+        with (
+            _trying(machine, any(_catches_type_error(each) for each in node.handlers)),
+            _catching(machine, is_caught),
+        ):
             flow = regular()
     except CannotCallError:
         caught = next(each for each in node.handlers if _catches_type_error(each))
@@ -58,6 +62,16 @@ def _trying(machine: Machine, catches: bool) -> Iterator[None]:
         machine.world.trying = before
 
 
+@contextmanager
+def _catching(machine: Machine, catches: bool) -> Iterator[None]:
+    """What is raised inside may be caught, or is raised only because something else was."""
+    machine.world.tries += catches
+    try:
+        yield
+    finally:
+        machine.world.tries -= catches
+
+
 _TYPE_ERRORS = frozenset({'TypeError', 'Exception', 'BaseException'})
 
 
@@ -77,7 +91,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
     held = locks_given_back(handler.body, machine.world)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
     try:
-        with _trying(machine, catches=True):
+        with _trying(machine, catches=True), _catching(machine, catches=True):
             return machine.execute_block(handler.body, frame)
     except CannotCallError:
         return DEAD

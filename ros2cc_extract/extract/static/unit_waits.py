@@ -11,7 +11,7 @@ from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
-from ros2cc_extract.extract.static.unsure_wakers import forgets, why_gone, why_lost
+from ros2cc_extract.extract.static.unsure_wakers import forgets, why_gone, why_lost, why_unspun
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
 from ros2cc_extract.extract.static.wakings import (
     ClockRef,
@@ -211,6 +211,7 @@ class UnitWaits:
             why = data_is_written_elsewhere(self._world, raw.on.names)
             by = [writer for writer, _ in self._writes(raw.on)]
             unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
+            unsure = unsure or why_unspun(self._world, by, doer, self._name)
             if unsure is not None:
                 writers = _unsure(writers)
             return replace(named, wakers=writers, escapes=why or unsure)
@@ -277,6 +278,7 @@ class UnitWaits:
 
         wakers = [waking.by for waking in mine]
         why = why_gone(self._world, wakers, comes_after, self._name)
+        why = why or why_unspun(self._world, wakers, doer, self._name)
         if why is not None or forgets(reference, mine, doer):
             return why
         return why_lost(self._world, reference, mine, doer, self._doers, self._name)

@@ -16,10 +16,13 @@ from ros2cc_extract.extract.static.ending import (
     CANCEL,
     DESTROY,
     DESTROY_NODE,
+    RAISES,
     REMOVE_NODE,
     SHUTDOWN,
+    executor_of,
 )
 from ros2cc_extract.extract.static.heard import Notifier, is_heard
+from ros2cc_extract.extract.static.values import Instance
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Unknown
@@ -28,6 +31,13 @@ from ros2cc_extract.spec.model import EntityKind, When
 Doer = EntityState | ActivityState
 Names = Callable[[object], str | None]
 _RECURRING = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE)
+_RISING = (
+    EntityKind.TIMER,
+    EntityKind.SUBSCRIPTION,
+    EntityKind.SERVICE,
+    EntityKind.DONE_CALLBACK,
+    EntityKind.GUARD_CONDITION,
+)
 _ONCE = (EntityKind.DONE_CALLBACK, EntityKind.TASK, EntityKind.LIFECYCLE_SERVICE)
 _DOES = {
     CANCEL: 'cancels the timer of {}, which ends it',
@@ -82,6 +92,42 @@ def _is_of(end: End, waker: EntityState) -> bool:
 def _ends_all(end: End, world: World) -> bool:
     """Whether its doer shuts rclpy down as well."""
     return any(other.doer is end.doer and other.kind == SHUTDOWN for other in world.ends)
+
+
+def why_unspun(
+    world: World, wakers: Sequence[object], doer: object, name: Names
+) -> Unknown | None:
+    """
+    Why the thread that would run all of ``wakers`` may have ended while another thread waits.
+
+    What a callback raises rises out of the spin (measured with rclpy 7.1.6 and 9.1.2, on one
+    thread and on a pool; ``SystemExit`` on one thread alone), and ends the thread that spins.
+    """
+    if not isinstance(doer, ActivityState) or not wakers:
+        return None
+    served = [waker.node for waker in wakers if isinstance(waker, EntityState)]
+    executors = {id(executor): executor for executor in map(executor_of, served)}
+    executor = next(iter(executors.values()), None)
+    if len(served) != len(wakers) or len(executors) != 1 or executor is None:
+        return None
+    spins = [spin for spin in world.spins.values() if spin.executor is executor]
+    if not spins or any(spin.is_tried or not spin.in_thread for spin in spins):
+        return None
+    for end in world.ends:
+        if end.kind == RAISES and _rises(end, executor):
+            who = name(end.doer) or 'a callback'
+            reason = f'{who} raises {end.text}, which ends the thread that spins'
+            return Unknown(reason, end.place)
+    return None
+
+
+def _rises(end: End, executor: Instance) -> bool:
+    doer = end.doer
+    if not isinstance(doer, EntityState) or doer.kind not in _RISING:
+        return False
+    is_exit = end.text in ('SystemExit', 'ExternalShutdownException')
+    is_single = executor.state.kind == 'SingleThreadedExecutor'
+    return executor_of(doer.node) is executor and (is_single or not is_exit)
 
 
 def why_lost(
@@ -178,4 +224,4 @@ def _comes_again(world: World, doer: Doer) -> bool:
     if isinstance(doer, ActivityState):
         return doer.loops
     is_plain = not doer.one_shot and not doer.destroyed and doer.kind not in _ONCE
-    return is_plain and not any(end.doer is doer for end in world.ends)
+    return is_plain and not any(e.doer is doer and e.kind != RAISES for e in world.ends)

@@ -168,6 +168,7 @@ class Spin:
     :param thread: which thread does it, 0 for the one of the set-up.
     :param from_callback: that thread is one that a callback starts.
     :param over: how many of the spins before it were over then.
+    :param is_tried: what rises out of it may be caught.
     """
 
     executor: Instance
@@ -182,6 +183,7 @@ class Spin:
     thread: int = 0
     from_callback: bool = False
     over: int = 0
+    is_tried: bool = False
 
     @property
     def key(self) -> object:
@@ -358,6 +360,7 @@ class World:
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
+    :param tries: how many ``try`` around may catch what is raised.
     :param met: the objects that the running callback found in what others assign.
     :param met_by: the same of each callback that was followed, by the identity of its entity.
     :param rounds: how often it was followed again for others.
@@ -471,6 +474,7 @@ class World:
     parts: dict[int, list[Instance]] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
     trying: tuple[int, int] | None = None
+    tries: int = 0
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
     met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
     rounds: Counter[int] = field(default_factory=Counter)
