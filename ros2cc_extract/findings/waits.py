@@ -16,7 +16,7 @@ from typing import TypeVar
 
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Doer
-from ros2cc_extract.findings.words import called, shown
+from ros2cc_extract.findings.words import called, listing, shown
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
@@ -176,9 +176,25 @@ def waits_for(wait: Wait) -> str:
     needed = wait.needs[0] if wait.needs else None
     if needed is None:
         return 'something else'
-    if is_client(needed) or is_done_callback(needed):
+    if _is_answered(needed):
         return f'the answer of {name_of_service(needed)}'
     return needed.display_name
+
+
+def all_wait_for(waits: Sequence[Wait]) -> str:
+    """Say what waits at one line wait for."""
+    needed = [wait.needs[0] for wait in waits if wait.needs]
+    services = dict.fromkeys(name_of_service(one) for one in needed if _is_answered(one))
+    if len(services) < 2 or not all(map(_is_answered, needed)):
+        return listing((waits_for(wait) for wait in waits), _SHOWN)
+    return f'the answers of {listing(services, _SHOWN)}'
+
+
+def _is_answered(needed: Callback) -> bool:
+    return is_client(needed) or is_done_callback(needed)
+
+
+_SHOWN = 3
 
 
 def name_of_service(client: Callback) -> str:
@@ -214,11 +230,10 @@ def how_it_ends(waits: Sequence[Wait]) -> str:
 
 
 def at_one_place(waits: Iterable[W]) -> Iterator[tuple[W, ...]]:
-    """Waits of several callbacks at one line, for the same, in order of the first."""
+    """Waits at one line, of several callbacks or for several others, in order of the first."""
     alike: dict[object, list[W]] = {}
     for wait in waits:
-        needs = tuple(needed.name for needed in wait.needs)
-        alike.setdefault((wait.place, wait.block.call, needs), []).append(wait)
+        alike.setdefault((wait.place, wait.block.call), []).append(wait)
     yield from map(tuple, alike.values())
 
 

@@ -10,10 +10,10 @@ from ros2cc_extract.findings.rules.own_group_call import BLOCKING, shut_out_by, 
 from ros2cc_extract.findings.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits import (
     Wait,
+    all_wait_for,
     at_one_place,
     callers_of,
     how_it_ends,
-    waits_for,
     waits_in,
     waits_of,
     ways_of_others,
@@ -41,18 +41,24 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
     wait = waits[0]
     executor = context.unit.executor
     is_answer = is_client(wait.needs[0]) or is_done_callback(wait.needs[0])
-    nobody = 'nobody can take it' if is_answer else 'it cannot run'
+    one = len(dict.fromkeys(_names(waits))) == len(wait.needs)
+    nobody = f'nobody can take {"it" if one else "them"}' if is_answer else 'it cannot run'
     return Hit(
         place=wait.place,
-        message=f'{who_waits(waits)} in {waits_in(wait)} for {waits_for(wait)} on '
+        message=f'{who_waits(waits)} in {waits_in(wait)} for {all_wait_for(waits)} on '
         f'the only thread of the {executor.kind or "executor"}, so {nobody}: {how_it_ends(waits)}',
         help=_help(wait, is_answer, context),
         severity=Severity.WARNING if wait.has_timeout else None,
-        subjects=(*callers_of(waits), *(needed.name for needed in wait.needs)),
+        subjects=(*callers_of(waits), *_names(waits)),
         chain=wait.chain,
         related=(*made_at(wait.caller, *wait.needs), *ways_of_others(waits)),
         run=run_in_which_one_hangs(waits, context),
     )
+
+
+def _names(waits: Sequence[Wait]) -> Iterator[str]:
+    """Of what is waited for, each once."""
+    yield from dict.fromkeys(needed.name for wait in waits for needed in wait.needs)
 
 
 def _help(wait: Wait, is_answer: bool, context: Context) -> str:

@@ -10,16 +10,16 @@ from ros2cc_extract.findings.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits import (
     Wait,
     WaitKind,
+    all_wait_for,
     at_one_place,
     callers_of,
     how_it_ends,
-    waits_for,
     waits_in,
     waits_of,
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.findings.words import group_words, made_at
+from ros2cc_extract.findings.words import group_words, listing, made_at
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.spec.partners import is_client
@@ -38,10 +38,12 @@ def find(context: Context) -> Iterator[Hit]:
             is_shut_out = shut_out_by(wait, context) is not None
             if is_shut_out and not surely_ends(wait, context):
                 found.append(wait)
-    for alike in at_one_place(found):
-        shut_out = shut_out_by(alike[0], context)
-        if shut_out is not None:
-            yield _hit(alike, shut_out, context)
+    by_group: dict[str, list[Wait]] = {}
+    for wait in found:
+        by_group.setdefault(wait.caller.group, []).append(wait)
+    for in_group in by_group.values():
+        for alike in at_one_place(in_group):
+            yield _hit(alike, context)
 
 
 def shut_out_by(wait: Wait, context: Context) -> Callback | None:
@@ -58,21 +60,23 @@ def _instead(wait: Wait) -> str:
     return '' if is_signal else ', or use call_async and continue in a done-callback'
 
 
-def _hit(waits: Sequence[Wait], shut_out: Callback, context: Context) -> Hit:
+def _hit(waits: Sequence[Wait], context: Context) -> Hit:
     """Of several callbacks that get to one place the first is shown on its way."""
     wait = waits[0]
-    group = context.group_of(shut_out)
+    shut_out = [one for each in waits if (one := shut_out_by(each, context)) is not None]
+    shut_out = list({one.name: one for one in shut_out}.values())
+    group = context.group_of(wait.caller)
     caller = wait.caller.display_name if len(callers_of(waits)) == 1 else 'one of them'
     return Hit(
         place=wait.place,
-        message=f'{who_waits(waits)} in {waits_in(wait)} for {waits_for(wait)}, but '
+        message=f'{who_waits(waits)} in {waits_in(wait)} for {all_wait_for(waits)}, but '
         f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
         f'runs: {how_it_ends(waits)}',
-        help=f'give {what(shut_out)} a callback group of its own{_instead(wait)}',
+        help=f'{_apart(shut_out)}{_instead(wait)}',
         severity=Severity.WARNING if wait.has_timeout else None,
-        subjects=(*callers_of(waits), shut_out.name),
+        subjects=(*callers_of(waits), *(one.name for one in shut_out)),
         chain=wait.chain,
-        related=(*made_at(wait.caller, shut_out, group), *ways_of_others(waits)),
+        related=(*made_at(wait.caller, shut_out[0], group), *ways_of_others(waits)),
         run=run_in_which_one_hangs(waits, context),
     )
 
@@ -82,12 +86,26 @@ def what(callback: Callback) -> str:
     return 'the client' if is_client(callback) else callback.display_name
 
 
-def _blocked(shut_out: Callback, wait: Wait) -> str:
-    if is_client(shut_out):
+def _apart(shut_out: Sequence[Callback]) -> str:
+    if len(shut_out) == 1:
+        return f'give {what(shut_out[0])} a callback group of its own'
+    return f'give {_together(shut_out)} another callback group'
+
+
+def _together(shut_out: Sequence[Callback]) -> str:
+    are_clients = all(map(is_client, shut_out))
+    return 'the clients' if are_clients else listing(one.display_name for one in shut_out)
+
+
+def _blocked(shut_out: Sequence[Callback], wait: Wait) -> str:
+    first = shut_out[0]
+    if len(shut_out) > 1:
+        return f'{_together(shut_out)} are'
+    if is_client(first):
         return 'the client is'
-    if shut_out is wait.needs[0]:
-        return f'{shut_out.display_name} is'
-    return f'{shut_out.display_name}, which serves it, is'
+    if first is wait.needs[0]:
+        return f'{first.display_name} is'
+    return f'{first.display_name}, which serves it, is'
 
 
 RULE = Rule(

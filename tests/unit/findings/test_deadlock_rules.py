@@ -569,3 +569,20 @@ def test_loops_that_end_by_time_too_may_take_all_threads() -> None:
     assert recorders(3) == []
     assert recorders(2, pauses=False) == []
     assert recorders(2, timed=False) == []
+
+
+def test_calls_of_several_clients_at_one_line_are_one_finding() -> None:
+    names = ('plan', 'map', 'grip', 'home')
+    blocking = tuple(block for name in names for block in calls(name))
+    callbacks = (timer('drive', blocking=blocking), *(client(n, key=n) for n in names))
+    of_group = only(unit(threads(2), *callbacks), 'CC101')
+    assert of_group.message == (
+        "drive waits in client.call for the answers of service 'plan', service 'map', service "
+        "'grip' and 1 more, but the clients are in the default group of 'arm', which is closed "
+        'while drive runs: it waits for ever'
+    )
+    assert of_group.subjects == ('drive', *names)
+    assert of_group.help.startswith('give the clients another callback group, or ')
+    of_thread = only(unit(ONE_THREAD, *callbacks), 'CC102')
+    assert 'and 1 more on the only thread' in of_thread.message
+    assert 'so nobody can take them: it waits for ever' in of_thread.message

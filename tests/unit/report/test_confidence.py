@@ -6,7 +6,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.report.confidence_text import confidence_lines
 from ros2cc_extract.report.json_report import confidence_data
 from ros2cc_extract.spec.assume import assume, read_assumptions
-from ros2cc_extract.spec.confidence import Summary, confidence_in
+from ros2cc_extract.spec.confidence import Confidence, Subject, Summary, confidence_in
 from ros2cc_extract.spec.model import Spec
 
 PROGRAM = """
@@ -59,7 +59,8 @@ def lines(found: Summary, most: int = 10) -> list[str]:
 def test_counts_come_first_and_then_what_is_open() -> None:
     assert lines(confidence_in(units())) == [
         'resolved: 1 of 2 callbacks (1 unresolved), 1 of 2 groups (1 unresolved), '
-        f'0 of 1 thread counts (1 assumed: {BY_CPUS}), 2 of 2 ownerships',
+        '1 of 1 thread counts (1 by assumption), 2 of 2 ownerships',
+        f'assumed: {BY_CPUS}',
         PERIOD,
         GROUP,
     ]
@@ -69,16 +70,32 @@ def test_an_assumption_of_the_user_is_told_by_its_words() -> None:
     given = read_assumptions(['threads=3', 'group.unresolved_1=REENTRANT'])
     assert lines(confidence_in(assume(unit, given) for unit in units())) == [
         'resolved: 1 of 2 callbacks (1 unresolved), '
-        '1 of 2 groups (1 assumed: group.unresolved_1=REENTRANT (--assume)), '
-        '0 of 1 thread counts (1 assumed: threads=3 (--assume)), 2 of 2 ownerships',
+        '2 of 2 groups (1 by assumption), 1 of 1 thread counts (1 by assumption), '
+        '2 of 2 ownerships',
+        'assumed: group.unresolved_1=REENTRANT (--assume)',
+        'assumed: threads=3 (--assume)',
         PERIOD,
     ]
 
 
 def test_many_open_facts_are_only_counted() -> None:
     found = confidence_in(units())
-    assert lines(found, 1)[2:] == ['unresolved: 1 more facts, which ros2cc-extract spec lists']
-    assert lines(found, 0)[1:] == ['unresolved: 2 facts, which ros2cc-extract spec lists']
+    assert lines(found, 1)[3:] == ['unresolved: 1 more facts, which ros2cc-extract spec lists']
+    assert lines(found, 0)[2:] == ['unresolved: 2 facts, which ros2cc-extract spec lists']
+
+
+def test_many_rules_are_told_on_a_few_lines() -> None:
+    rules = {f'parameter {name} keeps its default': 1 for name in 'abcdef'}
+    of = {Subject.CALLBACKS: Confidence(0, {**rules, 'one of a list': 4}, 0)}
+    assert lines(Summary(of, ())) == [
+        'resolved: 10 of 10 callbacks (10 by assumption)',
+        'assumed: one of a list (4 facts)',
+        'assumed: parameter a keeps its default',
+        'assumed: parameter b keeps its default',
+        'assumed: parameter c keeps its default',
+        'assumed: parameter d keeps its default',
+        'assumed: 2 more rules, which ros2cc-extract spec lists',
+    ]
 
 
 def test_nothing_is_told_of_nothing() -> None:
