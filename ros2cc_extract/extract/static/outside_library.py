@@ -3,7 +3,8 @@ Calls that wait for what is outside of the program: processes, sockets, ports, p
 
 Sources: CPython 3.12, ``subprocess.py``, ``socket``, ``select``, ``urllib/request.py``; pyserial
 3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``; OpenCV 4, ``waitKey`` (a delay of zero or
-less means for ever).
+less means for ever) and ``videoio`` (a read takes as long as a frame, and gives up after 10 s by
+``cap_v4l.cpp``, after 30 s by ``cap_ffmpeg_impl.hpp``).
 """
 
 from __future__ import annotations
@@ -218,6 +219,32 @@ def _wait_key(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery(f'result of {_WAIT_KEY}', call.place, f'{_WAIT_KEY}(…)')
 
 
+_CAPTURE = 'cv2.VideoCapture'
+READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab'})
+"""They wait for the next frame, and end by themselves where none comes."""
+
+
+def _reads_camera(name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if not (isinstance(receiver, Instance) and _OF_FILE in receiver.slots):
+            machine.note_blocking(name, None, None, call.place)
+        return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
+
+    return handler
+
+
+def _open_capture(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A number, a device, an address or a pipeline is a camera; other texts are files."""
+    source = call.argument(0, 'filename')
+    text = source.value if isinstance(source, Const) else None
+    is_camera = not isinstance(text, str) or text.startswith('/dev/') or '://' in text
+    if not is_camera and '!' not in str(text) and isinstance(receiver, Instance):
+        machine.store.write(receiver, _OF_FILE, Const(True))
+    return NONE
+
+
+_OF_FILE = '__of_file__'
+
 CALLS = frozenset(
     [
         _WAIT_KEY,
@@ -228,7 +255,15 @@ CALLS = frozenset(
 """How these waits are called in a specification."""
 
 TABLE = Library(
-    classes={name: _class(name, methods) for name, methods in _CLASSES.items()},
+    classes={
+        **{name: _class(name, methods) for name, methods in _CLASSES.items()},
+        _CAPTURE: LibraryClass(
+            init=_open_capture,
+            methods={
+                name.rpartition('.')[2]: _reads_camera(name) for name in sorted(READS_OF_CAMERAS)
+            },
+        ),
+    },
     functions={
         'os.fork': _fork,
         **{

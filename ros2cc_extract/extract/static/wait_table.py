@@ -91,6 +91,7 @@ WAITS: dict[str, WaitRow] = {
     'wait_for_service': _OUTSIDE,
     'wait_for_server': _OUTSIDE,
     **dict.fromkeys(outside_library.CALLS, _OUTSIDE),
+    **dict.fromkeys(outside_library.READS_OF_CAMERAS, _SLEEP),
 }
 
 NO_ROW = WaitRow()
