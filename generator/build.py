@@ -112,12 +112,21 @@ def render(
     return RenderedModel(
         name=unit.name,
         xml=_write_xml(
-            unit, queries, profile, text, _features(unit, freedom or Freedom(), closed.spec.rclpy)
+            unit,
+            queries,
+            profile,
+            text,
+            _features(unit, freedom or _least_freedom(unit), closed.spec.rclpy),
         ),
         queries=queries,
         q=write_query_file(queries),
         published=_write_published_files(numbered, published),
     )
+
+
+def _least_freedom(unit: Unit) -> Freedom:
+    """Where several runs of a callback matter, one begins while another is suspended."""
+    return Freedom(suspended=2 if unit.has_arrivals_of_their_own else 1)
 
 
 def queries_of(

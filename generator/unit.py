@@ -43,6 +43,7 @@ class UnitCallback:
     :param unexplained: that of ``left_out`` which a run has shown, and no published model has.
     :param is_entered: others may run inside it where the model does not show it.
     :param is_one_shot: it arrives no more than once.
+    :param arrivals: how often it may become ready, where there is a bound.
     """
 
     index: int
@@ -58,6 +59,7 @@ class UnitCallback:
     unexplained: tuple[str, ...] = ()
     is_entered: bool = False
     is_one_shot: bool = False
+    arrivals: int = 1
 
     @property
     def needs(self) -> tuple[int, ...]:
@@ -233,7 +235,7 @@ class Unit:
         for callback in self.callbacks:
             if any(wait.spin for wait in callback.waits):
                 is_exclusive = self.group_of(callback).type == 'EXCLUSIVE'
-                most += 1 if is_exclusive else self.max_cycle or 1
+                most += 1 if is_exclusive else callback.arrivals
         return most
 
     @property
@@ -271,10 +273,20 @@ class Unit:
         That is what arrives by itself, and one request or answer for each callback that can wait
         at the same time: on a thread, or suspended.
         """
-        by_itself = self.max_cycle or 1
+        by_itself = self.most_arrivals
         if not self.num_waits:
             return by_itself
         return by_itself + len(self.threads) + len(self.actors)
+
+    @property
+    def most_arrivals(self) -> int:
+        """How often a callback may become ready, where there is a bound."""
+        return max(callback.arrivals for callback in self.callbacks)
+
+    @property
+    def has_arrivals_of_their_own(self) -> bool:
+        """True when some callbacks become ready more often than others."""
+        return any(c.arrivals != (self.max_cycle or 1) for c in self.callbacks)
 
     @property
     def servers(self) -> tuple[str, ...]:
@@ -305,6 +317,9 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     waits = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     locks = tuple(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
     resources = resources_of(waits)
+    arrivals = {
+        actor: closed.arrivals.get(actor, max_cycle or 1) if max_cycle else 1 for actor in waits
+    }
     return Unit(
         name=spec.name,
         kind=executor_kind(spec),
@@ -327,6 +342,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
                 unexplained=unexplained_runs(callback),
                 is_entered=is_entered_unseen(callback, spec),
                 is_one_shot=callback.one_shot,
+                arrivals=arrivals[callback.name],
             )
             for index, callback in enumerate(spec.callbacks)
         ),
@@ -348,7 +364,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
             )
             for activity in modelled_activities(spec)
         ),
-        resources=tuple(_number_resource(each, waits, max_cycle) for each in resources),
+        resources=tuple(_number_resource(each, waits, arrivals) for each in resources),
     )
 
 
@@ -380,13 +396,13 @@ def _number_wait(
 
 
 def _number_resource(
-    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], max_cycle: int | None
+    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], arrivals: Mapping[str, int]
 ) -> UnitResource:
     return UnitResource(
         name=resource.name,
         is_each=resource.is_each,
         initial=resource.initial,
-        most=_most_signals(resource, steps, max_cycle),
+        most=_most_signals(resource, steps, arrivals),
         forgets=resource.forgets,
     )
 
@@ -431,13 +447,18 @@ def resources_of(steps: Mapping[str, Sequence[NamedWait]]) -> tuple[Resource, ..
 
 
 def _most_signals(
-    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], max_cycle: int | None
+    resource: Resource, steps: Mapping[str, Sequence[NamedWait]], arrivals: Mapping[str, int]
 ) -> int:
     """One for each arrival of whoever gives it; one for good where the first ends all waits."""
     if not resource.is_each:
         return 1
-    given = [s for own in steps.values() for s in own if s.is_signal and s.resource == resource]
-    return max(1, resource.initial + (max_cycle or 1) * len(given))
+    given = sum(
+        arrivals[name]
+        for name, own in steps.items()
+        for step in own
+        if step.is_signal and step.resource == resource
+    )
+    return max(1, resource.initial + given)
 
 
 def _place_of(callback: Callback | None, places: Mapping[str, int]) -> int | None:

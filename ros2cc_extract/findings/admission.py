@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.flags import shared_by
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import is_operand
 from ros2cc_extract.findings.workers import runs_in_parallel
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback, EntityKind
+from ros2cc_extract.spec.order import steps
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import overlap, overlaps_itself
 from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.waits import WaitKind, kind_of
@@ -18,6 +17,7 @@ from ros2cc_extract.findings.workers import workers_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, EntityKind
+from ros2cc_extract.spec.order import steps
 
 
 def sharing(context: Context) -> tuple[Activity, ...]:

@@ -19,7 +19,6 @@ from ros2cc_extract.findings.beside import beside, node_of, repeats_freely, shar
 from ros2cc_extract.findings.flags import as_shared, shared_by
 from ros2cc_extract.findings.lifecycle import comes_before
 from ros2cc_extract.findings.model import Remark
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.overlap import Overlap, interleaves, overlap
 from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.sections import (
@@ -38,6 +37,7 @@ from ros2cc_extract.once import once
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import ADDS, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.order import steps
 from ros2cc_extract.verify.evidence import Evidence
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.once import known_of, once
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import SHARED, Access
 from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.order import steps
 
 
 def is_other_item(one: Access, other: Access) -> bool:

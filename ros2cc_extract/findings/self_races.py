@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.findings.races import Use
 from ros2cc_extract.findings.sections import is_operand, keep_apart, kept_between, read_for
 from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.order import steps
 
 
 class SelfRaceKind(Enum):

@@ -31,6 +31,16 @@ def refuting_run(family: str, context: Context, *callbacks: Doer) -> Evidence | 
     return result.evidence if result is not None and refuted else None
 
 
+def is_of_repeated(callback: Doer, context: Context) -> bool:
+    """
+    Tell whether the run that holds a callback up is one in which others overlap themselves.
+
+    Whether so many of their runs come together is a matter of rates.
+    """
+    result = verdict_on(PROGRESS, context, callback)
+    return result is not None and bool(result.repeated)
+
+
 def run_in_which_one_hangs(waits: Sequence[Wait], context: Context) -> Evidence | None:
     """The first run that shows that one of the callbacks never ends, and no more than that."""
     for wait in waits:

@@ -7,7 +7,8 @@ A model with a hole in it cannot be built by accident, because the generator tak
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.errors import IncompleteSpecError
 from ros2cc_extract.places import Unknown
@@ -44,10 +45,12 @@ class ClosedSpec:
 
     :param spec: the unit, reduced to what the model shows; groups without members are left out.
     :param assumptions: what the policy decided, one clause each, for the reader of a verdict.
+    :param arrivals: how often data arrives for a callback, where that is not as often as for all.
     """
 
     spec: Spec
     assumptions: tuple[str, ...]
+    arrivals: Mapping[str, int] = field(default_factory=dict)
 
 
 def waited_for(spec: Spec) -> frozenset[str]:

@@ -30,6 +30,7 @@ class QueryResult:
     :param load: what the rates say, beside a verdict of profile rclpy on starvation.
     :param run: the run behind the verdict, or what gives it; use ``evidence``.
     :param in_doubt: undecided because of what is not known, and not of a limit.
+    :param repeated: names of callbacks of which several runs at a time matter to the verdict.
     """
 
     family: str | None
@@ -42,6 +43,7 @@ class QueryResult:
     run: Evidence | Callable[[], Evidence] | NotKept | None
     load: Load | None = None
     in_doubt: bool = False
+    repeated: tuple[str, ...] = ()
 
     @cached_property
     def evidence(self) -> Evidence | None:

@@ -21,6 +21,7 @@ from ros2cc_extract.generator.serving import (
 from ros2cc_extract.generator.steps import NamedWait, Resource
 from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import foreign_wakes, waits_of
+from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
 from ros2cc_extract.spec.partners import server_of
 
@@ -35,6 +36,7 @@ class Facts:
     :param place: among all callbacks, in the order of their making.
     :param server: name of the service that answers it, for a client.
     :param is_open: it is asked for its end since something of it is in no model.
+    :param arrivals: how often data arrives for it; 0 for as often as for all.
     """
 
     name: str
@@ -49,6 +51,7 @@ class Facts:
     waits: tuple[NamedWait, ...] = ()
     server: str | None = None
     is_open: bool = False
+    arrivals: int = 0
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class Outline:
     groups: tuple[str, ...]
 
 
-def facts_of(callback: Callback, place: int, part: Spec) -> Facts:
+def facts_of(callback: Callback, place: int, part: Spec, arrivals: int = 0) -> Facts:
     """Collect what the model of ``part`` shows of one of its callbacks."""
     server = server_of(callback, part.callbacks)
     return Facts(
@@ -86,6 +89,7 @@ def facts_of(callback: Callback, place: int, part: Spec) -> Facts:
         tuple(waits_of(callback, part)),
         None if server is None else server.name,
         bool(left_out_of_models(callback, part)),
+        arrivals,
     )
 
 
@@ -95,9 +99,13 @@ def setting_of(part: Spec, max_cycle: int | None) -> Setting:
     return Setting(executor_kind(part), len(part.executor.threads), release, max_cycle)
 
 
-def outline_of(part: Spec, max_cycle: int | None) -> Outline:
+def outline_of(closed: ClosedSpec, max_cycle: int | None) -> Outline:
     """Give the outline of a part as it is written."""
-    facts = [facts_of(callback, place, part) for place, callback in enumerate(part.callbacks)]
+    part, arrivals = closed.spec, closed.arrivals
+    facts = [
+        facts_of(callback, place, part, arrivals.get(callback.name, 0))
+        for place, callback in enumerate(part.callbacks)
+    ]
     return outline(facts, setting_of(part, max_cycle))
 
 
@@ -143,6 +151,7 @@ def outline(facts: Iterable[Facts], setting: Setting) -> Outline:
                 tuple(numbers.of(wait) for wait in each.waits),
                 places.get(each.server or '') if waiting else None,
                 each.is_open,
+                each.arrivals,
             )
             for each in facts
         ),

@@ -194,6 +194,8 @@ class Slicer:
         """
         Name callbacks that may hold all threads while they wait, one of each exclusive group.
 
+        Whoever may overlap itself is named as often as data arrives for it.
+
         :param first: who has to be among them.
         :param rather: who is taken before others; ``without`` are those that are not taken.
         """
@@ -210,8 +212,10 @@ class Slicer:
         groups: set[object] = set()
         for name in order:
             group = self._by_name[name].group
-            if name in waits and group not in groups and len(taken) < self._threads:
-                taken.append(name)
+            if name in waits and group not in groups:
+                is_alone = group in self._exclusive
+                runs = 1 if is_alone else self.closed.arrivals.get(name, self.max_cycle)
+                taken += [name] * min(runs, self._threads - len(taken))
                 groups.update({group} & self._exclusive)
         return tuple(taken) if len(taken) == self._threads else None
 
@@ -249,7 +253,8 @@ class Slicer:
             groups=tuple(group for group in spec.groups if group.name in groups),
             executor=replace(spec.executor, kind=executor_kind(spec).value, threads=threads),
         )
-        return replace(self.closed, spec=part)
+        own = {name: n for name, n in self.closed.arrivals.items() if name in names}
+        return replace(self.closed, spec=part, arrivals=own)
 
     def outline(self, names: Names) -> Outline | None:
         """
@@ -263,8 +268,8 @@ class Slicer:
             threads = self._at_work([self._by_name[name] for name in names])
             setting = replace(self._setting, threads=min(threads, self._setting.threads))
             return outline(facts, setting)
-        part = self.cut(names).spec
-        return outline_of(part, self.max_cycle) if self.has_waits_of(part) else None
+        part = self.cut(names)
+        return outline_of(part, self.max_cycle) if self.has_waits_of(part.spec) else None
 
     @cached_property
     def _setting(self) -> Setting:
@@ -324,7 +329,8 @@ class Slicer:
 
     def _runs_by_arrivals(self, callback: Callback) -> int:
         """How often it may run at one time because of what arrives by itself."""
-        return self.max_cycle * runs_of_an_arrival(callback)
+        arrivals = self.closed.arrivals.get(callback.name, self.max_cycle)
+        return arrivals * runs_of_an_arrival(callback)
 
     @property
     def _spec(self) -> Spec:

@@ -64,7 +64,7 @@ def structural_verdicts(
             query = structural_starvation(of_unit)
             yield Structural(query, Verdict.UNDECIDED, limits.deadline.reason, 0.0, None)
             continue
-        outline = outline_of(part.spec, None)
+        outline = outline_of(part, None)
         role = (
             build.Family.STRUCTURAL_STARVATION.value,
             (outline.callbacks.index(callback.name),),

@@ -36,6 +36,7 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.again import ask_again
 from ros2cc_extract.verify.arrivals import TWO_ARRIVALS, needs_two_arrivals
 from ros2cc_extract.verify.asking import Found, Key, key_of
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
@@ -113,6 +114,14 @@ def verify_unit(
     if of_two:
         twice = replace(options, max_cycle=TWO_ARRIVALS)
         found = joined(found, _ask(of_two, closed, twice, progress, shelf))
+    if options.max_cycle == 1 and options.profile is build.Profile.RCLPY:
+        found = ask_again(
+            found,
+            queries,
+            closed,
+            lambda left, more, limits: _ask(left, more, options, progress, shelf, limits),
+            options.limits,
+        )
     left_out = left_out_of_deadlocks(closed.spec, options.profile)
     results = tuple(
         _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
@@ -137,13 +146,15 @@ def _ask(
     options: Options,
     progress: OnProgress | None,
     shelf: Shelf,
+    limits: Limits | None = None,
 ) -> Found:
     """Ask slices where they may decide, else the whole unit."""
+    limits = limits or options.limits
     search = partial(_search, options=options, progress=progress)
     if options.max_cycle is not None and _may_be_sliced(options):
         refute = partial(_refute, options=options)
-        return narrow(closed, queries, options.max_cycle, search, options.limits, shelf, refute)
-    return search(closed, [key_of(query) for query in queries], options.limits)
+        return narrow(closed, queries, options.max_cycle, search, limits, shelf, refute)
+    return search(closed, [key_of(query) for query in queries], limits)
 
 
 def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryResult:

@@ -94,10 +94,16 @@ class Tally:
 
 def watch(python: str, seeds: Sequence[int]) -> dict[int, list[str]]:
     """Run programs, and give for each the functions that stood still."""
+    stuck = stuck_in_files(python, {f'waiter_{seed}': program(seed) for seed in seeds})
+    return {seed: stuck[f'waiter_{seed}'] for seed in seeds if f'waiter_{seed}' in stuck}
+
+
+def stuck_in_files(python: str, texts: Mapping[str, str]) -> dict[str, list[str]]:
+    """Run programs by names, and give for each the functions that stood still."""
     with tempfile.TemporaryDirectory(prefix='ros2cc-waits-') as folder, own_environment() as env:
-        files = {Path(folder) / f'waiter_{seed}.py': seed for seed in seeds}
-        for file, seed in files.items():
-            file.write_text(program(seed), encoding='utf-8')
+        files = {Path(folder) / f'{name}.py': name for name in texts}
+        for file, name in files.items():
+            file.write_text(texts[name], encoding='utf-8')
         out = Path(folder) / 'out.jsonl'
         subprocess.run([python, str(WATCH), str(out), *map(str, files)], env=env, check=True)
         rows = [json.loads(line) for line in out.read_text(encoding='utf-8').splitlines()]

@@ -22,7 +22,7 @@ from pathlib import Path
 STILL_S = 3.0
 LOOKS_S = 0.25
 LONGEST_S = 7.0
-AT_ONCE = 5
+AT_ONCE = 10
 _OUTSIDE = ('<module>', 'main')
 
 

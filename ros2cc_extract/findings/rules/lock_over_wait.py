@@ -9,13 +9,14 @@ from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.verdicts import (
     PROGRESS,
+    is_of_repeated,
     refuting_run,
     rests_on_absent_service,
     shown_hang,
 )
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.findings.words import made_at, shown
-from ros2cc_extract.findings.workers import workers_of
+from ros2cc_extract.findings.words import made_at, plural, shown
+from ros2cc_extract.findings.workers import is_one_thread, workers_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Act
 from ros2cc_extract.spec.model import Callback
@@ -75,11 +76,18 @@ def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:
     others = [context.by_name[name] for name in stuck]
     again = others == [caller]
     who = 'another run of it' if again else shown(others)
+    # With one run at a time nobody is stuck: whether so many come together the rates decide.
+    rests_on_rates = any(is_of_repeated(other, context) for other in others)
+    how_many = 'all' if rests_on_rates else 'both'
+    one_thread = is_one_thread(context.unit.executor)
+    if rests_on_rates and not one_thread:
+        who = f'runs on all {plural(len(context.unit.executor.threads), "thread")}'
     return Hit(
         place=wait.place,
         message=f'{caller.display_name} holds {lock} while it waits in {wait.block.call}, and '
-        f'{who} may wait for {lock} meanwhile: then both wait for ever',
+        f'{who} may wait for {lock} meanwhile: then {how_many} wait for ever',
         help=f'give {lock} back before the wait, and take it again afterwards',
+        severity=_severity_by_rates(one_thread) if rests_on_rates else None,
         subjects=(caller.name, lock),
         chain=wait.chain,
         related=(
@@ -91,6 +99,10 @@ def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:
         ),
         run=shown_hang(others[0], {caller.name, *stuck}, context),
     )
+
+
+def _severity_by_rates(one_thread: bool) -> Severity:
+    return Severity.WARNING if one_thread else Severity.NOTE
 
 
 def _place(act: Act, callback: Callback) -> Place:
@@ -107,7 +119,9 @@ RULE = Rule(
     'spin, takes that lock. Neither goes on.',
     why='Whoever waits for a lock keeps its thread and its mutually exclusive group. In a nested '
     'spin of a single-threaded executor it even stands on the stack above the callback that '
-    'holds the lock. Decided by the model of profile `rclpy`: the run is shown. Semaphores, '
+    'holds the lock. Where it takes several runs of one callback in a reentrant group at a time, '
+    'it is a warning on one thread, and a note where they have to fill a pool. Decided by the '
+    'model of profile `rclpy`: the run is shown. Semaphores, '
     'locks of classes of your own and locks that are only tried are left out, and an '
     '`RLock` counts where another thread waits for it. Sources: Python, `threading`; rclpy 7.1.6 '
     'and 9.1.2, `executors.py`, `client.py`.',

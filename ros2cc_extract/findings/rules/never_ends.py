@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
-from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rule import Context, Doer, Hit, Rule
 from ros2cc_extract.findings.rules import (
     lock_over_wait,
     nested_spin,
@@ -20,6 +20,7 @@ from ros2cc_extract.findings.stuck import Stuck, shut_out_for, stuck_in, why_stu
 from ros2cc_extract.findings.used_up import used_up
 from ros2cc_extract.findings.verdicts import (
     PROGRESS,
+    is_of_repeated,
     refuting_run,
     rests_on_absent_service,
     shown_hang,
@@ -130,11 +131,14 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
     reason = why_stuck(first, stuck, context)
     is_counted = isinstance(workers, Workers) and workers.is_default
     names = [each.doer.name for each in together]
+    repeated = _repeated(stuck) if is_of_repeated(first.doer, context) else ()
+    where = _where_repeated(repeated)
+    severity = Severity.WARNING if is_counted or _keeps_the_program(first) else None
     return Hit(
         place=first.wait.place,
-        message=f'{who}{named}, but {reason}: it waits for ever',
-        help=_help(first, together, context),
-        severity=Severity.WARNING if is_counted or _keeps_the_program(first) else None,
+        message=f'{who}{named}, but {reason}: it waits for ever{where}',
+        help=_help_where_repeated(repeated) if where else _help(first, together, context),
+        severity=Severity.NOTE if where else severity,
         subjects=tuple(dict.fromkeys([*names, *first.enders])),
         chain=first.wait.chain,
         related=tuple(
@@ -143,9 +147,28 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
                 f'{called(each.doer)} waits here in {waits_in(each.wait)}',
             )
             for each in together[1:]
+            if each.wait.place != first.wait.place
         ),
         run=shown_hang(first.doer, {*names, *first.enders}, context),
     )
+
+
+def _repeated(stuck: Sequence[Stuck]) -> tuple[Doer, ...]:
+    """Who stands still in several runs at a time."""
+    doers = [each.doer for each in stuck]
+    return tuple(dict.fromkeys(doer for doer in doers if doers.count(doer) > 1))
+
+
+def _where_repeated(repeated: Sequence[Doer]) -> str:
+    if not repeated:
+        return ''
+    itself = 'itself' if len(repeated) == 1 else 'themselves'
+    return f' where {listing(map(called, repeated))} may overlap {itself} so often'
+
+
+def _help_where_repeated(repeated: Sequence[Doer]) -> str:
+    names = listing(map(called, repeated))
+    return f'put {names} into a mutually exclusive group of its own, with a thread to spare'
 
 
 def _keeps_the_program(stuck: Stuck) -> bool:
@@ -190,7 +213,9 @@ RULE = Rule(
     what='The model of the unit knows a run after which a callback, `main` or a thread of the '
     'program waits and nothing moves any more: nobody ends the wait, or whoever could cannot '
     'run, comes too early, or waits itself. This is the general rule; where a cause has a name '
-    'of its own, its rule speaks instead. The run is shown. As a warning: a bounded queue or a '
+    'of its own, its rule speaks instead. The run is shown. As a note: it takes several runs of '
+    'one callback at a time, which a reentrant group allows, to hold all threads or a lock; '
+    'whether so many come together the rates decide. As a warning: a bounded queue or a '
     'semaphore is used up by earlier runs, and who gives back cannot run while somebody waits.',
     why='A thread of the program that is no daemon keeps the process from its end. A callback '
     'keeps its thread and its mutually exclusive group while it waits. Two services that call '

@@ -7,15 +7,15 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.capacity import Capacity, capacity_of
-from ros2cc_extract.findings.claims import lets_one_wait
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
-from ros2cc_extract.findings.verdicts import run_in_which_one_hangs
+from ros2cc_extract.findings.verdicts import is_of_repeated, run_in_which_one_hangs
 from ros2cc_extract.findings.waits import Wait, WaitKind, kind_of, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.claims import lets_one_wait
 from ros2cc_extract.spec.model import Callback, EntityKind, When
 
 _MADE_BY_CALLBACKS = (EntityKind.DONE_CALLBACK, EntityKind.TASK)
@@ -55,7 +55,9 @@ def _found(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
     for hit in _judge(waits, capacity, workers_of(context.unit.executor)):
         first = [wait for wait in waits if wait.caller.name == hit.subjects[0]]
         run = run_in_which_one_hangs(first, context)
-        is_shown = run is not None and _is_of_endless_services(hit, waits, context)
+        rests_on_rates = any(is_of_repeated(wait.caller, context) for wait in first)
+        is_shown = run is not None and not rests_on_rates
+        is_shown = is_shown and _is_of_endless_services(hit, waits, context)
         severity = Severity.WARNING if is_shown and hit.severity is Severity.NOTE else hit.severity
         yield replace(hit, run=run, severity=severity)
 

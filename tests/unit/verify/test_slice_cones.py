@@ -209,7 +209,7 @@ def named(closed: ClosedSpec, *names: str) -> Spec:
 
 
 def shape_of(part: Spec) -> Shape:
-    return outline_of(part, 1).shape
+    return outline_of(ClosedSpec(spec=part, assumptions=()), 1).shape
 
 
 def test_names_are_no_part_of_a_shape() -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.findings.order import steps
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.order import steps
 
 
 def lets_one_wait(callback: Callback) -> bool:

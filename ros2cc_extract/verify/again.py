@@ -1,0 +1,51 @@
+"""
+A second look at claims about ends: with callbacks that fill the threads with runs of their own.
+
+One arrival for each callback is enough for all else; see ``arrivals.crowding`` for whom it is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from ros2cc_extract.checker.api import Limits, Verdict
+from ros2cc_extract.generator.build import Family, Query
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.verify.arrivals import crowding
+from ros2cc_extract.verify.asking import SLICE_STATES, Found, key_of, total, weighs_more
+from ros2cc_extract.verify.results import QueryResult
+
+Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
+_OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
+
+
+def ask_again(
+    found: Found, queries: Sequence[Query], closed: ClosedSpec, ask: Ask, limits: Limits
+) -> Found:
+    """
+    Ask again what one arrival for each has not refuted, and keep what is refuted or open now.
+
+    The search has its own bound on states: who waits may overlap itself in many a unit.
+    """
+    arrivals = crowding(closed.spec)
+    asked = [query for query in queries if query.family in _OF_ENDS]
+    left = [query for query in asked if _may_be_refuted(found.results[key_of(query)])]
+    if not arrivals or not left:
+        return found
+    more = replace(closed, arrivals=arrivals)
+    second = ask(left, more, replace(limits, states=limits.states or SLICE_STATES))
+    results = dict(found.results)
+    for query in left:
+        key = key_of(query)
+        if weighs_more(second.results[key], results[key]):
+            results[key] = replace(second.results[key], repeated=tuple(arrivals))
+    check = replace(
+        total((found.check, second.check)), complete=found.check.complete and second.check.complete
+    )
+    return Found(results, check, found.by_slices)
+
+
+def _may_be_refuted(result: QueryResult) -> bool:
+    """What a limit has left open one that is no wider does not decide."""
+    return result.verdict is Verdict.SATISFIED or result.in_doubt
