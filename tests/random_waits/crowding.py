@@ -7,7 +7,7 @@ _EVENT = """\
         super().__init__('crowd')
         self.given = threading.{made}
         self.create_timer(0.05, self.ask, callback_group={group}())
-        self.create_timer(0.5, self.tell, callback_group=MutuallyExclusiveCallbackGroup())
+        self.create_timer(1.5, self.tell, callback_group=MutuallyExclusiveCallbackGroup())
 
     def ask(self):
         self.given.{wait}()
@@ -21,7 +21,7 @@ _LOCK = """\
         self.lock = threading.Lock()
         self.answer = Future()
         self.create_timer(0.05, self.ask, callback_group={group}())
-        self.create_timer(0.5, self.tell, callback_group=MutuallyExclusiveCallbackGroup())
+        self.create_timer(1.5, self.tell, callback_group=MutuallyExclusiveCallbackGroup())
 
     async def ask(self):
         with self.lock:
