@@ -30,8 +30,16 @@ def is_used_up(block: Blocking, caller: object, context: Context) -> bool:
         return False
     if block.escapes is None or not block.escapes.reason.endswith(BY_ITSELF):
         return False
+    own = [waker for waker in block.wakers if waker.by == caller.name]
+    taken = sum(b.times for b in caller.blocking if _is_for_the_same(b, block))
+    if len(own) >= taken:
+        return False  # it gives back itself what it takes, perhaps on a branch
     givers = [context.by_name.get(waker.by) for waker in block.wakers]
     return all(giver is not None and _is_kept(giver, caller, context) for giver in givers)
+
+
+def _is_for_the_same(one: Blocking, other: Blocking) -> bool:
+    return one.resource == other.resource and one.call == other.call
 
 
 def _is_kept(giver: Callback, caller: Callback, context: Context) -> bool:

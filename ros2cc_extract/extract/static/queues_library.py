@@ -35,7 +35,16 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
     if _waits(call, 0):
         machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
     machine.note_wake(receiver, Word.GET, call.place)
+    _move(machine, receiver, Word.GET)
     return machine.mystery('what was put into a queue', call.place, 'get()')
+
+
+def _move(machine: Machine, queue: Value, word: Word) -> None:
+    """Where something was just put in there is something, where it was taken out there is room."""
+    world = machine.world
+    if (queue, Word.DONE) not in world.ready:  # else it was asked how many there are
+        world.ready -= {(queue, Word.PUT), (queue, Word.GET)}
+        world.ready |= {(queue, word)}
 
 
 def _put(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -43,6 +52,7 @@ def _put(machine: Machine, receiver: Value, call: Call) -> Value:
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, call)
     machine.note_wake(receiver, Word.PUT, call.place)
+    _move(machine, receiver, Word.PUT)
     return NONE
 
 
@@ -57,6 +67,8 @@ def _without_waiting(word: Word) -> Handler:
         if word is Word.PUT:
             give_items(machine, call)
         machine.note_wake(receiver, word, call.place)
+        if word is not Word.DONE:
+            _move(machine, receiver, word)
         return machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
     return handler
@@ -77,7 +89,7 @@ def _is_full(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _size(machine: Machine, receiver: Value, call: Call) -> Value:
     """Who has asked how much there is, be it in a test or for a loop, takes no more than that."""
-    machine.world.ready |= {(receiver, Word.PUT), (receiver, Word.GET)}
+    machine.world.ready |= {(receiver, word) for word in (Word.PUT, Word.GET, Word.DONE)}
     return machine.mystery('how full a queue is', call.place, 'queue')
 
 

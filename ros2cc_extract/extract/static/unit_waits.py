@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from ros2cc_extract.extract.static import barriers
+from ros2cc_extract.extract.static import barriers, stock
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
@@ -104,8 +104,8 @@ class UnitWaits:
             return False
         wakings = wakings_of(self._world, reference)
         given = [waking for waking in wakings if waking.word is Word.RELEASE]
-        is_counter = self._initial(reference, given) == 0
-        return not is_counter and any(waking.by is doer for waking in given)
+        initial = self._initial(reference, given)
+        return initial != 0 and stock.is_plain_lock(raw, doer, self._doers, given)
 
     def _named(self, raw: Blocking) -> Blocking:
         resource = raw.resource
@@ -226,8 +226,13 @@ class UnitWaits:
             wakers += more
             escapes = escapes or why
             named = replace(named, forgets=self._forgets(raw.resource, doer))
-            initial = self._initial(raw.resource, wakings_of(self._world, raw.resource))
-            if initial != 0:
+            wakings = wakings_of(self._world, raw.resource)
+            initial = self._initial(raw.resource, wakings)
+            given = [w for w in wakings if w.word in raw.resource.ended_by]
+            number = stock.counted(raw, initial, self._doers, given)
+            if number:
+                named = replace(named, initial=number)
+            elif initial != 0:
                 # A model of so many runs cannot say when they are used up.
                 many = 'some' if initial is None else f'the first {initial}'
                 reason = f'{many} {BY_ITSELF}'
