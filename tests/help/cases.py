@@ -37,7 +37,7 @@ class Mended:
     :param diff: what they ask for.
     :param left: codes of what is still found: what is wrong yet, and advice on the set-up.
     :param says: what must be said among it, where the way out does not lead out by itself.
-    :param shows: lines that come in this order; that it gets through, unless told otherwise.
+    :param shows: lines that come in this order; where there are none, that it gets through twice.
     :param is_run: not where it would end by what this machine or this release does not have.
     """
 
@@ -45,7 +45,7 @@ class Mended:
     diff: str
     left: tuple[str, ...] = ()
     says: str = ''
-    shows: tuple[str, ...] = (THROUGH, THROUGH)
+    shows: tuple[str, ...] = ()
     is_run: bool = True
 
 
@@ -60,6 +60,7 @@ class Case:
     :param help: the whole help.
     :param shows: lines that come in this order when the fault shows; where there are none, it
         shows by not getting through.
+    :param through: what it says when it gets through.
     :param aside: words of the help and of the page that are no way out of this program.
     :param is_run: not where the fault shows by chance or on other releases only.
     """
@@ -72,6 +73,7 @@ class Case:
     mended: tuple[Mended, ...]
     shows: tuple[str, ...] = ()
     aside: tuple[str, ...] = ()
+    through: str = THROUGH
     is_run: bool = True
 
     @property

@@ -17,6 +17,7 @@ from tests.help.cases import Case, Mended, cases, said
 JOINS = r'(?i)\W|\b(or|and|then|instead)\b'
 # Nothing is wrong with the program, or nothing of its own.
 NO_PROGRAM = {
+    'CC206': 'on rclpy 3.3.9 and older alone, which no wheel is there for',
     'CC500': 'what cannot be read is no program',
     'CC501': 'what is not resolved is no fault',
     'CC502': 'a comment of the check itself',
@@ -24,8 +25,6 @@ NO_PROGRAM = {
     'CC602': 'a requirement, which is not in the program',
     'CC603': 'a requirement, which is not in the program',
 }
-# Still to come.
-NOT_YET = {rule.code for rule in RULES if re.match('CC[234]', rule.code)}
 PAIRS = [
     pytest.param(case, mended, id=f'{case.name}-{at}')
     for case in cases()
@@ -73,6 +72,4 @@ def _rest(text: str, done: list[str]) -> str:
 
 
 def test_every_rule_has_its_help_carried_out() -> None:
-    assert {case.code for case in cases()} == {rule.code for rule in RULES} - set(
-        NO_PROGRAM
-    ) - NOT_YET
+    assert {case.code for case in cases()} | set(NO_PROGRAM) == {rule.code for rule in RULES}

@@ -81,14 +81,22 @@ def _hit(race: SelfRace, context: Context) -> Hit:
         place=race.use.place,
         message=f'{callback.display_name} may overlap itself {when}, and '
         + _WHAT[race.kind].format(name=name),
-        help='hold a lock around the update, or put the callback into a mutually exclusive group'
-        if not callback.groupless
-        else _HELP_OUTSIDE[race.kind],
+        help=_help(race),
         severity=Severity.NOTE if is_less or is_quick_timer(callback) else None,
         subjects=(callback.name, name),
         related=tuple(made_at(callback, context.group_of(callback))),
         run=refuting_run(SELF_OVERLAP, context, callback),
     )
+
+
+def _help(race: SelfRace) -> str:
+    """A lock kept over an await stops the threads of the other runs."""
+    group = 'put the callback into a mutually exclusive group'
+    if race.callback.groupless:
+        return _HELP_OUTSIDE[race.kind]
+    if race.callback.coroutine and race.waits:
+        return f'{group}, with what it awaits in another one'
+    return f'{_HELP_OUTSIDE[race.kind]}, or {group}'
 
 
 _WHAT = {
