@@ -11,12 +11,14 @@ PEP 590, which the limited API has from Python 3.12 on, and pybind11 does not kn
 from __future__ import annotations
 
 import argparse
+import hashlib
 import runpy
 import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib import metadata
 from pathlib import Path
 from unittest import mock
 
@@ -118,18 +120,22 @@ def object_of(source: Path, extension: Extension, target: Target) -> Path:
     text = source.read_text(encoding='utf-8')
     knows_python = '<Python.h>' in text or '<pybind11/' in text
     folder = WORK / 'objects' / target.system.zig / (target.version if knows_python else 'any')
-    to = folder / f'{source.name}.o'
-    if to.exists() and to.stat().st_mtime >= newest(source.parent):
+    to = folder / f'{source.stem}-{digest(source.parent, extension)}.o'
+    if to.exists():
         return to
     folder.mkdir(parents=True, exist_ok=True)
     includes = [f'-I{target.include}', f'-I{pybind11.get_include()}'] if knows_python else []
     command = [*zig(extension.language, target), *FLAGS, *includes, *extension.extra_compile_args]
-    subprocess.run([*command, '-c', source, '-o', to], check=True)
-    return to
+    unfinished = to.with_suffix('.unfinished')
+    subprocess.run([*command, '-c', source, '-o', unfinished], check=True)
+    return unfinished.rename(to)
 
 
-def newest(folder: Path) -> float:
-    return max(path.stat().st_mtime for path in [*folder.iterdir(), ROOT / 'setup.py'])
+def digest(folder: Path, extension: Extension) -> str:
+    """Tell texts, options and compilers apart; times of files say little after a rebase."""
+    said = [*FLAGS, *extension.extra_compile_args, *map(metadata.version, ('ziglang', 'pybind11'))]
+    texts = [path.read_bytes() for path in sorted(folder.iterdir()) if path.is_file()]
+    return hashlib.sha256(b'\0'.join([*texts, *map(str.encode, said)])).hexdigest()[:16]
 
 
 def zig(language: str | None, target: Target) -> list[str]:

@@ -32,12 +32,25 @@ HOOKS = {'run', 'env', 'attach'}
 def tell_what_is_missing(name: str, args: argparse.Namespace, stderr: TextIO) -> None:
     """Tell of what ``name`` would use; who asked for plain Python knows."""
     for module in _used(name, args):
-        try:
-            importlib.import_module(module)
-        except ImportError as error:
+        fault = _fault_of(module)
+        if fault:
             part, cost = PARTS[module]
-            told = f'{part} is not built, or does not load here ({error}): {cost}; {MEND}'
+            told = f'{part} is not built, or does not load here ({fault}): {cost}; {MEND}'
             print(f'ros2cc-extract: note: {told}', file=stderr)
+
+
+def _fault_of(module: str) -> str:
+    try:
+        importlib.import_module(module)
+    except ImportError as error:
+        return str(error)
+    if module == JOURNAL:
+        from ros2cc_extract.extract.live import journal
+
+        # Used in place, what was built of an older text stays where it is.
+        if journal.native is None:
+            return 'it was built of an older text'
+    return ''
 
 
 def _used(name: str, args: argparse.Namespace) -> Iterator[str]:

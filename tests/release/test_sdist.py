@@ -71,3 +71,14 @@ def test_how_native_parts_are_built_is_one_of_three() -> None:
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 1
     assert 'ROS2CC_NATIVE_BUILD is optional, required or none, and not maybe' in done.stderr
+
+
+@pytest.mark.parametrize(('native', 'status'), [('optional', 0), ('required', 1), ('none', 0)])
+def test_without_a_compiler_only_what_is_required_fails(
+    tree: Path, tmp_path: Path, native: str, status: int
+) -> None:
+    command = [sys.executable, 'setup.py', '-q', 'build', '--build-base', tmp_path]
+    environment = {'ROS2CC_NATIVE_BUILD': native, 'CC': '/nowhere/cc', 'CXX': '/nowhere/c++'}
+    done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True)
+    assert done.returncode == status, done.stderr
+    assert not list(tmp_path.rglob('*.so'))

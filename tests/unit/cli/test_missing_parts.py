@@ -11,6 +11,7 @@ import pytest
 
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.cli.missing_parts import CORE, JOURNAL, MEND, tell_what_is_missing
+from ros2cc_extract.extract.live import journal
 
 NODE = Path(__file__).parents[3] / 'launch_free_examples/two_groups/node.py'
 
@@ -59,7 +60,16 @@ def test_it_is_said_once_for_many_units() -> None:
     assert 'reference checker' in stdout.getvalue()
 
 
+def test_a_journal_of_an_older_text_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip(JOURNAL, reason='the native parts are not built')
+    monkeypatch.delenv('ROS2CC_LIVE_NATIVE', raising=False)
+    monkeypatch.setattr(journal, 'native', None)
+    assert '(it was built of an older text)' in told('run')
+
+
 def test_nothing_is_said_where_both_are_there() -> None:
     for module in (CORE, JOURNAL):
         pytest.importorskip(module, reason='the native parts are not built')
+    if journal.native is None:
+        pytest.skip('the journal is of an older text')
     assert told('check', engine='auto') + told('run') == ''
