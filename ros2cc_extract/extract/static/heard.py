@@ -41,7 +41,7 @@ def note_test(
     world: World, test: ast.expr, place: Place, found: frozenset[str], *, repeats: bool = False
 ) -> Asked:
     """A branch, or a loop that ``repeats``, rests on what was ``found`` to be read for it."""
-    is_open = (repeats and bool(found)) or any(map(_is_open, ast.walk(test)))
+    is_open = (repeats and bool(found)) or _may_rest_on_more(test)
     before = world.reading.asked.get(place)
     asked = Asked(found, holds_of(world), is_open)
     if before is not None and before.holds == asked.holds:
@@ -50,13 +50,21 @@ def note_test(
     return asked
 
 
-def _is_open(part: ast.AST) -> bool:
-    """Whether an answer may rest on what is no plain data of the program."""
-    if not isinstance(part, ast.Call):
-        return isinstance(part, ast.Await)
-    function = part.func
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-    return name not in _PLAIN
+def _may_rest_on_more(test: ast.expr) -> bool:
+    """Whether an answer may rest on more than attributes of known objects: calls, own names."""
+    owners = {id(part.value) for part in ast.walk(test) if isinstance(part, ast.Attribute)}
+    asked = {id(part.func) for part in ast.walk(test) if isinstance(part, ast.Call)}
+    return any(
+        (isinstance(part, ast.Call) and _name_of(part.func) not in _PLAIN)
+        or isinstance(part, ast.Await)
+        or (isinstance(part, ast.Attribute) and id(part) in owners)
+        or (isinstance(part, ast.Name) and id(part) not in owners | asked)
+        for part in ast.walk(test)
+    )
+
+
+def _name_of(function: ast.expr) -> str:
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
 
 
 @contextmanager

@@ -21,12 +21,13 @@ from ros2cc_extract.extract.static.outside_waits import (
     is_idle,
     spins,
 )
+from ros2cc_extract.extract.static.reading import Asked
 from ros2cc_extract.extract.static.relevance import walk
 from ros2cc_extract.extract.static.values import Heaped, Mystery, Value, choice
 from ros2cc_extract.extract.static.wait_table import WAITS
-from ros2cc_extract.extract.static.wakings import DataRef
+from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, TIME
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, TIME, Blocking
 
 POLL = 'polling loop'
 _LEAVES = (ast.Break, ast.Return, ast.Raise)
@@ -172,7 +173,9 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     if before is None or deeds is None:
         return
     _note_asked(machine, loop, deeds, before, frame)
-    if _is_told(machine, loop, deeds, before):
+    asked = machine.world.reading.asked.get(frame.place(loop))
+    inside = deeds.blocking[before.waits :]
+    if _is_told(machine, loop, deeds, before) or any(_is_guarded(b, asked) for b in inside):
         return
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):
@@ -221,6 +224,12 @@ def _note(
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
         machine.note_loop_on_data(call, unknown, None, place)
+
+
+def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
+    """Whether the loop asks, under the lock of a condition, for what it waits on that for."""
+    guard = block.resource.guard if isinstance(block.resource, ResourceRef) else None
+    return guard is not None and asked is not None and guard.hold in asked.holds
 
 
 def _is_idle(loop: ast.While, tests: list[ast.expr]) -> bool:

@@ -28,7 +28,8 @@ class Arm(Node):
         self.cond = threading.Condition()
         self.with_lock = threading.Condition(self.lock)
         self.arrived = threading.Event()
-        self.ready = False
+        self.ready, self.is_on = False, True
+        self.state = state_of_plant()
         self.client = self.create_client(Trigger, 'go', callback_group=free)
         self.once = self.create_timer(0.2, self.tell, callback_group=free)
         self.create_timer(1.0, self.work, callback_group=free)
@@ -91,6 +92,7 @@ def asking(test: str, loop: str = 'while') -> str:
         asking('not self.ready'),
         asking('not self.is_ready()'),
         asking('not self.arrived.is_set()', 'if'),
+        asking('not self.state.ready', 'if'),
         'with self.cond:\n    ready = self.ready\n    if not ready:\n        self.cond.wait()',
         'with self.cond:\n    if self.ready:\n        return\n    self.cond.wait()',
         'with self.cond:\n    while True:\n        if self.ready:\n            break\n'
@@ -109,6 +111,7 @@ def test_who_asks_under_the_lock_misses_nothing(work: str) -> None:
         WAITS,
         'if not self.ready:\n    with self.cond:\n        self.cond.wait()',
         'if self.ready:\n    return\nwith self.cond:\n    self.cond.wait()',
+        asking('self.is_on', 'if'),
         'while not self.ready:\n    with self.cond:\n        self.cond.wait()',
     ],
 )
@@ -162,3 +165,51 @@ def test_what_is_told_once_and_taken_back_is_not_decided() -> None:
     assert wait.escapes.reason == (
         'tell, which ends it, runs once only, and perhaps what it tells is taken back'
     )
+
+
+WORKER = """\
+import collections
+import threading
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Worker(Node):
+    def __init__(self):
+        super().__init__('worker')
+        self.jobs = collections.deque()
+        self.lock = threading.RLock()
+        self.more = threading.Condition(self.lock)
+        self.create_subscription(String, 'jobs', self.on_job, 10)
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def on_job(self, msg):
+        with self.lock:
+            self.jobs.append(msg)
+            self.more.notify()
+
+    def run(self):
+        while rclpy.ok():
+            with self.lock:
+                while not self.jobs:
+                    self.more.wait()
+                self.jobs.popleft()
+
+
+rclpy.init()
+rclpy.spin(Worker())
+"""
+
+
+def test_a_thread_that_asks_in_a_loop_waits_for_the_condition_and_holds_nothing() -> None:
+    (unit,) = scan_text(WORKER).units
+    (thread,) = unit.activities
+    (wait,) = thread.blocking
+    assert (wait.call, wait.held, wait.forgets, wait.escapes) == (
+        'Condition.wait',
+        (),
+        False,
+        None,
+    )
+    assert [waker.by for waker in wait.wakers] == ['on_job']
