@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.doing import ActivityState
+from ros2cc_extract.extract.static.joined import JOIN, never_joined
 from ros2cc_extract.extract.static.uncalled import uncalled_wakers
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.wakings import Word
@@ -181,12 +182,15 @@ def _may_be_spun_elsewhere(node: Instance) -> bool:
 
 def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagnostic]:
     """Nobody makes a future done, or only callbacks that nobody serves meanwhile end the wait."""
+    spun = (*wait.spun, *_spun_beside(wait, world))
+    if wait.call == JOIN:
+        yield from never_joined(wait, world, spun)
+        return
     name = thing.hint or thing.class_name
     words = frozenset({Word.PUT if wait.call == 'Queue.get' else Word.SET})
     wakings = [each for each in world.wakings.get(id(thing), ()) if each.word in words]
     if id(thing) in world.given or uncalled_wakers(world, name, words, thing.place):
         return
-    spun = (*wait.spun, *_spun_beside(wait, world))
     doers = [waking.by for waking in wakings]
     nodes = [doer.node for doer in doers if isinstance(doer, EntityState)]
     if len(nodes) < len(doers) or any(node is each for node in nodes for each in spun):

@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.held_locks import GIVEN
+from ros2cc_extract.extract.static.joined import note_join
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.reading import Asked
@@ -286,6 +287,7 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
     if not world.in_callback and not world.in_thread and not call.args and not call.keywords:
         world.spins_over = len(world.spins)
         _note_end(machine, receiver)
+        note_join(world, receiver, call.place)
     return _blocking('Thread.join', 0, 'timeout')(machine, receiver, call)
 
 

@@ -234,6 +234,7 @@ class OutsideWait:
     Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
 
     :param spun: the nodes that it spins meanwhile.
+    :param is_late: something has been spun before.
     """
 
     call: str
@@ -241,6 +242,7 @@ class OutsideWait:
     place: Place
     in_thread: bool
     spun: tuple[Instance, ...] = ()
+    is_late: bool = False
 
 
 @dataclass(eq=False)

@@ -18,7 +18,9 @@ NOBODY_SPINS = Rule(
     what='Code outside callbacks waits for the answer of a service or an action, or for an '
     'event, a queue or a future that a callback would end, and no other thread spins the node '
     'that must take it or, where both are in one program, the node that must give it. The wait '
-    'never ends. The same for `Rate.sleep` on a node that nobody has spun.',
+    'never ends. The same for `Rate.sleep` on a node that nobody has spun, and for `Thread.join` on '
+    'a thread that stands in a wait which only callbacks end: after the spin, where the thread '
+    'goes round in a loop, that is a warning.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '
@@ -41,7 +43,9 @@ def main():
     rclpy.spin(node)
 """,
     mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let one thread spin an '
-    'executor that has all nodes concerned, from before the wait on.',
+    'executor that has all nodes concerned, from before the wait on. Wake a thread before you '
+    'join it: put a last item into its queue, or notify its condition after its flag has changed '
+    'and let the predicate ask for the flag.',
 )
 LOCK_KEPT = Rule(
     code='CC112',
