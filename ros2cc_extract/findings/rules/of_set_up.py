@@ -18,9 +18,9 @@ NOBODY_SPINS = Rule(
     what='Code outside callbacks waits for the answer of a service or an action, or for an '
     'event, a queue or a future that a callback would end, and no other thread spins the node '
     'that must take it or, where both are in one program, the node that must give it. The wait '
-    'never ends. The same for `Rate.sleep` on a node that nobody has spun, and for `Thread.join` on '
-    'a thread that stands in a wait which only callbacks end: after the spin, where the thread '
-    'goes round in a loop, that is a warning.',
+    'never ends. The same for `Rate.sleep` on a node that nobody has spun, and for `Thread.join` '
+    'on a thread that stands in a wait which only callbacks end: after the spin, where the '
+    'thread goes round in a loop, that is a warning.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '

@@ -1,4 +1,4 @@
-"""Threads that the set-up joins, or what comes after its spin, while only callbacks end their waits."""
+"""Threads that are joined while only callbacks end their waits, and nobody serves these."""
 
 from __future__ import annotations
 
