@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies lint schema paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -126,6 +126,12 @@ dependencies: $(RELEASE)/prepared
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
 	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
+
+# docs/ as a site in build/site, strict; each node that it shows is checked anew, some 20 s of CPU.
+site: $(VENV)/installed
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[docs]'
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet
+	@echo "look at it: python3 -m http.server --directory build/site"
 
 rules: $(VENV)/installed
 	$(BIN)/python scripts/write-rule-pages

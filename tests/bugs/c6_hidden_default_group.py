@@ -24,7 +24,7 @@ class Arm(Node):
 
 def main():
     rclpy.init()
-    executor = MultiThreadedExecutor(num_threads=2)
+    executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(Arm())
     executor.spin()
 

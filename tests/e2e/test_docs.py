@@ -12,8 +12,8 @@ from ros2cc_extract.cli.main import COMMANDS
 from ros2cc_extract.findings.registry import BY_CODE
 from tests.e2e.conftest import ROOT
 
-PAGES = sorted([*(ROOT / 'docs').glob('*.md'), ROOT / 'README.md', ROOT / 'ARCHITECTURE.md'])
-LINK = re.compile(r'\]\((?!https?:)([^)#]+)[^)]*\)')
+PAGES = sorted([*(ROOT / 'docs').rglob('*.md'), ROOT / 'README.md', ROOT / 'ARCHITECTURE.md'])
+LINK = re.compile(r'\]\((?!https?:)([^)#\s]+)[^)]*\)')
 WORDS_AFTER_NAME = re.compile(r'ros2cc-extract (\w+) ')
 CODE = re.compile(r'\bCC\d{3}\b')
 
