@@ -143,7 +143,9 @@ def judged(wheel: Wheel, python: list[str], folder: Path) -> Outcome:
         'PYTHONPATH': str(folder / 'site'),
         'XDG_CACHE_HOME': str(folder / 'cache'),
     }
-    tests = TESTS if len(python) == 1 else EMULATED_TESTS
+    tests = TESTS
+    if len(python) > 1:
+        tests = (*EMULATED_TESTS, '--hypothesis-profile=emulated')
     commands = (['-c', SEEN], ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', *tests])
     told = []
     for command in commands:

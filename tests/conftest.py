@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # A change is judged by examples that are the same everywhere; `make test-long` draws new ones.
 settings.register_profile('same', derandomize=True)
 settings.register_profile('new', derandomize=False)
+# An emulated processor is slow, and nobody's fault.
+settings.register_profile(
+    'emulated',
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 settings.load_profile('same')
 
 
