@@ -9,6 +9,7 @@ in its name space for ever.
 
 from __future__ import annotations
 
+import ctypes
 import io
 import json
 import os
@@ -63,6 +64,8 @@ class Run:
         self.pid = os.fork()
         if self.pid == 0:
             os.setsid()
+            # It ends with its parent, however that ends: <linux/prctl.h>, PR_SET_PDEATHSIG.
+            ctypes.CDLL(None).prctl(1, signal.SIGKILL)
             os.dup2(writer, 1)
             os.dup2(writer, 2)
             os.environ['ROS_DOMAIN_ID'] = domain
