@@ -69,10 +69,17 @@ waits: $(VENV)/developed
 	$(BIN)/python -m tests.shapes.renew
 	$(BIN)/python -m tests.shapes.page
 
-# Random programs that wait, on both distributions: who hangs is never said to end.
+# Random programs that wait, on both distributions: who hangs is never said to end. They run first,
+# then all are judged, and whom the model calls stuck runs once more with pauses. Goes on where it
+# was cut.
+waits_suite = $(BIN)/python -m tests.random_waits.suite --programs $(PROGRAMS)
+waits_record = build/random_waits_$(1).jsonl
+random_waits_on = $(waits_suite) --python $(1)/bin/python --record $(call waits_record,$(2)) && \
+	$(waits_suite) --python $(1)/bin/python --judge $(call waits_record,$(2))
 random-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
-	$(BIN)/python -m tests.random_waits.suite --python $(JAZZY)/bin/python --programs $(PROGRAMS)
-	$(BIN)/python -m tests.random_waits.suite --python $(KILTED)/bin/python --programs $(PROGRAMS)
+	@mkdir -p build
+	$(call random_waits_on,$(JAZZY),jazzy)
+	$(call random_waits_on,$(KILTED),kilted)
 
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)

@@ -10,8 +10,12 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass, field
 
+from tests.random_waits.kinds import KINDS
+
 THREADS = (1, 1, 2, 2, 3)
 _HEAD = """\
+import asyncio
+import concurrent.futures
 import queue
 import threading
 import time
@@ -46,19 +50,6 @@ if __name__ == '__main__':
     main()
 """
 _GROUPS = ('MutuallyExclusiveCallbackGroup', 'ReentrantCallbackGroup')
-# Each resource: how it is made, a wait for it, and what ends the wait.
-_RESOURCES = {
-    'event': ('threading.Event()', 'self.{0}.wait()', 'self.{0}.set()'),
-    'queue': ('queue.Queue()', 'self.{0}.get()', 'self.{0}.put(1)'),
-    'semaphore': ('threading.Semaphore(0)', 'self.{0}.acquire()', 'self.{0}.release()'),
-    'condition': (
-        'threading.Condition()',
-        'with self.{0}:\n    self.{0}.wait()',
-        'with self.{0}:\n    self.{0}.notify_all()',
-    ),
-    'flag': ('False', 'while not self.{0}:\n    time.sleep(0.01)', 'self.{0} = True'),
-    'promise': ('Future()', 'await self.{0}', 'self.{0}.set_result(None)'),
-}
 
 
 @dataclass
@@ -90,20 +81,30 @@ class _Draw:
         self.clients: list[str] = []
         self.bodies: list[_Body] = []
         self.workers = 0
+        self.has_loop = False
 
     def text(self) -> str:
         """The whole program."""
         pick = self.random
         groups = [f'group_{n}' for n in range(pick.randint(1, 3))]
         set_up = [f'self.{group} = {pick.choice(_GROUPS)}()' for group in groups]
-        kinds = pick.choices(list(_RESOURCES), k=pick.randint(1, 3))
+        kinds = pick.choices(list(KINDS), k=pick.randint(1, 3))
         for number, kind in enumerate(kinds):
             self.resources[f'{kind}_{number}'] = kind
         self.locks = [f'lock_{n}' for n in range(pick.choice((0, 1, 1, 2)))]
         set_up += [f'self.{lock} = threading.Lock()' for lock in self.locks]
-        set_up += [f'self.{name} = {_RESOURCES[k][0]}' for name, k in self.resources.items()]
-        set_up += self._entities(groups)
+        if 'predicate' in kinds:
+            set_up.append('self.changed = threading.Condition()')
+        for name, kind in self.resources.items():
+            set_up.append(f'self.{name} = {KINDS[kind].made.format(name)}')
+        entities = self._entities(groups)
         self._fill()
+        if self.has_loop:
+            set_up += [
+                'self.loop = asyncio.new_event_loop()',
+                'threading.Thread(target=self.loop.run_forever, daemon=True).start()',
+            ]
+        set_up += entities
         bodies = '\n\n'.join(body.text for body in self.bodies)
         lines = '\n'.join(f'        {line}' for line in set_up)
         return (
@@ -163,13 +164,25 @@ class _Draw:
 
     def _operation(self, body: _Body, *, nested: bool) -> list[str]:
         pick = self.random
-        ways = [self._wait, self._wait, self._wake, self._wake, self._pause]
+        ways = [
+            self._wait,
+            self._wait,
+            self._wait,
+            self._wake,
+            self._wake,
+            self._wake,
+            self._pause,
+        ]
         if self.locks and not nested:
             ways += [self._lock]
         if self.clients:
             ways += [self._call]
+            if not body.name.startswith('work'):
+                ways += [self._spin] if pick.random() < 0.2 else []
         if not nested and self.workers < 2:
-            ways += [self._join]
+            ways += [self._join, self._bridge, self._task]
+        if not nested:
+            ways += [self._repeat] if pick.random() < 0.3 else []
         lines = pick.choice(ways)(body)
         if pick.random() < 0.1:
             return [f'if self.count_publishers({f"waiter_{self.seed}_topic"!r}) > 0:'] + [
@@ -182,7 +195,7 @@ class _Draw:
         fit = {
             name: kind
             for name, kind in self.resources.items()
-            if kind != 'promise' or not waits or body.is_coroutine
+            if not (waits and KINDS[kind].in_coroutines) or body.is_coroutine
         }
         if not fit:
             return 'pause', 'pause'
@@ -193,14 +206,11 @@ class _Draw:
         name, kind = self._resource(body, waits=True)
         if kind == 'pause':
             return self._pause(body)
-        return _RESOURCES[kind][1].format(name).splitlines()
+        return KINDS[kind].waits.format(name).splitlines()
 
     def _wake(self, body: _Body) -> list[str]:
         name, kind = self._resource(body, waits=False)
-        lines = _RESOURCES[kind][2].format(name).splitlines()
-        if kind == 'promise':
-            return [f'if not self.{name}.done():', f'    {lines[0]}']
-        return lines
+        return self._pause(body) if kind == 'pause' else KINDS[kind].ends.format(name).splitlines()
 
     def _pause(self, body: _Body) -> list[str]:
         return ['time.sleep(0.01)']
@@ -222,12 +232,47 @@ class _Draw:
             ]
         return [f'self.{client}.call(Trigger.Request())']
 
-    def _join(self, body: _Body) -> list[str]:
-        work = _Body(f'work_{self.workers}')
+    def _spin(self, body: _Body) -> list[str]:
+        client = self.random.choice(self.clients)
+        return [
+            f'answer = self.{client}.call_async(Trigger.Request())',
+            self.random.choice(
+                (
+                    'rclpy.spin_until_future_complete(self, answer)',
+                    'self.executor.spin_until_future_complete(answer)',
+                )
+            ),
+        ]
+
+    def _repeat(self, body: _Body) -> list[str]:
+        inner = self._operation(body, nested=True)
+        return ['for _ in range(2):', *(f'    {line}' for line in inner)]
+
+    def _work(self, *, is_coroutine: bool = False) -> _Body:
+        work = _Body(f'work_{self.workers}', is_coroutine=is_coroutine)
         self.workers += 1
         self.bodies.append(work)
         for _ in range(self.random.randint(1, 2)):
             work.lines += self._operation(work, nested=True)
+        return work
+
+    def _bridge(self, body: _Body) -> list[str]:
+        """A loop of asyncio on a thread of its own; its coroutines await no future of rclpy."""
+        self.has_loop = True
+        work = self._work()
+        work.is_coroutine = True
+        work.lines.insert(0, 'await asyncio.sleep(0.01)')
+        return [f'asyncio.run_coroutine_threadsafe(self.{work.name}(), self.loop).result()']
+
+    def _task(self, body: _Body) -> list[str]:
+        work = self._work(is_coroutine=self.random.random() < 0.5)
+        made = f'task = self.executor.create_task(self.{work.name})'
+        if body.is_coroutine and self.random.random() < 0.7:
+            return [made, 'await task']
+        return [made, 'while not task.done():', '    time.sleep(0.01)']
+
+    def _join(self, body: _Body) -> list[str]:
+        work = self._work()
         if self.random.random() < 0.5:
             return [
                 f'thread = threading.Thread(target=self.{work.name}, daemon=True)',

@@ -5,13 +5,17 @@ from __future__ import annotations
 import ast
 import os
 import sys
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from tests.random_waits.kinds import KINDS
 from tests.random_waits.programs import program
-from tests.random_waits.suite import Tally, judge, watch
+from tests.random_waits.recorded import Ran, add, load, unfinished
+from tests.random_waits.suite import ENDS, FOUND, Tally, judge, watch
 
-SEEDS = range(500, 515)
+SEEDS = range(30030, 30038)
 
 
 def test_a_seed_gives_one_program() -> None:
@@ -22,12 +26,51 @@ def test_a_seed_gives_one_program() -> None:
         ast.parse(text)
 
 
+def test_every_kind_of_wait_is_drawn() -> None:
+    texts = [program(seed) for seed in range(400)]
+    ways = [
+        kind.waits.format(f'{name}_0').splitlines()[-1].strip() for name, kind in KINDS.items()
+    ]
+    ways += ['.join()', 'run_coroutine_threadsafe', 'create_task', 'await task', 'for _ in range']
+    ways += ['rclpy.spin_until_future_complete', 'self.executor.spin_until_future_complete']
+    ways += ['.call(Trigger', 'await self.client', 'num_threads=3', 'group_2']
+    assert [way for way in ways if not any(way in text for text in texts)] == []
+
+
+def test_a_record_goes_on_where_it_was_cut(tmp_path: Path) -> None:
+    record = tmp_path / 'record.jsonl'
+    first = Ran(1, ('tick_0',))
+    add(record, [first, Ran(2, ())])
+    judged = replace(first, judged={'tick_0': FOUND})
+    add(record, [judged])
+    with record.open('a', encoding='utf-8') as stream:
+        stream.write('{"seed": 3, "st')
+    add(record, [Ran(2, ())])
+    known = load(record)
+    assert known == {1: judged, 2: Ran(2, ())}
+    assert unfinished(range(4), known) == [0, 3]
+
+
+def test_who_is_called_stuck_counts_after_a_disturbed_run() -> None:
+    tally = Tally()
+    for disturbed in (None, (), ('tick_0',)):
+        tally.add(Ran(1, (), disturbed, {'tick_0': FOUND, 'tick_1': ENDS}))
+    tally.add(Ran(2, ('tick_1',), None, {'tick_1': ENDS}))
+    assert tally.missed == [(2, 'tick_1')]
+    assert (tally.programs, tally.hung) == (4, 1)
+    assert tally.disturbed == {
+        'was not run again': 1,
+        'did not hang': 1,
+        'hung under a disturbed schedule': 1,
+    }
+
+
 @pytest.mark.live
 def test_who_hangs_is_never_said_to_end() -> None:
     tally = Tally()
     python = os.environ.get('ROS2CC_RCLPY_PYTHON', sys.executable)
     for seed, stuck in watch(python, SEEDS).items():
-        tally.add(seed, stuck, judge(program(seed)))
+        tally.add(Ran(seed, tuple(stuck), judged=judge(program(seed))))
     assert tally.programs == len(SEEDS)
     assert tally.hung > 0
     assert tally.missed == []
