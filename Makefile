@@ -135,8 +135,7 @@ schema: $(VENV)/installed
 	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
 
 # docs/ as a site in build/site, strict; each node that it shows is checked anew, some 20 s of CPU.
-site: $(VENV)/installed
-	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[docs]'
+site: $(VENV)/documented
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet
 	@echo "look at it: python3 -m http.server --directory build/site"
 
@@ -166,6 +165,10 @@ $(JAZZY)/bin/python $(KILTED)/bin/python $(RELEASE)/bin/python:
 $(VENV)/installed: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e .
 	@touch $@
+
+$(VENV)/documented: $(VENV)/bin/python pyproject.toml
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[docs]'
+	@touch $(VENV)/installed $@
 
 $(VENV)/developed: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[dev]'
