@@ -19,8 +19,9 @@ from ros2cc_extract.findings.waits import (
     ways_of_others,
     who_waits,
 )
+from ros2cc_extract.findings.words import listing
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.verify.caveats import open_ends
 from ros2cc_extract.verify.unit import Verdict
@@ -152,7 +153,7 @@ def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
     named = f' for {what}' if what else ''
     verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
     start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
-    ends = f'and {verb} for ever if nobody outside this program ends it'
+    ends = f'and {verb} for ever if {_nobody_else(wait)} outside this program ends it'
     return Hit(
         place=wait.place,
         message=f'{start} without a time-out, {ends}'
@@ -174,6 +175,12 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
     if wait.block.call == ENDLESS_LOOP:
         return 'let a timer do the work of the loop'
     return 'give it a time-out, or see to it that whoever ends it can be followed'
+
+
+def _nobody_else(wait: AnyWait) -> str:
+    """``nobody``, or with those of the unit that end it too."""
+    inside = [waker.by for waker in wait.block.wakers if waker.by not in (OUTSIDE, TIME)]
+    return f'neither {listing(inside)} nor anybody' if inside else 'nobody'
 
 
 UNDECIDED = Rule(

@@ -53,6 +53,15 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
     )
 
 
+def test_those_of_the_unit_that_end_it_too_are_named() -> None:
+    (wait,) = calls(None, call='Condition.wait')
+    wait = replace(wait, wakers=(Waker(by='drain', after=0), Waker(by=OUTSIDE)))
+    spec = unit(threads(2), timer('feed', blocking=(wait,)), timer('drain'))
+    assert only(spec, 'CC121').message.endswith(
+        'and waits for ever if neither drain nor anybody outside this program ends it'
+    )
+
+
 def serving(*locks: str) -> Activity:
     on = Unknown('result of websockets.serve, which is not scanned')
     wait = Blocking(call='await', on=on, source=at(60), held=locks)
