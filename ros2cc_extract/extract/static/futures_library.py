@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.values import (
     choice,
     options_of,
 )
+from ros2cc_extract.extract.static.wait_table import AWAITED
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState
 from ros2cc_extract.places import Place, Unknown
@@ -69,6 +70,8 @@ def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(coroutine, Coroutine):
         target = coroutine.function
         inner = Call(call.place, coroutine.call.args, coroutine.call.keywords, coroutine.call.more)
+    elif isinstance(coroutine, Instance):
+        target = coroutine.slots.get(AWAITED, coroutine)
     loop = call.argument(1, 'loop')
     turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
     begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)

@@ -335,7 +335,10 @@ def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
     """A task has no entity and no group (rclpy-semantics: work outside every group)."""
     assert isinstance(receiver, Instance)
     nodes = nodes_of(receiver)
-    add_task(machine, nodes[0] if nodes else None, call.argument(0), call.place)
+    task = call.argument(0)
+    if task is not None and (call.args[1:] or call.keywords):
+        task = Partial(task, tuple(call.args[1:]), dict(call.keywords))
+    add_task(machine, nodes[0] if nodes else None, task, call.place)
     return machine.future(call.place, 'task')
 
 
@@ -359,7 +362,10 @@ def add_task(
     if node is None:
         return None
     note_begun(world, place)
-    run = callback.function if isinstance(callback, Coroutine) else callback
+    run = callback
+    if isinstance(callback, Coroutine):
+        made = callback.call
+        run = Partial(callback.function, tuple(made.args), dict(made.keywords))
     for known in world.by_node.get(id(node), ()):
         is_here = known.place == place and known.kind is kind
         is_same = is_here and _name_of(known.key) == _name_of(key)

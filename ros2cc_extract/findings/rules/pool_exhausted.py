@@ -15,7 +15,7 @@ from ros2cc_extract.findings.waits import Wait, WaitKind, kind_of, waits_of
 from ros2cc_extract.findings.words import plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.claims import lets_one_wait
+from ros2cc_extract.spec.claims import admits_one, lets_one_wait
 from ros2cc_extract.spec.model import Callback, EntityKind, When
 
 _MADE_BY_CALLBACKS = (EntityKind.DONE_CALLBACK, EntityKind.TASK)
@@ -50,7 +50,11 @@ def find(context: Context) -> Iterator[Hit]:
 def _found(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)
-    unbounded = tuple(caller for caller in capacity.unbounded if not lets_one_wait(caller))
+    unbounded = tuple(
+        caller
+        for caller in capacity.unbounded
+        if not lets_one_wait(caller) and not admits_one(caller, context.unit)
+    )
     capacity = replace(capacity, unbounded=unbounded)
     for hit in _judge(waits, capacity, workers_of(context.unit.executor)):
         first = [wait for wait in waits if wait.caller.name == hit.subjects[0]]
