@@ -35,7 +35,7 @@ from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.words import called, listing
 from ros2cc_extract.once import once
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import ADDS, TAKES, Access
+from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.order import steps
 from ros2cc_extract.verify.evidence import Evidence
@@ -269,7 +269,7 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
 def _is_stale(first: Use, second: Use) -> bool:
     write, doer = first.access, first.doer
     read = read_for(write, doer) if write.rests and not write.in_place else None
-    if read is None or is_other_item(write, second.access):
+    if read is None or is_other_item(write, second.access) or _leaves_as_found(first, second):
         return False
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
@@ -323,6 +323,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
         is_told = not first.access.in_place and first.access.rests
+        is_told = is_told and not _leaves_as_found(first, second)
         if is_told and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
@@ -330,6 +331,8 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         if is_told and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
     if one.access.in_place and other.access.in_place:
+        return None
+    if _leaves_as_found(one, other) or _leaves_as_found(other, one):
         return None
     return RaceKind.LAST_WRITE_WINS, one, other
 
@@ -339,6 +342,8 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     for first, second in ((one, other), (other, one)):
         write = first.access
         read = read_for(write, first.doer) if write.rests and not write.in_place else None
+        if _leaves_as_found(first, second):
+            continue
         if read is not None and not keep_apart(
             kept_between(read, write, first.doer), second.access.locks
         ):
@@ -349,6 +354,12 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
 def _leaves_enough(first: Use, second: Use) -> bool:
     """Who takes an item out because there is one finds one, whatever others put in."""
     return first.access.moves == TAKES and second.access.moves == ADDS
+
+
+def _leaves_as_found(first: Use, second: Use) -> bool:
+    """Whether a write stores what the test of another has found: then that still holds."""
+    found, write = first.access.found, second.access
+    return (found is not None and write.clears) or (found == FOUND_FALSE and write.lowers)
 
 
 def _is_of_threads(*uses: Use) -> bool:

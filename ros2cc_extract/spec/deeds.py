@@ -106,6 +106,7 @@ RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
 FLAG = ' (flag)'
 ADDS, TAKES = 'adds', 'takes'
+FOUND_NONE, FOUND_FALSE = 'None', 'false'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,7 +128,9 @@ class Access:
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
-    :param clears: true where ``None`` is stored.
+    :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
+    :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
+        ``FOUND_FALSE`` where anything false would do.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
@@ -146,6 +149,8 @@ class Access:
     item: str | None = None
     rests: bool = False
     clears: bool = False
+    lowers: bool = False
+    found: str | None = None
     constant: bool = False
     compared: bool = False
     admits: bool = False

@@ -128,6 +128,8 @@ ACCESS = record(
                 ('item', 'item', optional(TEXT)),
                 ('rests', 'rests', FLAG),
                 ('clears', 'clears', FLAG),
+                ('lowers', 'lowers', FLAG),
+                ('found', 'found', optional(TEXT)),
                 ('constant', 'constant', FLAG),
                 ('compared', 'compared', FLAG),
                 ('admits', 'admits', FLAG),

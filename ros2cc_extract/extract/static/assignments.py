@@ -82,6 +82,7 @@ class Assignments(Machine):
                 self._note_same_unknown(old, value)
                 new = value if len(options) == 1 or old is None else choice([old, value])
                 self.store.write(option, name, new)  # type: ignore[arg-type]
+                self.note_held(option, name, value)
                 self.world.stored.setdefault((option, name), {})[place] = value
             if old is None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import flags, heard
+from ros2cc_extract.extract.static import flags, heard, homes
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.held_locks import is_counter, lock_of
 from ros2cc_extract.extract.static.machine import Frame
@@ -42,6 +42,7 @@ from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
+_OF_CONTENT = (AccessKind.READ, AccessKind.UPDATE_IN_PLACE)
 _RE_ENTRANT = ('rlock', 'condition')
 _LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
@@ -65,12 +66,29 @@ class Effects(Waits):
         cls = owner.cls if isinstance(owner, Instance) else owner
         if not isinstance(cls, Class) or self._is_behaviour(owner, name):
             return
-        shown = f'{_object_name(owner, cls)}.{unmangled(name, cls.name)}'
+        attribute = unmangled(name, cls.name)
+        shown = f'{_object_name(owner, cls)}.{attribute}'
         is_own = isinstance(owner, Instance) and owner.born is self.world.deeds
+        home = homes.home_of(self.world, owner, name) if kind in _OF_CONTENT else None
+        if home is not None and home[1] != shown:
+            shown, is_own = self._seen_at(home), False
         if kind is AccessKind.WITHIN or (is_own and kind is not AccessKind.READ):
             self.world.deeds.own.append(shown)
         elif not is_own:
-            self._note_access(shown, kind, place)
+            self._note_access(shown, kind, place, attribute)
+
+    def _seen_at(self, home: homes.Home) -> str:
+        """Who touches a collection touches what held it first."""
+        owner, shown = home
+        if self.world.activity is not None:
+            touch(self.world.activity, owner)
+        return shown
+
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """An attribute has got a value: a collection is known by the first one that holds it."""
+        if isinstance(owner, Instance) and isinstance(owner.cls, Class):
+            shown = f'{_object_name(owner, owner.cls)}.{unmangled(name, owner.cls.name)}'
+            homes.note_held(self.world, owner, name, value, shown)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
@@ -83,14 +101,17 @@ class Effects(Waits):
         shown = f'{_object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
         world.other_writes.setdefault(shown, (by, place))
 
-    def _note_access(self, name: str, kind: AccessKind, place: Place) -> None:
+    def _note_access(
+        self, name: str, kind: AccessKind, place: Place, attribute: str | None = None
+    ) -> None:
         deeds = self.world.deeds
         if deeds is None:
             return
         is_read, reading = kind is AccessKind.READ, self.world.reading
+        is_stored = kind is AccessKind.WRITE
         if is_read:
             reading.read.add(name)
-        at = place, name.rpartition('.')[2]
+        at = place, attribute or name.rpartition('.')[2]
         rests = reading.governs(name, self.world.path) or name in reading.flowing
         is_used = rests and is_read and at in reading.used
         if kind is AccessKind.WRITE:
@@ -108,8 +129,10 @@ class Effects(Waits):
             rests=is_used or (rests and not is_read),
             compared=is_read and at in reading.compared,
             later=is_used and reading.has_called_since(name, self.world.path),
-            clears=kind is AccessKind.WRITE and reading.stored == NONE,
-            constant=kind is AccessKind.WRITE and rests and isinstance(reading.stored, Const),
+            clears=is_stored and reading.stored == NONE,
+            lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
+            found=reading.found_of(name, self.world.path) if is_stored else None,
+            constant=is_stored and rests and isinstance(reading.stored, Const),
             chain=self.world.chain[1:],
         )
         accesses = deeds.reads if is_read else deeds.writes
@@ -154,6 +177,12 @@ class Effects(Waits):
                 self.note_attribute(owner, frame.attribute_name(target.attr), kind, place)
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
             self.note_global(frame.module, target.id, kind, place)
+        elif isinstance(target, ast.Name) and kind in _OF_CONTENT and self.world.homes:
+            noted, self.world.deeds = self.world.deeds, None
+            held = self.evaluate(target, frame)
+            self.world.deeds = noted
+            for home in homes.homes_of(self.world, held):
+                self._note_access(self._seen_at(home), kind, place, target.id)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
         scope: Scope | None = frame.scope
@@ -328,6 +357,10 @@ def _iterated(node: ast.expr) -> Iterator[ast.expr]:
         elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
             for argument in node.args:
                 yield from _iterated(argument)
+
+
+def _is_false(stored: Value | None) -> bool:
+    return isinstance(stored, Const) and not stored.value
 
 
 def _is_semaphore(value: Instance) -> bool:

@@ -19,12 +19,13 @@ from ros2cc_extract.extract.static.reading import Reading
 from ros2cc_extract.extract.static.values import NONE, Call, Const, Value, options_of
 from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import FLAG
+from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE
 from ros2cc_extract.spec.model import EntityKind
 
 _THEN, _ELSE, _AFTER = 0, 1, -1
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _REFUSING = 'REJECT'
+_Asked = tuple[str, bool, str]
 
 
 def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place) -> None:
@@ -35,14 +36,15 @@ def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place
     is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
     is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
     steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
-    for attribute, down_if in _flags_of(node.test):
+    for attribute, down_if, value in _flags_of(node.test):
         meant = names.get(attribute, ())
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)
+            reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
 
 
-def _flags_of(test: ast.expr) -> Iterator[tuple[str, bool]]:
+def _flags_of(test: ast.expr) -> Iterator[_Asked]:
     """The flags that are down where all of ``test`` holds, or where nothing of it does."""
     if isinstance(test, ast.BoolOp):
         down_if = isinstance(test.op, ast.And)
@@ -54,21 +56,21 @@ def _flags_of(test: ast.expr) -> Iterator[tuple[str, bool]]:
         yield asked
 
 
-def _asked(test: ast.expr) -> tuple[str, bool] | None:
-    """The flag that a test asks for, and what it gives where that is down."""
+def _asked(test: ast.expr) -> _Asked | None:
+    """The flag that a test asks for, what it gives where that is down, and what it holds then."""
     if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
         inner = _asked(test.operand)
-        return None if inner is None else (inner[0], not inner[1])
+        return None if inner is None else (inner[0], not inner[1], inner[2])
     if isinstance(test, ast.Compare) and len(test.ops) == 1:
         right, asked = test.comparators[0], _asked(test.left)
         down_if = {ast.Is: True, ast.IsNot: False}.get(type(test.ops[0]))
         is_none = isinstance(right, ast.Constant) and right.value is None
         if asked is None or down_if is None or not is_none or isinstance(test.left, ast.Compare):
             return None
-        return asked[0], down_if
+        return asked[0], down_if, FOUND_NONE
     if isinstance(test, ast.Attribute):
-        return test.attr, False
-    return (test.id, False) if isinstance(test, ast.Name) else None
+        return test.attr, False, FOUND_FALSE
+    return (test.id, False, FOUND_FALSE) if isinstance(test, ast.Name) else None
 
 
 def put_up(world: World, name: str) -> None:

@@ -217,6 +217,10 @@ class Machine(ABC):
         """An attribute is touched; matters while a callback runs."""
 
     @abstractmethod
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """An attribute has got a value: a collection is known by the first one that holds it."""
+
+    @abstractmethod
     def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
         """A global is touched; matters while a callback runs."""
 

@@ -51,6 +51,7 @@ class Reading:
     :param refusing: names because of which a goal was turned down.
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
+    :param found: what tests have found of them there, see ``Access.found``.
     """
 
     read: set[str] = field(default_factory=set)
@@ -62,6 +63,7 @@ class Reading:
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
+    found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
     asked: dict[Place, Asked] = field(default_factory=dict)
     loops: list[Asked] = field(default_factory=list)
     calls: int = 0
@@ -90,6 +92,13 @@ class Reading:
     def governs(self, name: str, path: Path) -> bool:
         """Whether a test of ``name`` has led to where the program is."""
         return any(name in self.tests.get(place, ()) for place, _ in path)
+
+    def found_of(self, name: str, path: Path) -> str | None:
+        """What tests of ``name`` have found, where nothing else of it matters any more."""
+        if name in self.flowing or not self.governs(name, path):
+            return None
+        known = [self.found.get(step, {}).get(name) for step in path]
+        return next((each for each in reversed(known) if each is not None), None)
 
     def refuse(self, path: Path, found: Iterable[str]) -> None:
         """A goal is turned down here, after tests of what led here and of what was found."""

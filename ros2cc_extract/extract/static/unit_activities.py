@@ -85,7 +85,7 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
         name=name,
         kind=state.kind,
         function=facts.function,
-        node=names.get(id(owner)) if owner is not None else None,
+        node=names.get(id(owner)) or _only_node(state, names),
         cls=owner.class_name if owner is not None and isinstance(owner.cls, Class) else None,
         starts=tuple(_starts(state, names, waits)),
         count=state.count,
@@ -103,6 +103,13 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
         publishes=tuple(deeds.publishes),
         changes=tuple(deeds.changes),
     )
+
+
+def _only_node(state: ActivityState, names: dict[int, str]) -> str | None:
+    """The node of all that a thread touches, whose function is no method of a node."""
+    if state.kind is ActivityKind.MAIN or len(state.nodes) != 1:
+        return None
+    return names.get(next(iter(state.nodes)))
 
 
 def _takes_turns(state: ActivityState, starter: object) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from finding_units import (
@@ -27,6 +28,7 @@ from finding_units import (
 )
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
@@ -441,4 +443,54 @@ def test_what_a_transition_does_before_it_makes_a_callback_comes_first(
             changes=made,
         ),
     )
+    assert races(spec) == expected
+
+
+CLAIM = """
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.first = None
+        self.create_subscription(Empty, 'in', self.on_msg, 10)
+        self.create_timer(1.0, self.reset, callback_group=MutuallyExclusiveCallbackGroup())
+
+    def on_msg(self, msg):
+        {test}
+            self.first = msg
+
+    def reset(self):
+        {write}
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=2)
+executor.add_node(Arm())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('test', 'write', 'expected'),
+    [
+        ('if self.first is None:', 'self.first = None', []),
+        ('if not self.first:', 'self.first = None', []),
+        ('if not self.first:', 'self.first = False', []),
+        ('if self.first is None:', 'self.first = False', ['CC301:17 warning']),
+        ('if self.first is None:', 'self.first = 1', ['CC301:17 warning']),
+        ('if self.first is not None:', 'self.first = None', ['CC301:17 warning']),
+        ('if self.first is None or msg:', 'self.first = None', ['CC301:17 warning']),
+        ('if self.first is None:', 'self.first = None; self.first = 1', ['CC301:17 warning']),
+    ],
+)
+def test_a_write_of_what_a_test_has_found_is_no_disturbance(
+    test: str, write: str, expected: list[str], tmp_path: Path
+) -> None:
+    path = tmp_path / 'arm.py'
+    path.write_text(CLAIM.format(test=test, write=write), encoding='utf-8')
+    (spec,) = scan([path], root=tmp_path).units
     assert races(spec) == expected

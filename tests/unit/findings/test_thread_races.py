@@ -247,3 +247,80 @@ def test_from_source(first: str, expected: list[str], tmp_path: Path) -> None:
     path.write_text(NODE.format(first=first, second='self.lock'), encoding='utf-8')
     (spec,) = scan([path], root=tmp_path).units
     assert [code for code in found(spec) if code.startswith('CC3')] == expected
+
+
+HANDED_ON = """
+import rclpy, threading, time
+from rclpy.node import Node
+
+class Link(threading.Thread):
+    def __init__(self, rows):
+        super().__init__(daemon=True)
+        self.lines = rows
+
+    def run(self):
+        while True:
+            for row in {over}:
+                time.sleep(0.1)
+
+def show(rows):
+    while True:
+        for row in {local}:
+            time.sleep(0.1)
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.rows = {{}}
+        self.link = Link(self.rows)
+        self.link.start()
+        threading.Thread(target=show, args=(self.rows,), daemon=True).start()
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        self.rows[time.time()] = 1
+
+    {more}
+
+class Leg(Node):
+    def __init__(self):
+        super().__init__('leg')
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        pass
+
+rclpy.init()
+executor = rclpy.executors.SingleThreadedExecutor()
+executor.add_node(Arm())
+executor.add_node(Leg())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('texts', 'expected'),
+    [
+        (('self.lines.items()', 'list(rows)'), ['CC301:12 warning']),
+        (('list(self.lines.items())', 'rows.values()'), ['CC301:17 warning']),
+        (('list(self.lines.items())', 'list(rows)'), []),
+        (('dict(self.lines)', 'sorted(rows)'), []),
+        (('self.lines.copy()', 'rows.copy().items()'), []),
+    ],
+)
+def test_a_collection_handed_to_a_thread_is_the_same_one(
+    texts: tuple[str, str], expected: list[str], tmp_path: Path
+) -> None:
+    assert _handed_on(*texts, tmp_path) == expected
+
+
+def test_a_collection_that_is_replaced_is_another_one(tmp_path: Path) -> None:
+    more = 'def reset(self): self.rows = {}'
+    assert _handed_on('self.lines', 'rows', tmp_path, more) == []
+
+
+def _handed_on(over: str, local: str, folder: Path, more: str = 'pass') -> list[str]:
+    path = folder / 'arm.py'
+    path.write_text(HANDED_ON.format(over=over, local=local, more=more), encoding='utf-8')
+    (spec,) = scan([path], root=folder).units
+    return [code for code in found(spec) if code.startswith('CC3')]

@@ -1,0 +1,48 @@
+"""
+Collections that are known under several names: each is named after the attribute that held it first.
+
+A dictionary that is handed to a helper or to a thread is one object under two names, and what
+changes it under the one is seen under the other.
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.relevance import reassigned_attributes
+from ros2cc_extract.extract.static.values import Class, Instance, Value, options_of
+from ros2cc_extract.extract.static.world import World
+
+Home = tuple[Instance, str]
+_FIXED = ('tuple', 'frozenset')
+
+
+def note_held(world: World, owner: Value, attribute: str, value: Value, shown: str) -> None:
+    """``owner`` holds ``value`` from here on; ``shown`` names the attribute."""
+    if not isinstance(value, Collection) or getattr(value, 'kind', '') in _FIXED:
+        return
+    if isinstance(owner, Instance) and not _is_reassigned(owner, attribute):
+        world.homes.setdefault(value, (owner, shown))
+
+
+def home_of(world: World, owner: Value, attribute: str) -> Home | None:
+    """Who held first the collection that an attribute holds for good, and how it is called."""
+    if not isinstance(owner, Instance) or not world.homes:
+        return None
+    held = owner.slots.get(attribute)
+    if not isinstance(held, Collection) or _is_reassigned(owner, attribute):
+        return None
+    return world.homes.get(held)
+
+
+def homes_of(world: World, value: Value) -> list[Home]:
+    """The same of the collections that a local variable may hold."""
+    known = (world.homes.get(v) for v in options_of(value) if isinstance(v, Collection))
+    return [home for home in known if home is not None]
+
+
+def _is_reassigned(owner: Instance, attribute: str) -> bool:
+    """Whether a method stores another one there: then the names part, nobody knows when."""
+    return any(
+        isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)
+        for cls in owner.mro
+    )
