@@ -79,6 +79,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
         f'holds {held}: {" and ".join(stopped)} of the node wait that long',
         help='let a timer that cancels itself go on after the pause'
         + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
+        severity=Severity.NOTE if not others and wait.kind is not WaitKind.SLEEP else None,
         subjects=(wait.caller.name,),
         chain=wait.chain,
         related=(*made_at(wait.caller), *served_at(executor, wait.place), *_listed(more)),
@@ -118,7 +119,8 @@ RULE = Rule(
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
     'default group of its node. Everything else there waits, also the parameter services: '
     '`ros2 param` hangs. A wait with a time-out counts too: it lasts that long where nothing '
-    'comes. Rounds of a loop are counted where their number is known, and short sleeps are added '
+    'comes. It is only a note where nobody waits but the services that rclpy itself has made: '
+    'they wait that long in the rare case alone, and then go on. Rounds of a loop are counted where their number is known, and short sleeps are added '
     'up where no branch skips them. A callback has one finding, at the longest of them.',
     why='Every node has six parameter services and a type-description service in its default '
     'group, which is mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and '

@@ -105,6 +105,15 @@ def test_a_wait_with_a_long_time_out_delays_like_a_sleep(call: str) -> None:
     assert waiting(1.5, 'other') == []
 
 
+@pytest.mark.parametrize('executor', [ONE_THREAD, threads(2)])
+def test_a_wait_that_holds_up_only_what_rclpy_made_is_a_note(executor: Executor) -> None:
+    wait = calls(None, call='Event.wait', seconds=1.5)
+    alone = unit(executor, timer('a', blocking=wait))
+    assert [code for code in found(alone) if code.startswith('CC2')] == ['CC201:40 note']
+    nap = unit(executor, timer('a', blocking=sleeps(1.5)))
+    assert [code for code in found(nap) if code.startswith('CC2')] == ['CC201:50 warning']
+
+
 def test_message_of_a_wait_with_a_long_time_out() -> None:
     wait = calls(None, call='Condition.wait', seconds=1.5)
     spec = unit(ONE_THREAD, timer('a', blocking=wait), timer('b'))
