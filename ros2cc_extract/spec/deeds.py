@@ -80,6 +80,8 @@ class Blocking:
     :param conditional: true where a branch may skip the wait.
     :param only_if: what leads there, where a parameter decides and its default does not.
     :param assumed: the rule by which ``seconds`` was assumed.
+    :param unread: ``stdout`` or ``stderr`` of a child process whose end is waited for while nobody
+        reads that pipe.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
     """
 
@@ -99,6 +101,7 @@ class Blocking:
     conditional: bool = False
     only_if: str | None = None
     assumed: str | None = None
+    unread: str | None = None
     times: int = 1
 
 

@@ -102,6 +102,7 @@ BLOCKING = record(
                 ('conditional', 'conditional', FLAG),
                 ('only_if', 'only_if', optional(TEXT)),
                 ('assumed', 'assumed', optional(TEXT)),
+                ('unread', 'unread', optional(TEXT)),
                 ('times', 'times', COUNT),
                 ('held', 'held', listing(TEXT)),
                 _SOURCE,

@@ -20,6 +20,8 @@ class Deeds:
     :param own: names of what only the loop around it asks for: changes of objects that nobody
         else has, and of what lies in a collection.
     :param stored: names of what is written in a hold of a lock, see ``heard.py``.
+    :param unread: of waits for a child process, where it is made and which pipe of it is not read
+        before, see ``pipes.py``.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -34,6 +36,7 @@ class Deeds:
     behind: object = None
     stored: dict[Hold, set[str]] = field(default_factory=dict)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
+    unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
 
 
 def way_of(block: Blocking) -> object:

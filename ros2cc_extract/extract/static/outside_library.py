@@ -10,8 +10,10 @@ less means for ever) and ``videoio`` (a read takes as long as a frame, and gives
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static import pipes
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, Property
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.relevance import noted_on, walk
@@ -32,6 +34,7 @@ _TIMEOUT = 'timeout'
 _LIMIT = '__timeout__'
 _WAIT_KEY = 'cv2.waitKey'
 _READ = 'os.read'
+_COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
 _CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
 
 
@@ -113,9 +116,17 @@ def _waiting(name: str, row: _Wait) -> Handler:
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         if not (is_at_once and row.takes_limit) and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
+        if name == pipes.WAIT and timeout in (None, NONE):
+            pipes.note_wait(machine.world, receiver, _streams(slots), call.place)
+        elif name == _COMMUNICATE:
+            pipes.note_read(machine.world, receiver)
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 
     return handler
+
+
+def _streams(slots: Mapping[str, object]) -> list[str]:
+    return [name for name in ('stdout', 'stderr') if f'{_PIPED}{name}' in slots]
 
 
 def _is_there(machine: Machine, name: str) -> bool:
@@ -180,13 +191,22 @@ def _kind_of_socket(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _child(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        for name in pipes.piped(call):
+            machine.store.write(receiver, f'{_PIPED}{name}', Const(value=True))
+    return NONE
+
+
 _INITS: dict[str, Handler] = {
     'serial.Serial': _limit(5, _TIMEOUT),
+    'subprocess.Popen': _child,
     'socket.socket': _kind_of_socket,
 }
 
 
 def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
+    pipes.note_read(machine.world, instance)
     return Instance(Name(_STREAM), instance.place)
 
 

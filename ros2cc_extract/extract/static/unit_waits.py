@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from ros2cc_extract.extract.static import barriers, stock
+from ros2cc_extract.extract.static import barriers, pipes, stock
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
@@ -218,6 +218,8 @@ class UnitWaits:
         forked = self._world.forked
         if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
             raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
+        unread = pipes.unread_at(self._world, raw, doer.deeds or Deeds())
+        named = replace(named, unread=unread)
         row = WAITS.get(raw.call, NO_ROW)
         wakers = [Waker(by=by) for by in row.always]
         escapes = raw.escapes

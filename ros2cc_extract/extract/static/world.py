@@ -331,6 +331,7 @@ class World:
     :param followed_later: how many methods of each class were followed without a caller.
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
     :param without_caller: the objects on which those were followed that nobody in sight calls.
+    :param readers: who reads the pipes of a child process, by the place where that is made.
     :param homes: the attribute that first held a collection, see ``homes.py``.
     :param locks: the locks that were taken, by the name they are stored under.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
@@ -415,6 +416,7 @@ class World:
     found_down: frozenset[str] = frozenset()
     open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
     still_down: frozenset[str] = frozenset()
+    readers: dict[Place, list[Deeds | None]] = field(default_factory=dict)
     homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)

@@ -25,7 +25,16 @@ from ros2cc_extract.findings.verdicts import (
     rests_on_absent_service,
     shown_hang,
 )
-from ros2cc_extract.findings.waits import Wait, waits_in
+from ros2cc_extract.findings.waits import (
+    AnyWait,
+    Wait,
+    at_one_place,
+    callers_of,
+    kind_of,
+    waits_in,
+    ways_of_others,
+    who_waits,
+)
 from ros2cc_extract.findings.words import called, listing, made_at
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
@@ -49,11 +58,36 @@ def find(context: Context) -> Iterator[Hit]:
 
     Who is held up by a wait that another rule explains is no finding of its own.
     """
+    yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
     if not open_facts(context):
         for together, stuck in unexplained(context):
             yield _hit(together, stuck, context)
         for wait in used_up(context):
             yield _once_used_up(wait, context)
+
+
+def _for_writers(context: Context) -> Iterator[AnyWait]:
+    """Waits for the end of children that wait for somebody to read what they write."""
+    for doer in context.doers:
+        blocks = (block for block in doer.blocking if block.unread is not None)
+        yield from (AnyWait(doer, block, kind_of(block)) for block in blocks)
+
+
+def _unread(waits: Sequence[AnyWait]) -> Hit:
+    wait = waits[0]
+    pipe = f'the pipe of its {wait.block.unread}'
+    it = 'it waits' if len(callers_of(waits)) == 1 else 'they wait'
+    return Hit(
+        place=wait.place,
+        message=f'{who_waits(waits)} in {waits_in(wait)} for a child process, and nobody reads '
+        f'{pipe} meanwhile: once that is full the child waits for a reader, and {it} for ever',
+        help='use communicate(), which reads while it waits; read the pipe before or in a thread, '
+        'or write to a file or DEVNULL',
+        severity=Severity.WARNING,
+        subjects=callers_of(waits),
+        chain=wait.chain,
+        related=tuple(ways_of_others(waits)),
+    )
 
 
 def _once_used_up(wait: Wait, context: Context) -> Hit:
@@ -216,12 +250,15 @@ RULE = Rule(
     'of its own, its rule speaks instead. The run is shown. As a note: it takes several runs of '
     'one callback at a time, which a reentrant group allows, to hold all threads or a lock; '
     'whether so many come together the rates decide. As a warning: a bounded queue or a '
-    'semaphore is used up by earlier runs, and who gives back cannot run while somebody waits.',
+    'semaphore is used up by earlier runs, and who gives back cannot run while somebody waits; or '
+    'the end of a child process is waited for while nobody reads the pipe it writes to.',
     why='A thread of the program that is no daemon keeps the process from its end. A callback '
     'keeps its thread and its mutually exclusive group while it waits. Two services that call '
     'each other each keep the group that the other needs. Decided by the model of profile '
     '`rclpy`, in which a waiting callback stays where it is until what it needs has run. '
-    'Sources: rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, `callback_groups.py`.',
+    'A pipe holds 64 KiB on Linux; a child that writes more waits for a reader. Sources: '
+    'Python 3.12, library reference, `subprocess` (`Popen.wait`); pipe(7); '
+    'rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, `callback_groups.py`.',
     bad="""\
 class Arms(Node):            # on_left and on_right each in a group of its own,
     def on_left(self, request, response):     # as are the clients

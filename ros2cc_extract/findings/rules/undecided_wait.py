@@ -85,7 +85,7 @@ def _reason(block: Blocking) -> str:
 
 def _ends_outside(block: Blocking) -> bool:
     wakers = {waker.by for waker in block.wakers}
-    return block.escapes is None and OUTSIDE in wakers
+    return block.escapes is None and OUTSIDE in wakers and block.unread is None
 
 
 def _is_for_spinning(wait: AnyWait) -> bool:
