@@ -37,7 +37,7 @@ def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place
     is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
     steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
     for attribute, down_if, value in _flags_of(node.test):
-        meant = names.get(attribute, ())
+        meant = names.get(attribute, [])
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)

@@ -1,5 +1,5 @@
 """
-Collections that are known under several names: each is named after the attribute that held it first.
+Collections under several names: each is known by the attribute that held it first.
 
 A dictionary that is handed to a helper or to a thread is one object under two names, and what
 changes it under the one is seen under the other.

@@ -118,10 +118,11 @@ RULE = Rule(
     title='Long sleep in a callback that others wait for',
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
     'default group of its node. Everything else there waits, also the parameter services: '
-    '`ros2 param` hangs. A wait with a time-out counts too: it lasts that long where nothing '
-    'comes. It is only a note where nobody waits but the services that rclpy itself has made: '
-    'they wait that long in the rare case alone, and then go on. Rounds of a loop are counted where their number is known, and short sleeps are added '
-    'up where no branch skips them. A callback has one finding, at the longest of them.',
+    '`ros2 param` hangs. A wait with a time-out counts too: it lasts that long where '
+    'nothing comes. It is only a note where nobody waits but the services that rclpy '
+    'itself has made: they wait that long in the rare case alone, and then go on. Rounds '
+    'of a loop are counted where their number is known, and short sleeps are added up '
+    'where no branch skips them. A callback has one finding, at the longest of them.',
     why='Every node has six parameter services and a type-description service in its default '
     'group, which is mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and '
     '9.1.2, `node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second, '

@@ -40,17 +40,18 @@ RULE = Rule(
     slug='lost-update',
     severity=Severity.WARNING,
     title='Attribute updated by callbacks that may overlap',
-    what='A callback reads an attribute and writes it back (`self.n += 1`, or a test followed by '
-    'an assignment), another callback writes it, the two may run at the same time, and no lock '
-    'is held by both. A write of what the test has found (`if self.x is '
-    'None`, and others only set it to None) is no disturbance. A change in place after a look (`if d: d.pop()`, `d[k] = d.get(k) + 1`) is '
-    'only a note: the two may mean different items. A loop over a dictionary, set or deque that '
-    'another callback changes meanwhile ends in a RuntimeError; one that is handed to a helper or '
-    'a thread stays the same, and a copy (`list(d.items())`) is another one. Threads that the program starts, '
-    'timers and tasks of pools among them, and `main` beside a thread that spins count as '
-    'callbacks do, on any executor. Not told is what is done before the start of a thread or '
-    'after its join, and where branches may leave out both. A flag that one tests and both set '
-    'to constants is only a note there.',
+    what='A callback reads an attribute and writes it back (`self.n += 1`, or a test followed '
+    'by an assignment), another callback writes it, the two may run at the same time, and '
+    'no lock is held by both. A write of what the test has found (`if self.x is None`, and '
+    'others only set it to None) is no disturbance. A change in place after a look (`if d: '
+    'd.pop()`, `d[k] = d.get(k) + 1`) is only a note: the two may mean different items. A '
+    'loop over a dictionary, set or deque that another callback changes meanwhile ends in '
+    'a RuntimeError; one that is handed to a helper or a thread stays the same, and a copy '
+    '(`list(d.items())`) is another one. Threads that the program starts, timers and tasks '
+    'of pools among them, and `main` beside a thread that spins count as callbacks do, on '
+    'any executor. Not told is what is done before the start of a thread or after its '
+    'join, and where branches may leave out both. A flag that one tests and both set to '
+    'constants is only a note there.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between reading and writing. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '
