@@ -38,7 +38,7 @@ def faults(wheel: Path) -> list[str]:
     told = []
     if not found or found[1] not in wheel.stem.split('-')[-1].split('.'):
         told.append(f'{wheel.name}: auditwheel says {found[1] if found else said + done.stderr}')
-    if 'requires no external shared libraries' not in said:
+    if 'external shared libraries are required by the wheel' in said:
         told.append(f'{wheel.name}: needs shared libraries that the system does not promise')
     return told + [f'{wheel.name}: {part} is not there once' for part in missing(wheel)]
 

