@@ -103,6 +103,7 @@ BLOCKING = record(
                 ('only_if', 'only_if', optional(TEXT)),
                 ('assumed', 'assumed', optional(TEXT)),
                 ('unread', 'unread', optional(TEXT)),
+                ('repeats', 'repeats', FLAG),
                 ('times', 'times', COUNT),
                 ('held', 'held', listing(TEXT)),
                 _SOURCE,

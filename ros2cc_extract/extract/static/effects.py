@@ -247,6 +247,7 @@ class Effects(Waits):
                     tries=may_fail,
                 )
                 self.world.held = (*self.world.held, name)
+                self.world.loops_at[name] = self.world.open_loops
                 heard.begin_hold(self.world, name)
                 if self.world.deeds is not None:
                     note_once(self.world.deeds.locks, act)

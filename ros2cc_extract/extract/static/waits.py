@@ -93,6 +93,7 @@ class Waits(Machine):
             escapes=why if row is not NO_ROW else None,
             conditional=world.path != world.callback_path,
             only_if=only_if(world),
+            repeats=_is_in_a_loop_of_a_hold(world),
             times=world.times,
         )
         touch(world.activity, thing)
@@ -269,6 +270,11 @@ class Waits(Machine):
         if node is not None:
             self.note_change(change, node, place)
         return True
+
+
+def _is_in_a_loop_of_a_hold(world: World) -> bool:
+    loops = world.open_loops
+    return any(loops > world.loops_at.get(lock, loops) for lock in world.held)
 
 
 def _only_unless_done(world: World, thing: Value, word: Word) -> bool:

@@ -334,6 +334,7 @@ class World:
     :param readers: who reads the pipes of a child process, by the place where that is made.
     :param homes: the attribute that first held a collection, see ``homes.py``.
     :param locks: the locks that were taken, by the name they are stored under.
+    :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
         and ``begun`` where something was made or started in one.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
@@ -420,6 +421,7 @@ class World:
     homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)
+    loops_at: dict[str, int] = field(default_factory=dict)
     holds: dict[str, int] = field(default_factory=dict)
     begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.long_holds import LongHold, long_holds
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
-from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.findings.words import group_words, made_at, plural, served_at, shown
+from ros2cc_extract.findings.waits import AnyWait, Wait, WaitKind, waits_of
+from ros2cc_extract.findings.words import called, group_words, made_at, plural, served_at, shown
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import EntityKind
 from ros2cc_extract.verify.rates import least_slept_s
@@ -22,6 +23,7 @@ LISTED = 5
 
 def find(context: Context) -> Iterator[Hit]:
     """One finding per callback, at its longest pause; execute callbacks are CC203's."""
+    told: set[str] = set()
     pauses = (wait for wait in waits_of(context) if _is_pause(wait))
     for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
         own = list(waits)
@@ -29,7 +31,33 @@ def find(context: Context) -> Iterator[Hit]:
         if not long and least_slept_s(own[0].caller.blocking) >= LONG_SLEEP_S:
             long = [wait for wait in own if not wait.block.conditional]
         if long:
-            yield from _hits(tuple({wait.place: wait for wait in long}.values()), context)
+            hits = list(_hits(tuple({wait.place: wait for wait in long}.values()), context))
+            told |= {subject for hit in hits for subject in hit.subjects}
+            yield from hits
+    for hold in long_holds(context, LONG_SLEEP_S):
+        if hold.wait.caller.name not in told:
+            yield _of_lock(hold)
+
+
+def _of_lock(hold: LongHold) -> Hit:
+    wait, lock = hold.wait, hold.lock
+    who = shown(taker for taker, _ in hold.takers)
+    verb = 'waits' if len(hold.takers) == 1 else 'wait'
+    until = 'until that is over' if hold.seconds is None else 'that long'
+    often = ' in each round of a loop' if hold.seconds is None else ''
+    return Hit(
+        place=wait.place,
+        message=f'{called(wait.caller)} {_how_long(wait)}{often} and holds {lock} meanwhile: '
+        f'{who}, which also {"takes" if verb == "waits" else "take"} it, {verb} {until}',
+        help=f'hold {lock} only while the data is read or written, and sleep without it',
+        subjects=(wait.caller.name, lock),
+        chain=wait.chain,
+        related=tuple(
+            Remark(act.source, f'{taker.display_name} takes {lock} here')
+            for taker, act in hold.takers
+            if act.source is not None
+        ),
+    )
 
 
 def _is_pause(wait: Wait) -> bool:
@@ -86,7 +114,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     )
 
 
-def _how_long(wait: Wait) -> str:
+def _how_long(wait: AnyWait) -> str:
     seconds = wait.block.seconds
     assert isinstance(seconds, (int, float))
     often = f' {wait.block.times} times' if wait.block.times > 1 else ''
@@ -118,15 +146,20 @@ RULE = Rule(
     title='Long sleep in a callback that others wait for',
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
     'default group of its node. Everything else there waits, also the parameter services: '
-    '`ros2 param` hangs. A wait with a time-out counts too: it lasts that long where '
-    'nothing comes. It is only a note where nobody waits but the services that rclpy '
-    'itself has made: they wait that long in the rare case alone, and then go on. Rounds '
-    'of a loop are counted where their number is known, and short sleeps are added up '
-    'where no branch skips them. A callback has one finding, at the longest of them.',
-    why='Every node has six parameter services and a type-description service in its default '
-    'group, which is mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and '
-    '9.1.2, `node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second, '
-    'is our choice.',
+    '`ros2 param` hangs. So it is with a lock that is held over a long sleep, or over a '
+    'loop that sleeps in each round, where other callbacks take the lock: an execute '
+    'callback that holds it during its whole run holds up the request to cancel. A wait '
+    'with a time-out counts too: it lasts that long where nothing comes. It is only a note '
+    'where nobody waits but the services that rclpy itself has made: they wait that long '
+    'in the rare case alone, and then go on. Rounds of a loop are counted where their '
+    'number is known, and short sleeps are added up where no branch skips them. A callback '
+    'has one finding, at the longest of them.',
+    why='Who holds a lock keeps all others from it that long, in whatever group and on however '
+    'many threads; a loop of unknown length counts from 0.1 s a round on. Every node has six '
+    'parameter services and a type-description service in its default group, which is '
+    'mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and 9.1.2, '
+    '`node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second, is '
+    'our choice.',
     bad="""\
 class Arm(Node):
     def on_dock(self, request, response):
