@@ -68,3 +68,18 @@ def tock(self):
         self.tokens.release()
 """
     assert said_of_waits(node(_INIT.format(tokens=0, group='own'), first), tmp_path) == 'clean'
+
+
+def test_a_lock_that_the_set_up_takes_is_for_others_to_give_back(tmp_path: Path) -> None:
+    taken = _INIT.replace('Semaphore({tokens})', 'Lock()') + 'self.tokens.acquire()\n'
+    both = _BY_WITH + _BY_WITH.replace('tick', 'tock')
+    nodes = {
+        'own': (node(taken.format(group='own'), _TAKES + _GIVES), 'CC109'),
+        'other': (node(taken.format(group='other'), _TAKES + _GIVES), 'clean'),
+        'nobody': (node(taken.format(group='other'), both), 'CC109'),
+        'given': (node(taken.format(group='own') + 'self.tokens.release()\n', both), 'clean'),
+    }
+    for name, (text, said) in nodes.items():
+        folder = tmp_path / name
+        folder.mkdir()
+        assert said_of_waits(text, folder) == said

@@ -318,6 +318,8 @@ class Effects(Waits):
             if isinstance(value.state, (PlainState, ExecutorState)):
                 if _is_semaphore(value):
                     self.note_blocking('Semaphore.acquire', value, None, place)
+                elif is_counter(self.world, value):
+                    self.note_blocking('Lock.acquire', value, None, place)
                 self.note_acquire(value, place)
                 return value
             method = self.attribute(value, '__enter__', place)

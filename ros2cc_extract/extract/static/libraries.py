@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static import again, rclpy_api
 from ros2cc_extract.extract.static.activities import run_in_thread
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.futures_library import is_pool, note_leaving
+from ros2cc_extract.extract.static.held_locks import is_counter
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, UNKNOWN_CLIENT, result_of
@@ -243,7 +244,8 @@ class Libraries(Machine):
         if is_pool(value):
             note_leaving(self, value, place)
         state = value.state if isinstance(value, Instance) else None
-        if isinstance(state, PlainState) and state.kind == 'semaphore':
+        is_stock = isinstance(state, PlainState) and state.kind == 'semaphore'
+        if is_stock or (isinstance(value, Instance) and is_counter(self.world, value)):
             self.note_wake(value, Word.RELEASE, place)
             self.note_release(value)
 

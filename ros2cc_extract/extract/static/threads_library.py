@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static import heard
 from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.containers import Mapping
-from ros2cc_extract.extract.static.held_locks import GIVEN
+from ros2cc_extract.extract.static.held_locks import GIVEN, is_counter
 from ros2cc_extract.extract.static.joined import note_join
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
@@ -149,6 +149,38 @@ def _wakes(word: Word) -> Handler:
     return handler
 
 
+def _take_lock(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A lock that the set-up takes is for others to give back, as a semaphore of nothing."""
+    assert isinstance(receiver, Instance)
+    if _is_set_up(machine):
+        if not machine.world.path and _waits_for_it(call):
+            machine.store.write(receiver, INITIAL, Const(0))
+    elif is_counter(machine.world, receiver) and _waits_for_it(call):
+        machine.note_blocking('Lock.acquire', receiver, call.argument(1, 'timeout'), call.place)
+    return _acquire(machine, receiver, call)
+
+
+def _give_lock(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    if _is_set_up(machine):
+        machine.store.write(receiver, INITIAL, Const(1))
+    elif is_counter(machine.world, receiver):
+        machine.note_wake(receiver, Word.RELEASE, call.place)
+    return _release(machine, receiver, call)
+
+
+def _is_set_up(machine: Machine) -> bool:
+    """Whether this happens once and before anything else of the program runs."""
+    world = machine.world
+    is_first = world.when is When.START and not world.after_spin and not world.in_thread
+    return is_first and world.deeds is None
+
+
+def _waits_for_it(call: Call) -> bool:
+    blocking = call.argument(0, 'blocking')
+    return not (isinstance(blocking, Const) and not blocking.value)
+
+
 def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
     machine.note_acquire(receiver, call.place, may_fail=bool(call.args or call.keywords))
     return machine.mystery('result of acquire', call.place)
@@ -156,8 +188,7 @@ def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _take(machine: Machine, receiver: Value, call: Call) -> Value:
     """Who gives it back himself takes it as a lock, else it is a wait for others."""
-    blocking = call.argument(0, 'blocking')
-    if not (isinstance(blocking, Const) and not blocking.value):
+    if _waits_for_it(call):
         timeout = call.argument(1, 'timeout')
         machine.note_blocking('Semaphore.acquire', receiver, timeout, call.place)
     return _acquire(machine, receiver, call)
@@ -252,7 +283,7 @@ def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
 _LOCK_METHODS: dict[str, Handler] = {'acquire': _acquire, 'release': _release}
 
 _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
-    'lock': _LOCK_METHODS,
+    'lock': {'acquire': _take_lock, 'release': _give_lock},
     'rlock': _LOCK_METHODS,
     'condition': {
         **_LOCK_METHODS,

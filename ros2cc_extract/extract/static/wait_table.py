@@ -64,6 +64,7 @@ WAITS: dict[str, WaitRow] = {
     'asyncio.Queue.join': _row(Word.DONE, needs=Needs.EACH),
     'asyncio.Event.wait': _row(Word.SET),
     'Barrier.wait': _row(Word.ARRIVE, needs=Needs.ALL),
+    'Lock.acquire': _row(Word.RELEASE, needs=Needs.EACH),
     'Semaphore.acquire': _row(Word.RELEASE, needs=Needs.EACH),
     'Thread.join': _row(Word.END),
     'Process.join': _row(Word.END),
