@@ -28,8 +28,9 @@ def print_sweep(sweep: Sweep, console: Console) -> None:
     first = sweep.verifications[0]
     for index, result in enumerate(first.results):
         verdicts = [verification.results[index].verdict for verification in sweep.verifications]
-        rows.add_row(f'{index + 1:3}', result.words, *(_SIGNS[verdict] for verdict in verdicts))
-    rows.add_section()
+        signs = (_SIGNS[verdict] for verdict in verdicts)
+        is_last = index + 1 == len(first.results)
+        rows.add_row(f'{index + 1:3}', result.words, *signs, end_section=is_last)
     rows.add_row('', 'states', *(str(v.states) for v in sweep.verifications))
     rows.add_row('', 'seconds', *(f'{v.seconds:.2f}' for v in sweep.verifications))
     console.print(f'unit {sweep.unit}: yes = satisfied, no = not satisfied, ? = undecided')
