@@ -247,7 +247,9 @@ RULE = Rule(
     'of which only one is taken do not add up. That a callback may also overlap itself is a note; '
     'where a subscription or timer sleeps by a `Rate`, a warning, since each run sleeps a period '
     'long, and of a service that waits without a time-out where the model shows a run in which '
-    'all threads are taken. It is not said of one that claims a state under a lock, waits, and '
+    'all threads are taken by what arrives once for each callback. Where it takes several '
+    'requests at a time that come from elsewhere, the run is shown and it stays a note, also '
+    'where the clients are in sight on another executor. It is not said of one that claims a state under a lock, waits, and '
     'gives it back. Loops that sleep and look again whether another callback has written '
     'something take threads too, where they end otherwise as well: a warning.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
