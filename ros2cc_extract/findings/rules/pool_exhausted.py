@@ -242,16 +242,17 @@ RULE = Rule(
     severity=Severity.ERROR,
     title='Every worker thread may wait at once',
     what='As many callbacks can wait synchronously at the same time as the executor has worker '
-    'threads. The groups are right, but nobody is left to run what they wait for. The number is '
-    'exact: a mutually exclusive group counts once, a reentrant callback for itself, branches '
-    'of which only one is taken do not add up. That a callback may also overlap itself is a note; '
-    'where a subscription or timer sleeps by a `Rate`, a warning, since each run sleeps a period '
-    'long, and of a service that waits without a time-out where the model shows a run in which '
-    'all threads are taken by what arrives once for each callback. Where it takes several '
-    'requests at a time that come from elsewhere, the run is shown and it stays a note, also '
-    'where the clients are in sight on another executor. It is not said of one that claims a state under a lock, waits, and '
-    'gives it back. Loops that sleep and look again whether another callback has written '
-    'something take threads too, where they end otherwise as well: a warning.',
+    'threads. The groups are right, but nobody is left to run what they wait for. The '
+    'number is exact: a mutually exclusive group counts once, a reentrant callback for '
+    'itself, branches of which only one is taken do not add up. That a callback may also '
+    'overlap itself is a note; where a subscription or timer sleeps by a `Rate`, a '
+    'warning, since each run sleeps a period long, and of a service that waits without a '
+    'time-out where the model shows a run in which all threads are taken by what arrives '
+    'once for each callback. Where it takes several requests at a time that come from '
+    'elsewhere, the run is shown and it stays a note, also where the clients are in sight '
+    'on another executor. It is not said of one that claims a state under a lock, waits, '
+    'and gives it back. Loops that sleep and look again whether another callback has '
+    'written something take threads too, where they end otherwise as well: a warning.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
     'are handled by the same workers, and the spinning thread runs no callbacks. Without '
     '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '
