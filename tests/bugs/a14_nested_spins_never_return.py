@@ -33,4 +33,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC101:25, CC101:25, CC106:25 warning
+# finds: CC101:25, CC106:25 warning

@@ -250,7 +250,10 @@ def _set(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    machine.world.cleared.add(id(receiver))
+    world = machine.world
+    doer = world.activity or world.current
+    before = len(world.entities) + len(world.builtins)
+    world.cleared.setdefault(id(receiver), {}).setdefault((doer, call.place), before)
     _keep_flag(machine, receiver, Const(False))
     return NONE
 

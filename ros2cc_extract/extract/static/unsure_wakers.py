@@ -25,7 +25,7 @@ from ros2cc_extract.extract.static.heard import Notifier, is_heard
 from ros2cc_extract.extract.static.values import Instance
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
 from ros2cc_extract.extract.static.world import End, EntityState, World
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 
 Doer = EntityState | ActivityState
@@ -161,7 +161,9 @@ def _when_lost(
     doers: Sequence[Doer],
 ) -> str | None:
     if reference.is_kept:
-        return 'before it is cleared' if reference.number in world.cleared else None
+        clears = world.cleared.get(reference.number, {})
+        is_wiped_out = any(not _is_before(clear, each, mine) for clear, each in clears.items())
+        return 'before it is cleared' if is_wiped_out else None
     guard = reference.guard
     if guard is None:
         return None
@@ -173,6 +175,18 @@ def _when_lost(
     names = guard.names.intersection(*(each.wrote for each in notifiers))
     taken_back = any(names & _written_by(other) for other in others)
     return 'what it tells is taken back' if taken_back and _comes_again(world, doer) else None
+
+
+def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:
+    """Whether who clears an event asks only behind that for what sets it."""
+    by, _ = clear
+    return all(
+        isinstance(waking.by, EntityState)
+        and waking.by.kind is EntityKind.DONE_CALLBACK
+        and waking.by.maker is by
+        and waking.by.number >= entities
+        for waking in mine
+    )
 
 
 def _notifier(waking: Waking) -> Notifier:

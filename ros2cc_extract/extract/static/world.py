@@ -312,7 +312,7 @@ class World:
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
-    :param cleared: events that somebody clears.
+    :param cleared: events that somebody clears: by whom and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
@@ -398,7 +398,7 @@ class World:
     ready: frozenset[tuple[Value, Word]] = frozenset()
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
-    cleared: set[int] = field(default_factory=set)
+    cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)
