@@ -312,7 +312,7 @@ class World:
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
-    :param cleared: events that somebody clears: by whom and where, and how many entities there were.
+    :param cleared: events that somebody clears: who and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
