@@ -29,6 +29,9 @@ BY_ITSELF = 'of these waits end by themselves'
 WORKING_LOOP = 'working loop'
 """A loop in which a thread works until somebody ends it: only its end is waited for."""
 
+POLLING_LOOP = 'polling loop'
+"""A loop that does nothing but wait until what it asks for has changed."""
+
 ENDLESS_LOOP = 'endless loop'
 """A loop that nothing in sight leaves."""
 

@@ -7,73 +7,177 @@ thread stands in a wait that only callbacks end, and the spin that served them i
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.doing import ActivityState
 from ros2cc_extract.extract.static.uncalled import uncalled_wakers
-from ros2cc_extract.extract.static.values import Instance, Value
-from ros2cc_extract.extract.static.wakings import ResourceRef
-from ros2cc_extract.extract.static.world import EntityState, OutsideWait, World
+from ros2cc_extract.extract.static.values import Bound, Function, Instance, Value, options_of
+from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, Waking
+from ros2cc_extract.extract.static.world import EntityState, OutsideWait, Over, Spin, World
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import WORKING_LOOP, Blocking
+from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
 
 JOIN = 'Thread.join'
+RATE = 'Rate.sleep'
 
 
 def note_join(world: World, thread: Value, place: Place) -> None:
-    """The set-up, or what comes after its spin, waits for the end of ``thread``."""
-    if isinstance(thread, Instance) and world.is_program and world.deeds is None:
+    """The program, which no executor runs, waits for the end of ``thread``."""
+    is_set_up = world.deeds is None or world.activity is not None
+    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
         is_late = world.after_spin or bool(world.spins)
-        world.outside.append(OutsideWait(JOIN, thread, place, world.in_thread, (), is_late))
+        wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
+        world.outside.append(replace(wait, path=world.path))
+
+
+def note_over(world: World, what: Value | None) -> None:
+    """The program has shut ``what`` down, or waited for its end."""
+    if what is None or isinstance(what, Instance):
+        world.over.append(Over(what, world.path, len(world.spins)))
+
+
+def is_over(spin: Spin, number: int, wait: OutsideWait, world: World) -> bool:
+    """Whether ``spin``, the one of that number, has ended for sure before the wait."""
+    return any(_ends(over, spin, number, world) for over in _certain(wait))
+
+
+def _certain(wait: OutsideWait) -> list[Over]:
+    return [over for over in wait.over if wait.path[: len(over.path)] == over.path]
+
+
+def _ends(over: Over, spin: Spin, number: int, world: World) -> bool:
+    if number >= over.spins:
+        return False
+    if over.what is None or over.what is spin.executor:
+        return True
+    doers = (each for each in world.activities if over.what in each.runners)
+    return any(doer.thread == spin.thread for doer in doers)
 
 
 def never_joined(
     wait: OutsideWait, world: World, spun: Sequence[Instance]
 ) -> Iterator[Diagnostic]:
     """
-    The waits of a joined thread that only callbacks end which nobody serves.
+    The waits of a joined thread that nobody ends who is still there.
 
     :param spun: the nodes that other threads spin meanwhile.
     """
     for state in world.activities:
         if not any(wait.client is runner for runner in state.runners) or state.serves:
             continue
-        goes_round = state.loops or any(b.call == WORKING_LOOP for b in state.deeds.blocking)
+        loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.deeds.blocking}
         for block in state.deeds.blocking:
+            # A loop that does nothing but sleep is one that polls.
+            goes_round = state.loops or WORKING_LOOP in loops or (loops and block.call == RATE)
             if goes_round or not wait.is_late:
-                nodes = _servers(block, world)
-                if nodes and not any(node is each for node in nodes for each in spun):
-                    yield _told(wait, state, block)
+                why = _why_for_ever(block, state, wait, world, spun)
+                if why is not None:
+                    yield _told(wait, block, why)
                     return
 
 
-def _servers(block: Blocking, world: World) -> list[Instance]:
-    """The nodes whose callbacks end the wait; none where somebody else may end it."""
+def _why_for_ever(
+    block: Blocking,
+    state: ActivityState,
+    wait: OutsideWait,
+    world: World,
+    spun: Sequence[Instance],
+) -> str | None:
+    """Why nobody ends the wait ``block`` of the thread; ``None`` where somebody may."""
+    if block.seconds is not None:
+        return None
+    if block.call == RATE:
+        return _why_asleep(block, wait, world)
     resource = block.resource
-    if block.seconds is not None or not isinstance(resource, ResourceRef) or resource.asked:
-        return []
+    if not isinstance(resource, ResourceRef) or resource.asked:
+        return None
     mine = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
-    doers = [waking.by for waking in mine]
-    nodes = [doer.node for doer in doers if isinstance(doer, EntityState)]
+    served = [w.by.node for w in mine if isinstance(w.by, EntityState)]
+    others = [w for w in mine if not isinstance(w.by, EntityState)]
     is_open = resource.number in world.given or uncalled_wakers(
         world, str(resource), resource.ended_by, resource.made
     )
-    return [] if is_open or len(nodes) < len(doers) else nodes
+    if is_open or not mine or any(node is each for node in served for each in spun):
+        return None
+    if others and not _have_given(others, state, wait):
+        return None
+    return _NOT_SPUN if served else 'and the thread that would end that has ended'
 
 
-def _told(wait: OutsideWait, state: ActivityState, block: Blocking) -> Diagnostic:
+def _why_asleep(block: Blocking, wait: OutsideWait, world: World) -> str | None:
+    """A rate wakes by a timer of its node, and where rclpy is shut down, which a signal does."""
+    on = block.on
+    timer = next(
+        (e for e in world.entities if isinstance(on, EntityRef) and id(e) == on.number), None
+    )
+    if timer is None or timer.destroyed or id(timer) in world.given:
+        return None
+    if any(over.what is None for over in wait.over):
+        return None
+    stopped = [over.what for over in _certain(wait) if isinstance(over.what, Instance)]
+    serving = [spin for spin in world.spins.values() if _serves(spin, timer.node)]
+    is_stopped = all(any(s.executor is each for each in stopped) for s in serving)
+    return _NOT_SPUN if serving and is_stopped else None
+
+
+def _serves(spin: Spin, node: Instance) -> bool:
+    entries = spin.executor.slots.get('__nodes__', ())
+    has = (option for entry in entries for option in options_of(entry))
+    return any(each is node for each in (*spin.nodes, *has))
+
+
+def _have_given(wakings: Sequence[Waking], taker: ActivityState, wait: OutsideWait) -> bool:
+    """
+    Whether those who give are over, and what they gave last need not be for the end.
+
+    So it is where both are ended by what their loops ask for: one that leaves its loop by itself
+    may do so for an item, or put one first that says so.
+    """
+    over = [each.what for each in _certain(wait)]
+    if not all(w.in_loop and isinstance(w.by, ActivityState) for w in wakings):
+        return False
+    givers = {w.by for w in wakings if isinstance(w.by, ActivityState)}
+    is_one = len({w.place for w in wakings}) == len(givers)
+    are_over = all(giver.runners and all(r in over for r in giver.runners) for giver in givers)
+    return is_one and are_over and not any(map(_leaves, (*givers, taker)))
+
+
+def _leaves(state: ActivityState) -> bool:
+    """Whether its text has another end than that of its loop, or is not known."""
+    target = state.target
+    function = target.function if isinstance(target, Bound) else target
+    if not isinstance(function, Function):
+        return True
+    return any(isinstance(part, (ast.Break, ast.Return)) for part in ast.walk(function.node))
+
+
+_NOT_SPUN = 'and nobody spins the node whose callback would end that'
+
+
+def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
-    when = 'any more' if wait.is_late else 'meanwhile'
+    when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
     may = 'it may wait' if wait.is_late else 'it waits'
+    awaited = 'a timer' if block.call == RATE else block.resource
     return Diagnostic(
         severity=Severity.WARNING if wait.is_late else Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
-        message=f'{JOIN} waits for a thread that waits in {block.call} for {block.resource}{at}, '
-        f'and nobody spins the node whose callback would end that {when}: {may} for ever',
-        help='wake the thread before you join it: by a last item, by a notify after its flag has '
+        message=f'{JOIN} waits for a thread that waits in {block.call} for {awaited}{at}, '
+        f'{why}{when}: {may} for ever',
+        help=_help(wait, block),
+    )
+
+
+def _help(wait: OutsideWait, block: Blocking) -> str:
+    if block.call == RATE:
+        return 'join it while the executor is still spun, and shut that down behind'
+    if not wait.is_late:
+        return 'join it after the spin, and wake it before'
+    return (
+        'wake the thread before you join it: by a last item, by a notify after its flag has '
         'changed; or give its wait a time-out'
-        if wait.is_late
-        else 'join it after the spin, and wake it before',
     )

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.doing import ActivityState
-from ros2cc_extract.extract.static.joined import JOIN, never_joined
+from ros2cc_extract.extract.static.joined import JOIN, is_over, never_joined
 from ros2cc_extract.extract.static.uncalled import uncalled_wakers
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.wakings import Word
@@ -231,8 +231,8 @@ def _is_same(one: Value | None, other: Value | None) -> bool:
 
 def _spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
     """What other threads spin; which thread is which is not told apart."""
-    for spin in world.spins.values():
-        if spin.in_thread or wait.in_thread:
+    for number, spin in enumerate(world.spins.values()):
+        if (spin.in_thread or wait.in_thread) and not is_over(spin, number, wait, world):
             yield from spin.nodes
             for entry in spin.executor.slots.get('__nodes__', ()):
                 yield from (o for o in options_of(entry) if isinstance(o, Instance))

@@ -27,9 +27,9 @@ from ros2cc_extract.extract.static.values import Heaped, Mystery, Value, choice
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, TIME, Blocking
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, Blocking
 
-POLL = 'polling loop'
+POLL = POLLING_LOOP
 _LEAVES = (ast.Break, ast.Return, ast.Raise)
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 _NEUTRAL = frozenset(

@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.values import (
 from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
 
 
@@ -196,6 +196,13 @@ def _sleep_by_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     return _blocking('Rate.sleep', None)(machine, receiver, call)
 
 
+def _destroy_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Whoever sleeps by it wakes; its timer stays (``timer.py``, ``Rate.destroy``)."""
+    state = receiver.state if isinstance(receiver, Instance) else None
+    machine.world.given.setdefault(id(state), Unknown('somebody destroys the rate', call.place))
+    return NONE
+
+
 def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
     """It takes the message itself, in the thread that waits (``wait_for_message.py``)."""
     topic = Instance(Name('rclpy.topic'), call.place)
@@ -214,7 +221,9 @@ def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
 TABLE = Library(
     classes={
         'rclpy.timer.Timer': LibraryClass(methods={'cancel': _cancel, 'reset': _reset, **_ENTITY}),
-        'rclpy.timer.Rate': LibraryClass(methods={'sleep': _sleep_by_rate}),
+        'rclpy.timer.Rate': LibraryClass(
+            methods={'sleep': _sleep_by_rate, 'destroy': _destroy_rate}
+        ),
         'rclpy.subscription.Subscription': LibraryClass(methods=_ENTITY),
         'rclpy.service.Service': LibraryClass(methods=_ENTITY),
         'rclpy.guard_condition.GuardCondition': LibraryClass(methods=_ENTITY),

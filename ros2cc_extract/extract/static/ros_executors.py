@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.ending import (
     note_end,
 )
 from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.joined import note_over
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_nodes import add_entity, ghost_node
@@ -445,6 +446,7 @@ def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
         note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place)
     if not world.in_callback and not world.in_thread:
         world.spins_over = len(world.spins)
+        note_over(world, receiver)
     return NONE
 
 

@@ -447,6 +447,7 @@ NODE_METHODS: dict[str, Handler] = {
     'create_lifecycle_publisher': _create_publisher,
     'destroy_publisher': _destroy_publisher,
     'destroy_timer': _destroy,
+    'destroy_rate': _destroy,
     'destroy_subscription': _destroy,
     'destroy_service': _destroy,
     'destroy_client': _destroy,

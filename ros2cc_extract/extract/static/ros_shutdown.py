@@ -8,6 +8,7 @@ in its caller, in their order), ``__init__.py`` (``shutdown`` is that of the def
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.ending import note_shutdown
+from ros2cc_extract.extract.static.joined import note_over
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import NONE, Bound, Call, Function, Instance, Value
@@ -49,6 +50,7 @@ def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
         note_shutdown(machine, call.place)
     else:
         world.spins_over = len(world.spins)
+        note_over(world, None)
     given = receiver if isinstance(receiver, Instance) else call.argument(0, 'context')
     context = given if isinstance(given, Instance) else default_context(machine)
     before, world.shutting_down = world.shutting_down, True

@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.held_locks import GIVEN, is_counter
-from ros2cc_extract.extract.static.joined import note_join
+from ros2cc_extract.extract.static.joined import note_join, note_over
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, StateFactory
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.reading import Asked
@@ -322,6 +322,7 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
         world.spins_over = len(world.spins)
         _note_end(machine, receiver)
         note_join(world, receiver, call.place)
+        note_over(world, receiver)
     return _blocking('Thread.join', 0, 'timeout')(machine, receiver, call)
 
 

@@ -229,12 +229,28 @@ class End:
 
 
 @dataclass(frozen=True, eq=False)
+class Over:
+    """
+    The program has ended something that goes on beside it.
+
+    :param what: an executor that is shut down, a thread that has been waited for; ``None`` where
+        rclpy is shut down.
+    :param spins: how many spins there were.
+    """
+
+    what: Instance | None
+    path: Path
+    spins: int
+
+
+@dataclass(frozen=True, eq=False)
 class OutsideWait:
     """
     Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
 
     :param spun: the nodes that it spins meanwhile.
     :param is_late: something has been spun before.
+    :param over: what is over by then, ``path`` the undecided branches it stands in.
     """
 
     call: str
@@ -243,6 +259,8 @@ class OutsideWait:
     in_thread: bool
     spun: tuple[Instance, ...] = ()
     is_late: bool = False
+    over: tuple[Over, ...] = ()
+    path: Path = ()
 
 
 @dataclass(eq=False)
@@ -344,6 +362,7 @@ class World:
     :param open_to: those that were down when a goal was accepted, by the same.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
+    :param over: what it has ended.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
@@ -425,6 +444,7 @@ class World:
     holds: dict[str, int] = field(default_factory=dict)
     begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
+    over: list[Over] = field(default_factory=list)
     after_spin: bool = False
     on_loop: bool = False
     forked: Place | None = None

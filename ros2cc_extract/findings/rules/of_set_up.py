@@ -19,8 +19,9 @@ NOBODY_SPINS = Rule(
     'event, a queue or a future that a callback would end, and no other thread spins the node '
     'that must take it or, where both are in one program, the node that must give it. The wait '
     'never ends. The same for `Rate.sleep` on a node that nobody has spun, and for `Thread.join` '
-    'on a thread that stands in a wait which only callbacks end: after the spin, where the '
-    'thread goes round in a loop, that is a warning.',
+    'on a thread that stands in a wait which only callbacks end: after the spin, or after the '
+    'executor that another thread spins is shut down, where the thread goes round in a loop, that '
+    'is a warning. So is a join where only a thread that was joined before ended the wait.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '
@@ -45,7 +46,8 @@ def main():
     mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let one thread spin an '
     'executor that has all nodes concerned, from before the wait on. Wake a thread before you '
     'join it: put a last item into its queue, or notify its condition after its flag has changed '
-    'and let the predicate ask for the flag.',
+    'and let the predicate ask for the flag; join one that sleeps by a `Rate` while its executor '
+    'is still spun.',
 )
 LOCK_KEPT = Rule(
     code='CC112',

@@ -72,3 +72,135 @@ def test_a_join_that_nobody_serves(write: str, end: str, told: list[Severity]) -
     mine = [each for each in found.diagnostics if 'Thread.join' in each.message]
     assert [each.severity for each in mine] == told
     assert all(each.slug == 'nobody-spins' for each in mine)
+
+
+SPUN = """
+import queue
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+class Log(Node):
+    def __init__(self):
+        super().__init__('log')
+        self.lines = queue.Queue()
+        self.running = True
+        self.rate = self.create_rate(4.0)
+        self.create_subscription(String, 'line', self.heard, 10)
+        self.writer = threading.Thread(target=self.write)
+        self.writer.start()
+
+    def heard(self, msg):
+        self.lines.put(msg.data)
+
+    def write(self):
+        while self.running:
+            {wait}
+
+rclpy.init()
+node = Log()
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+spinner = threading.Thread(target=executor.spin)
+spinner.start()
+node.running = False
+{end}
+"""
+GET = 'print(self.lines.get())'
+RATE = 'self.rate.sleep()'
+MAY = [Severity.WARNING]
+
+
+@pytest.mark.parametrize(
+    ('wait', 'end', 'told'),
+    [
+        (GET, 'executor.shutdown()\nnode.writer.join()', MAY),
+        (GET, 'rclpy.shutdown()\nspinner.join()\nnode.writer.join()', MAY),
+        (GET, 'rclpy.shutdown()\nnode.writer.join()', MAY),
+        (GET, 'node.writer.join()\nexecutor.shutdown()', []),
+        (GET, 'if node.running:\n    executor.shutdown()\nnode.writer.join()', []),
+        (GET, 'executor.shutdown()\nnode.lines.put(None)\nnode.writer.join()', []),
+        (GET, 'executor.shutdown()\nnode.writer.join(timeout=1.0)', []),
+        (GET, 'executor.shutdown()\nnode.lines.put(None)\nnode.writer.join()', []),
+        (GET, 'SingleThreadedExecutor().shutdown()\nnode.writer.join()', []),
+        (RATE, 'executor.shutdown()\nnode.writer.join()', MAY),
+        (RATE, 'node.writer.join()\nexecutor.shutdown()', []),
+        # The end of rclpy wakes who sleeps by a rate.
+        (RATE, 'rclpy.shutdown()\nspinner.join()\nnode.writer.join()', []),
+        (RATE, 'spinner.join()\nnode.writer.join()', []),
+        (RATE, 'executor.shutdown()\nnode.destroy_rate(node.rate)\nnode.writer.join()', []),
+        (RATE, 'executor.shutdown()\nnode.rate.destroy()\nnode.writer.join()', []),
+        (
+            RATE,
+            'executor.shutdown()\nthreading.Thread(target=lambda: rclpy.spin(node)).start()\n'
+            'node.writer.join()',
+            [],
+        ),
+    ],
+)
+def test_a_join_after_the_spin_of_another_thread(
+    wait: str, end: str, told: list[Severity]
+) -> None:
+    assert _joins(SPUN.format(wait=wait, end=end)) == told
+
+
+FED = """
+import queue
+import threading
+import rclpy
+
+class Port:
+    def __init__(self):
+        self.frames = queue.Queue()
+        self.running = True
+        self.reader = threading.Thread(target=self.read)
+        self.decoder = threading.Thread(target=self.decode)
+        self.reader.start()
+        self.decoder.start()
+
+    def read(self):
+        while self.running:
+            {put}
+        {last}
+
+    def decode(self):
+        while self.running:
+            {get}
+
+rclpy.init()
+port = Port()
+node = rclpy.create_node('port')
+rclpy.spin_once(node)
+port.running = False
+{end}
+"""
+BOTH = 'port.reader.join()\nport.decoder.join()'
+PUT, GETS = 'self.frames.put(input())', 'print(self.frames.get())'
+
+
+@pytest.mark.parametrize(
+    ('put', 'last', 'get', 'end', 'told'),
+    [
+        (PUT, 'pass', GETS, BOTH, MAY),
+        (PUT, 'pass', GETS, 'port.decoder.join()', []),
+        (PUT, 'pass', GETS, 'port.decoder.join()\nport.reader.join()', []),
+        (PUT, 'pass', GETS, 'port.reader.join(1.0)\nport.decoder.join()', []),
+        (PUT, 'pass', GETS, BOTH.replace('\n', '\nport.frames.put(None)\n'), []),
+        (PUT, 'self.frames.put(None)', GETS, BOTH, []),
+        # Its last item may be the one that says so.
+        (PUT + '\n            if not self.running: break', 'pass', GETS, BOTH, []),
+        (PUT, 'pass', 'if self.frames.get() is None: return', BOTH, []),
+    ],
+)
+def test_a_join_after_the_thread_that_gives_has_ended(
+    put: str, last: str, get: str, end: str, told: list[Severity]
+) -> None:
+    assert _joins(FED.format(put=put, last=last, get=get, end=end)) == told
+
+
+def _joins(text: str) -> list[Severity]:
+    """How grave what is told of joins is."""
+    found = scan_text(text).diagnostics
+    return [each.severity for each in found if 'Thread.join' in each.message]

@@ -1,0 +1,79 @@
+"""Signal tower: a blink thread started and stopped by the application."""
+import threading
+import time
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Bool, String
+
+
+class SignalTower(Node):
+    PERIOD = 0.25
+
+    def __init__(self):
+        super().__init__('signal_tower')
+        self.mode = 'slow'
+        self.blinks = 0
+        self.lamp = self.create_publisher(Bool, 'tower/lamp', 1)
+        self.create_subscription(String, 'tower/mode', self.on_mode, 1)
+        self.stop = threading.Event()
+        self.blinker = threading.Thread(target=self.blink)
+        self.blinker.start()
+
+    def on_mode(self, msg):
+        self.mode = msg.data
+
+    def blink(self):
+        lit = False
+        while rclpy.ok():
+            lit = not lit if self.mode != 'off' else False
+            self.lamp.publish(Bool(data=lit))
+            self.blinks += 1
+            if self.stop.wait(self.PERIOD):
+                break
+
+    def close(self):
+        self.stop.set()
+        self.blinker.join()
+        self.get_logger().info(f'closed after {self.blinks} blinks')
+
+
+class Application:
+    def __init__(self):
+        rclpy.init()
+        self.tower = SignalTower()
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.tower)
+        self.spinner = threading.Thread(target=self.spin)
+        self.spinner.start()
+
+    def spin(self):
+        try:
+            self.executor.spin()
+        except ExternalShutdownException:
+            pass
+
+    def work(self, seconds):
+        time.sleep(seconds)
+        self.tower.get_logger().info(f'{self.tower.blinks} blinks')
+
+    def close(self):
+        self.tower.close()
+        self.executor.shutdown()
+        self.spinner.join()
+        self.tower.destroy_node()
+        rclpy.try_shutdown()
+
+
+def main():
+    app = Application()
+    try:
+        app.work(3.0)
+    finally:
+        app.close()
+    print('application ended', flush=True)
+
+
+if __name__ == '__main__':
+    main()
