@@ -46,8 +46,7 @@ def main():
     mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let one thread spin an '
     'executor that has all nodes concerned, from before the wait on. Wake a thread before you '
     'join it: put a last item into its queue, or notify its condition after its flag has changed '
-    'and let the predicate ask for the flag; join one that sleeps by a `Rate` while its executor '
-    'is still spun.',
+    'and let the predicate ask for the flag.',
 )
 LOCK_KEPT = Rule(
     code='CC112',
