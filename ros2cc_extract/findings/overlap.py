@@ -13,6 +13,7 @@ from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread, runs_in_parallel
+from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.rates import demand_of
@@ -71,18 +72,44 @@ def overlaps_itself(callback: Callback, context: Context) -> bool:
     return parallel and can_overlap_itself(callback, context)
 
 
-def is_quick_timer(callback: Callback) -> bool:
-    """True for a timer that waits for nothing but sleeps, which are shorter than its period."""
-    if callback.entity is not EntityKind.TIMER:
-        return False
+def is_quick(callback: Callback, context: Context) -> bool:
+    """
+    True where a run is known to be shorter than the time from one to the next.
+
+    A timer has its period. A done-callback has that of the timer which asks, where nobody else
+    does but its own runs: then two answers come together only after one has been late by a period.
+    """
     if not all(kind_of(block) is WaitKind.SLEEP for block in callback.blocking):
         return False
-    period, demand = callback.period_s, demand_of(callback, ())
-    if not callback.blocking:
-        return True
+    if callback.entity is EntityKind.DONE_CALLBACK:
+        asking = _asking_timer(callback, context)
+        return asking is not None and _is_shorter(callback, asking.period_s)
+    is_timer = callback.entity is EntityKind.TIMER
+    return is_timer and (not callback.blocking or _is_shorter(callback, callback.period_s))
+
+
+def _is_shorter(callback: Callback, period: float | Unknown | None) -> bool:
     is_known = all(isinstance(block.seconds, float) for block in callback.blocking)
-    slept = demand.duration_s or 0.0
+    slept = demand_of(callback, ()).duration_s or 0.0
     return is_known and isinstance(period, float) and slept < period
+
+
+def _asking_timer(callback: Callback, context: Context) -> Callback | None:
+    """The only other one that adds the done-callback, if it is a timer whose runs are in turn."""
+    made = EntityKind.DONE_CALLBACK.value, callback.source
+    asks = [
+        (each, act)
+        for each in context.doers
+        for act in each.changes
+        if (act.name, act.source) == made
+    ]
+    others = [each for each, _ in asks if each.name != callback.name]
+    if len(others) != 1 or callback.count != 1 or any(act.repeats for _, act in asks):
+        return None
+    one = others[0]
+    if not isinstance(one, Callback) or one.entity is not EntityKind.TIMER:
+        return None
+    return one if context.exclusive_group(one) is not None else None
 
 
 def _is_settled(one: Callback, other: Callback, context: Context) -> bool:

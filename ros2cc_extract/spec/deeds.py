@@ -176,6 +176,7 @@ class Act:
     :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
         name is among them where it cannot be taken twice.
     :param tries: of a lock that is taken only if it is free at once, or in some time.
+    :param repeats: of what is made: it stands in a loop, so that one run may make several.
     """
 
     name: str | Unknown
@@ -183,3 +184,4 @@ class Act:
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
     tries: bool = False
+    repeats: bool = False

@@ -151,7 +151,13 @@ ACT = record(
         Open(('name',), 'name', TEXT, ('name_resolved', False), 'name_'),
         *plain_rows(
             Act,
-            (('held', 'held', listing(TEXT)), ('tries', 'tries', FLAG), _SOURCE, _CHAIN),
+            (
+                ('held', 'held', listing(TEXT)),
+                ('tries', 'tries', FLAG),
+                ('repeats', 'repeats', FLAG),
+                _SOURCE,
+                _CHAIN,
+            ),
         ),
     ),
     flow=True,

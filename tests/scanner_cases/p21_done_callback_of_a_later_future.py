@@ -72,3 +72,4 @@ if __name__ == '__main__':
 #   done_callback ended in no_group key=spin conditional when=callback
 #   done_callback stopped in no_group key=spin conditional when=callback
 #   done_callback turn in no_group key=spin conditional when=callback
+#     changes done_callback @27

@@ -47,6 +47,7 @@ def main():
 #     blocks Event.wait on go_on through answered @24
 #       ended by go_on @33
 #     changes done_callback @20>27
+#     changes done_callback @21>27
 #     changes done_callback @22>27
 #     changes done_callback @23
 #   client left_client in asker_default key=left

@@ -54,7 +54,9 @@ if __name__ == '__main__':
 #     changes done_callback @30>36>17
 #   timer tock in a_default every 2
 #     changes action_client @33>36>13
+#     changes done_callback @33>36>17
 #   action_client count_action_client in a_default key=count conditional count=? when=callback
 #   done_callback on_response in no_group key=count conditional when=callback
 #     changes action_client @20>36>13
+#     changes done_callback @20>36>17
 #   ? count_action_client count

@@ -110,6 +110,7 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.02 s @52
 #     reads Worker.job @49
 #     writes Worker.job @51
+#     changes done_callback @53
 #   subscription hear in worker_default key=heard
 #   subscription on_order in worker_default key=order
 #     reads q27_state_of_other_callbacks.SETTINGS item 'loud' @75

@@ -22,6 +22,7 @@ class Deeds:
     :param stored: names of what is written in a hold of a lock, see ``heard.py``.
     :param unread: of waits for a child process, where it is made and which pipe of it is not read
         before, see ``pipes.py``.
+    :param loops: how many loops of several rounds, known ones, are followed now.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -32,6 +33,7 @@ class Deeds:
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
     rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
+    loops: int = 0
     own: list[str] = field(default_factory=list)
     behind: object = None
     stored: dict[Hold, set[str]] = field(default_factory=dict)

@@ -11,14 +11,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.held_locks import lock_of, locks_named
 from ros2cc_extract.extract.static.reading import Asked
 from ros2cc_extract.extract.static.values import Instance
 from ros2cc_extract.extract.static.wakings import Guard, Hold, Waking
-from ros2cc_extract.extract.static.world import World
+from ros2cc_extract.extract.static.world import World, note_once
 from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.model import EntityKind
 
 CONDITION_WAITS = frozenset({'Condition.wait', 'Condition.wait_for'})
 NOTHING_ASKED = Asked(frozenset(), frozenset(), is_open=False)
@@ -81,6 +83,23 @@ def note_begun(world: World, place: Place) -> None:
     """What is made or started at ``place`` begins no sooner than here."""
     for hold in holds_of(world):
         world.begun.setdefault(hold, set()).add(place)
+
+
+def note_made(world: World, kind: EntityKind, place: Place) -> None:
+    """Who runs now makes an entity at ``place``, or the same one once more."""
+    if world.deeds is None:
+        return
+    made = world.deeds.changes
+    once = Act(name=kind.value, source=place, chain=world.chain[1:])
+    again = replace(once, repeats=True)
+    if again in made:
+        return
+    if not world.deeds.loops and not world.open_loops:
+        note_once(made, once)
+    elif once in made:
+        made[made.index(once)] = again
+    else:
+        made.append(again)
 
 
 def guard_of(world: World, condition: Instance) -> Guard:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import assumption, items_by_default
+from ros2cc_extract.extract.static.doing import Deeds
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -177,8 +178,10 @@ def repeated(
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
     """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` told from ``NEXT``."""
     path, ends = machine.world.path, 0
-    assumed = machine.world.assumed
+    assumed, deeds = machine.world.assumed, machine.world.deeds or Deeds()
     machine.world.assumed = items.assumed or assumed
+    several = len(items.known) > 1
+    deeds.loops += several
     try:
         if len(items.known) > UNROLL_LIMIT:
             return _run_many(machine, items, once, place)
@@ -204,6 +207,7 @@ def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place
         return ends | _NEXT
     finally:
         machine.world.path, machine.world.assumed = path, assumed
+        deeds.loops -= several
 
 
 def _run_item(machine: Machine, item: Value, once: Callable[[Value], int], place: Place) -> int:

@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.ending import (
     SHUTDOWN_EXECUTOR,
     note_end,
 )
-from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.heard import note_begun, note_made
 from ros2cc_extract.extract.static.joined import note_over
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
@@ -372,6 +372,7 @@ def add_task(
         is_same = is_here and _name_of(known.key) == _name_of(key)
         if is_same and _code_of(known.callback) == _code_of(run):
             flags.hand_over(world, known)
+            note_made(world, kind, place)
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
     entity.callback, entity.key = run, key

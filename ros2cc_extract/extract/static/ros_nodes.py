@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.ending import (
     DESTROY_PUBLISHER,
     note_end,
 )
-from ros2cc_extract.extract.static.heard import note_begun
+from ros2cc_extract.extract.static.heard import note_begun, note_made
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
 from ros2cc_extract.extract.static.ros_builtins import (
@@ -50,10 +50,8 @@ from ros2cc_extract.extract.static.world import (
     GroupState,
     NodeState,
     PlainState,
-    note_once,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
@@ -140,8 +138,7 @@ def add_entity(
     world.by_node.setdefault(id(node), []).append(entity)
     if kind is EntityKind.SUBSCRIPTION:
         add_events_of(machine, node, group, place, entity)
-    if world.deeds is not None:
-        note_once(world.deeds.changes, Act(name=kind.value, source=place, chain=world.chain[1:]))
+    note_made(world, kind, place)
     return entity
 
 
@@ -231,9 +228,7 @@ def entity_made_before(
         and not made_while_missing(world, known.state, key, callback)
     ):
         return None
-    if machine.world.deeds is not None:
-        act = Act(name=kind.value, source=place, chain=machine.world.chain[1:])
-        note_once(machine.world.deeds.changes, act)
+    note_made(world, kind, place)
     return known
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
-from ros2cc_extract.findings.overlap import is_quick_timer, overlaps_itself
+from ros2cc_extract.findings.overlap import is_quick, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, Use, races_of, uses_cleared
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.lost_update import hit_of
@@ -44,7 +44,7 @@ def _of_itself(callback: Callback, use: Use, context: Context) -> Hit:
         message=f'{callback.display_name} tests {name} and then uses it, and another run of it '
         'may set it to None in between: the use then ends in an exception',
         help=HELP,
-        severity=Severity.NOTE if is_quick_timer(callback) or not use.access.later else None,
+        severity=Severity.NOTE if is_quick(callback, context) or not use.access.later else None,
         subjects=(callback.name, name),
         run=refuting_run(SELF_OVERLAP, context, callback),
     )

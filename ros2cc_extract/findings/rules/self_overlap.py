@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
-from ros2cc_extract.findings.overlap import interleaves, is_quick_timer, overlaps_itself
+from ros2cc_extract.findings.overlap import interleaves, is_quick, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.self_races import (
@@ -82,7 +82,7 @@ def _hit(race: SelfRace, context: Context) -> Hit:
         message=f'{callback.display_name} may overlap itself {when}, and '
         + _WHAT[race.kind].format(name=name),
         help=_help(race),
-        severity=Severity.NOTE if is_less or is_quick_timer(callback) else None,
+        severity=Severity.NOTE if is_less or is_quick(callback, context) else None,
         subjects=(callback.name, name),
         related=tuple(made_at(callback, context.group_of(callback))),
         run=refuting_run(SELF_OVERLAP, context, callback),
@@ -122,9 +122,10 @@ RULE = Rule(
     what='A callback of a reentrant group, or one outside every group, reads an attribute and '
     'writes it back without a lock, at once (`+=`), after a test, or from a copy; or it writes '
     'one, waits, and reads it back. Two runs of the same callback may coincide. It is only a note '
-    'for a timer whose runs are known to be shorter than its period, and for a test that is '
-    'followed by the write without a wait in between. Where another callback may lose the same '
-    'update, CC301 or CC303 stands for both.',
+    'for a timer whose runs are known to be shorter than its period, for a done-callback where '
+    'one such timer alone asks, once in a run, and for a test that is followed by the write '
+    'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
+    'stands for both.',
     why='An entity may be collected again as soon as its data was taken; a reentrant group '
     'refuses nothing, so that one subscription runs on several threads at once. Source: rclpy '
     '7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '

@@ -19,9 +19,10 @@ from finding_units import (
     updates,
 )
 
+from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
-from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
 
 
 def access(line: int, *locks: str, **facts: object) -> Access:
@@ -215,3 +216,88 @@ def test_a_coroutine_on_one_thread_meets_members_of_other_groups(
     other = timer('tick', group, writes=(access(40),))
     found_in = found(unit(ONE_THREAD, on_go, other))
     assert [code for code in found_in if code.startswith('CC3')] == expected
+
+
+def asks(name: str = 'ask', group: str = 'arm_default', **facts: object) -> Callback:
+    act = Act(name='done_callback', source=at(12), **facts)  # type: ignore[arg-type]
+    return timer(name, group, period_s=0.5, changes=(act,))
+
+
+ANSWERED = outside(
+    'on_answer',
+    EntityKind.DONE_CALLBACK,
+    when=When.CALLBACK,
+    source=at(12),
+    writes=updates('Arm.answers', 30),
+)
+
+
+@pytest.mark.parametrize(
+    ('callbacks', 'severity'),
+    [
+        ((asks(), ANSWERED), 'note'),
+        ((asks(), replace(ANSWERED, blocking=sleeps(0.2, line=25))), 'note'),
+        ((asks(), replace(ANSWERED, changes=asks().changes)), 'note'),
+        ((asks(), replace(ANSWERED, blocking=sleeps(0.7, line=25))), 'warning'),
+        ((asks(repeats=True), ANSWERED), 'warning'),
+        ((asks(), asks('too', 'other'), ANSWERED), 'warning'),
+        ((asks(group='free'), ANSWERED), 'warning'),
+        ((service('go', changes=asks().changes), ANSWERED), 'warning'),
+        ((ANSWERED,), 'warning'),
+    ],
+)
+def test_answers_come_together_where_no_timer_spaces_them(
+    callbacks: tuple[Callback, ...], severity: str
+) -> None:
+    """By a timer that asks once in a run, two come together only after one has been late."""
+    assert told(*callbacks) == [f'CC304:30 {severity}']
+
+
+ASKING = """
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class A(Node):
+    def __init__(self):
+        super().__init__('a')
+        self.answers = 0
+        self.client = self.create_client(Trigger, 'ask')
+        self.create_timer(1.0, self.tick)
+        self.create_subscription(Trigger.Request, 'go', self.on_go, 10)
+
+    def tick(self):
+        TICK
+
+    def on_go(self, message):
+        GO
+
+    def ask(self):
+        self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
+
+    def on_done(self, future):
+        self.answers += 1
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=3)
+executor.add_node(A())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('tick', 'go', 'severity'),
+    [
+        ('self.ask()', 'pass', 'note'),
+        ('[self.ask() for _ in range(3)]', 'pass', 'warning'),
+        ('for _ in self.names: self.ask()', 'pass', 'warning'),
+        ('while self.answers < 3: self.ask()', 'pass', 'warning'),
+        ('self.ask(); self.ask()', 'pass', 'warning'),
+        ('self.ask()', 'self.ask()', 'warning'),
+    ],
+)
+def test_who_asks_and_how_often_is_read_from_the_text(tick: str, go: str, severity: str) -> None:
+    text = ASKING.replace('TICK', tick).replace('GO', go)
+    findings = findings_of(scan_text(text).units, [], [None])
+    assert [f.severity.value for f in findings if f.code == 'CC304'] == [severity]
