@@ -37,8 +37,8 @@ def are_concurrent(world: World, first: Spin, second: Spin) -> bool:
         return False
     if first.thread == second.thread:
         return False
-    if first.place == second.place:
-        return False  # the same call, followed once more
+    if first.place == second.place and first.nodes == second.nodes:
+        return False  # the same call, followed once more, and not one text of two threads
     if list(world.spins.values()).index(first) < second.over:
         return False
     if first.thread == 0:
@@ -56,7 +56,9 @@ def _by_threads(world: World) -> Iterator[Diagnostic]:
     for first, second in combinations(world.spins.values(), 2):
         if are_concurrent(world, first, second) and _is_ordinary(first.executor):
             is_same = _asks_the_same((first.how, first.timeout), (second.how, second.timeout))
-            other = f'another thread spins it already ({first.place})'
+            is_one = first.place == second.place
+            where = 'by the same call, with another node' if is_one else f'({first.place})'
+            other = f'another thread spins it already {where}'
             yield _spun_twice(second.executor, second.how, second.place, other, is_same)
 
 
