@@ -38,7 +38,7 @@ for node in (one, other):
     [
         (THREAD.format(name='serve') + 'serve(other)', [7]),
         (EACH.format(name='serve'), [7]),
-        (EACH.format(name='rclpy.spin'), [17]),
+        (EACH.format(name='rclpy.spin'), [18]),
         (THREAD.format(name='serve') + 'thread.join()\nserve(other)', []),
         (THREAD.format(name='serve') + 'rclpy.shutdown()\nserve(other)', []),
         ('serve(one)\nserve(other)', []),
