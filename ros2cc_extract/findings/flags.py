@@ -14,7 +14,7 @@ from typing import TypeVar
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import kept_between, read_for
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.deeds import FLAG, Access
+from ros2cc_extract.spec.deeds import FLAG, FOUND_NONE, Access
 from ros2cc_extract.spec.model import Activity, Callback, Executor
 
 _Doer = TypeVar('_Doer', Callback, Activity)
@@ -74,6 +74,11 @@ def _keeps_out(flag: str, context: Context) -> bool:
     if not all(flag in write.locks for _, write in uses):
         return False
     setters = [(one, write) for one, write in uses if write.rests]
+    if len({write.found for _, write in setters} - {None}) > 1 and any(
+        write.lowers and write.found == FOUND_NONE for _, write in setters
+    ):
+        # Who asks for the truth of it finds down what is not ``None``.
+        return False
     if not setters:
         return _is_put_up_in_turn(context.unit.executor)
     groups = {

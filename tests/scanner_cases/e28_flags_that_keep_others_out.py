@@ -17,12 +17,14 @@ class A(Node):
         self.busy = False
         self.asking = False
         self.accepted = None
+        self.level = None
         self.steps = 0
         self.client = self.create_client(Trigger, 'ask')
         self.create_timer(1.0, self.by_goal)
         self.create_timer(1.0, self.by_arm)
         self.create_timer(1.0, self.on_some_ways)
         self.create_timer(1.0, self.by_object)
+        self.create_timer(1.0, self.by_zero)
         ActionServer(self, Fibonacci, 'f', self.execute, goal_callback=self.on_goal)
 
     def by_goal(self):
@@ -61,6 +63,13 @@ class A(Node):
         self.accepted = object()
         self.steps = 8
 
+    def by_zero(self):
+        if self.level is None:
+            self.level = 0
+            self.steps = 10
+            self.level = None
+            self.steps = 11
+
     def on_goal(self, request):
         with self.lock:
             if self.busy:
@@ -92,36 +101,42 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   group no_group REENTRANT groupless
 #   timer by_goal in a_default every 1
-#     reads A.asking @29
-#     writes A.asking rests constant under A.asking (flag) @31
-#     writes A.steps under A.asking (flag) @32
-#     writes A.steps @34
-#     changes done_callback @33
+#     reads A.asking @31
+#     writes A.asking rests constant under A.asking (flag) @33
+#     writes A.steps under A.asking (flag) @34
+#     writes A.steps @36
+#     changes done_callback @35
 #   timer by_arm in a_default every 1
-#     reads A.busy under lock @43
-#     writes A.busy rests constant under lock, A.busy (flag) @44
-#     writes A.steps under lock, A.busy (flag) @45
-#     writes A.steps under lock @46
-#     locks lock @42
+#     reads A.busy under lock @45
+#     writes A.busy rests constant under lock, A.busy (flag) @46
+#     writes A.steps under lock, A.busy (flag) @47
+#     writes A.steps under lock @48
+#     locks lock @44
 #   timer on_some_ways in a_default every 1
-#     reads A.asking @49>53
-#     writes A.asking rests constant under A.asking (flag) @49>55
-#     writes A.steps @50
+#     reads A.asking @51>55
+#     writes A.asking rests constant under A.asking (flag) @51>57
+#     writes A.steps @52
 #   timer by_object in a_default every 1
-#     reads A.accepted @59
-#     writes A.accepted @61
-#     writes A.steps @62
+#     reads A.accepted @61
+#     writes A.accepted @63
+#     writes A.steps @64
+#   timer by_zero in a_default every 1
+#     reads A.level @67
+#     writes A.level rests constant under A.level (flag) @68
+#     writes A.steps under A.level (flag) @69
+#     writes A.level clears under A.level (flag) @70
+#     writes A.steps @71
 #   client ask_client in a_default key=ask
 #   action_server f_action_server in a_default (A.on_goal) key=f
-#     reads A.busy admits under lock @66
-#     writes A.busy rests constant under lock, A.busy (flag) @68
-#     locks lock @65
-#   action_execute execute in no_group key=f
-#     writes A.steps under A.busy (flag) @72
-#     writes A.busy under A.busy (flag), lock @75
-#     writes A.steps @76
+#     reads A.busy admits under lock @75
+#     writes A.busy rests constant under lock, A.busy (flag) @77
 #     locks lock @74
+#   action_execute execute in no_group key=f
+#     writes A.steps under A.busy (flag) @81
+#     writes A.busy under A.busy (flag), lock @84
+#     writes A.steps @85
+#     locks lock @83
 #   done_callback on_done in no_group key=ask conditional when=callback
-#     writes A.steps under A.asking (flag) @37
-#     writes A.asking under A.asking (flag) @38
-#     writes A.steps @39
+#     writes A.steps under A.asking (flag) @39
+#     writes A.asking under A.asking (flag) @40
+#     writes A.steps @41

@@ -77,7 +77,7 @@ def put_up(world: World, name: str) -> None:
     """``name`` is stored; who has found it down and stores something holds it from here."""
     flag = name + FLAG
     is_down = flag in _found_down(world) or (flag in world.still_down and not _has_waited(world))
-    if is_down and flag not in world.held and _is_up(world.reading.stored):
+    if is_down and flag not in world.held and _is_up(world, name):
         world.held = (*world.held, flag)
 
 
@@ -88,14 +88,17 @@ def _has_waited(world: World) -> bool:
 def put_down(world: World, name: str) -> None:
     """``name`` was stored; who has put down its flag holds it no more."""
     stored = world.reading.stored
-    if isinstance(stored, Const) and not stored.value:
+    if isinstance(stored, Const) and not stored.value and not _is_up(world, name):
         world.held = tuple(held for held in world.held if held != name + FLAG)
 
 
-def _is_up(stored: Value | None) -> bool:
+def _is_up(world: World, name: str) -> bool:
+    """Whether the test finds it up now; one for ``None`` takes every other value for that."""
+    stored = world.reading.stored
     if stored is None or NONE in options_of(stored):
         return False
-    return bool(stored.value) if isinstance(stored, Const) else True
+    found = (world.reading.found.get(step, {}).get(name) for step in world.path)
+    return FOUND_NONE in found or not isinstance(stored, Const) or bool(stored.value)
 
 
 def after_block(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...]:

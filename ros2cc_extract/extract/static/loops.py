@@ -243,11 +243,13 @@ def after_loop(flow: int) -> int:
 
 
 def any_of(owner: Collection) -> Value | None:
-    """One of what a registry holds: classes and functions, entities, or what others wait on."""
+    """One of what a registry holds: objects of the program, its classes and functions, entities."""
     held = owner.items if isinstance(owner, Sequence) else ()
     values = owner.entries.values() if isinstance(owner, Mapping) else held
     found = [option for value in values for option in options_of(value) if option is not ABSENT]
     if found and all(_is_entity(value) or is_waited_on(value) for value in found):
+        return join(found)
+    if found and owner.others is None and all(_is_own_object(value) for value in found):
         return join(found)
     is_registry = isinstance(owner, Mapping) and all(isinstance(v, _CALLABLE) for v in found)
     return join(found) if found and is_registry and owner.others is None else None
@@ -258,6 +260,11 @@ _CALLABLE = (Class, Function, Bound, Partial)
 
 def _is_entity(value: Value) -> bool:
     return isinstance(value, Instance) and isinstance(value.state, EntityState)
+
+
+def _is_own_object(value: Value) -> bool:
+    """What its methods wait for, and what they do, is in the program."""
+    return isinstance(value, Instance) and isinstance(value.cls, Class)
 
 
 def is_key(value: Value) -> bool:

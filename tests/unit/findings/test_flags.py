@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from finding_units import at, callback, found, outside, service, threads, timer, unit, updates
 
-from ros2cc_extract.spec.deeds import FLAG, Access, Act, Blocking
+from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 BUSY = 'Arm.busy' + FLAG
@@ -72,6 +72,27 @@ def test_a_test_and_a_setting_in_two_sections_keep_nobody_out() -> None:
     loose = goal('lock', group='free')
     taken = (*loose.locks, Act(name='lock', source=at(20, 30)))
     assert 'CC304:30 warning' in told(replace(loose, locks=taken), execute())
+
+
+def asked_for_none(line: int, found: str, name: str) -> Callback:
+    """It stores zero where it finds ``None``, or nothing true, and counts then."""
+    up = Access(
+        name='Arm.busy',
+        source=at(line),
+        locks=(BUSY,),
+        rests=True,
+        lowers=found == FOUND_NONE,
+        found=found,
+    )
+    writes = (up, *updates('Arm.steps', line + 1, BUSY))
+    return callback(name, EntityKind.TIMER, 'arm_default', writes=writes)
+
+
+def test_a_flag_that_is_zero_keeps_out_those_who_ask_for_none() -> None:
+    done = outside('on_done', EntityKind.DONE_CALLBACK, writes=updates('Arm.steps', 40, BUSY))
+    by_none = asked_for_none(20, FOUND_NONE, 'tick')
+    assert told(by_none, done) == []
+    assert 'CC303' in ' '.join(told(by_none, asked_for_none(30, FOUND_FALSE, 'tock'), done))
 
 
 def test_a_flag_protects_against_those_who_hold_it_only() -> None:

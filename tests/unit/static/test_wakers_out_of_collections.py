@@ -53,10 +53,12 @@ def wait(made: str, waits: str, ends: str) -> Blocking:
 def test_an_event_of_a_dictionary_is_set_by_who_takes_it_out() -> None:
     of_event = wait('threading.Event()', 'made.wait()', 'self.waiting[int(msg.data)].set()')
     assert [waker.by for waker in of_event.wakers] == ['on_done']
+    of_job = wait('Job()', 'made.finished.wait()', 'self.waiting[int(msg.data)].finished.set()')
+    assert [waker.by for waker in of_job.wakers] == ['on_done']
 
 
 def test_an_event_of_an_object_that_is_not_followed_leaves_the_wait_open() -> None:
-    of_job = wait('Job()', 'made.finished.wait()', 'self.waiting[int(msg.data)].finished.set()')
+    of_job = wait('Job()', 'made.finished.wait()', 'msg.job.finished.set()')
     assert of_job.escapes is not None
     assert 'an object that could not be followed' in of_job.escapes.reason
 
