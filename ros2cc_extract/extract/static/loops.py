@@ -243,7 +243,7 @@ def after_loop(flow: int) -> int:
 
 
 def any_of(owner: Collection) -> Value | None:
-    """One of what a registry holds: objects of the program, its classes and functions, entities."""
+    """One of what is there: objects of the program, classes and functions, entities."""
     held = owner.items if isinstance(owner, Sequence) else ()
     values = owner.entries.values() if isinstance(owner, Mapping) else held
     found = [option for value in values for option in options_of(value) if option is not ABSENT]
