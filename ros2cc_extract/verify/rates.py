@@ -56,7 +56,7 @@ class Demand:
 
 def demand_of(callback: Callback, specs: Sequence[Spec]) -> Demand:
     """Find out what ``callback`` asks for; timers of ``specs`` may publish what arrives for it."""
-    stated = _period_s(callback)
+    stated = period_of(callback)
     is_heard = stated is None and callback.entity is EntityKind.SUBSCRIPTION
     published = _published_every_s(callback, _publishers(specs)) if is_heard else None
     measured = callback.measured
@@ -72,7 +72,7 @@ def demand_of(callback: Callback, specs: Sequence[Spec]) -> Demand:
     )
 
 
-def _period_s(callback: Callback) -> float | None:
+def period_of(callback: Callback) -> float | None:
     """Seconds between arrivals that are certain to come; none of what comes once, or perhaps."""
     period = callback.period_s
     comes = not callback.conditional and not callback.one_shot and not callback.destroyed
@@ -116,7 +116,7 @@ def _published_every_s(callback: Callback, publishers: Publishers) -> float | No
     if callback.entity is not EntityKind.SUBSCRIPTION or not isinstance(topic, str):
         return None
     found = list(publishers.get(topic, {}).values())
-    return _period_s(found[0]) if len(found) == 1 else None
+    return period_of(found[0]) if len(found) == 1 else None
 
 
 def _duration_s(callback: Callback) -> tuple[float | None, bool]:

@@ -12,7 +12,7 @@ class Arm(Node):
     def __init__(self):
         super().__init__('arm')
         self.group = MutuallyExclusiveCallbackGroup()
-        self.create_timer(0.1, self.control)
+        self.create_timer(0.2, self.control)
         self.create_timer(0.9, self.report)
 
     def control(self):

@@ -63,6 +63,31 @@ def test_a_short_sleep_or_one_in_a_group_of_its_own_is_left_alone() -> None:
     assert found(spec) == []
 
 
+@pytest.mark.parametrize('executor', [ONE_THREAD, threads(2)])
+def test_a_sleep_is_long_for_a_timer_that_misses_five_runs(executor: Executor) -> None:
+    def told(seconds: float, *others: Callback) -> list[str]:
+        spec = unit(executor, subscription('on_scan', blocking=sleeps(seconds)), *others)
+        return [code for code in found(spec) if code.startswith('CC2')]
+
+    often = replace(timer('b'), period_s=0.1, source=at(12))
+    seldom = replace(timer('c'), period_s=0.5)
+    assert told(0.9, often, seldom) == ['CC201:50 warning']
+    assert told(0.9, seldom) == told(0.4, often) == []
+    assert told(0.9, replace(often, one_shot=True)) == []
+    spec = unit(executor, subscription('on_scan', blocking=sleeps(0.9)), often, seldom)
+    assert only(spec, 'CC201').related[-1] == Remark(at(12), 'b is due every 0.1 s')
+
+
+def test_short_sleeps_add_up_for_a_timer_that_misses_five_runs() -> None:
+    naps = (*sleeps(0.4, 40), *sleeps(0.3, 50))
+    often = replace(timer('b'), period_s=0.1)
+    spec = unit(ONE_THREAD, subscription('on_scan', blocking=naps), often)
+    assert only(spec, 'CC201').message == (
+        'on_scan sleeps 0.4 s here, with 1 more place 0.7 s in all, and holds the only thread of '
+        'the SingleThreadedExecutor: b and the parameter services of the node wait that long'
+    )
+
+
 def test_a_long_sleep_on_one_thread_stops_everything() -> None:
     spec = unit(ONE_THREAD, timer('a', 'other', blocking=sleeps(5.0)), timer('b'))
     assert 'the only thread of the SingleThreadedExecutor' in only(spec, 'CC201').message
