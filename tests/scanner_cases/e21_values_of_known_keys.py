@@ -42,8 +42,8 @@ def main():
 #     writes Gateway.heard update in_place item 'last' @26
 #     writes Gateway.heard update in_place keeps_size item 'last' @27
 #   service lidar_lambda_switch in gateway_default (Gateway.__init__.<locals>.<lambda>) key=lidar
-#     reads Gateway.states @16>21
-#     writes Gateway.states update in_place keeps_size @16>21
+#     reads Gateway.states item 'lidar' @16>21
+#     writes Gateway.states update in_place keeps_size item 'lidar' @16>21
 #   service arm_lambda_switch in gateway_default (Gateway.__init__.<locals>.<lambda>) key=arm
-#     reads Gateway.states @16>21
-#     writes Gateway.states update in_place keeps_size @16>21
+#     reads Gateway.states item 'arm' @16>21
+#     writes Gateway.states update in_place keeps_size item 'arm' @16>21

@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.defaults import items_by_default
+from ros2cc_extract.extract.static.items_meant import note_item
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -100,7 +101,7 @@ class Assignments(Machine):
             self.world.same_unknowns.setdefault(new.unknown, first)
 
     def _assign_item(self, target: ast.Subscript, value: Value, frame: Frame) -> None:
-        self.world.reading.note_item(target.value, target.slice, frame.place(target.value))
+        note_item(self, target.value, target.slice, frame)
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
         direct = isinstance(target.value, (ast.Attribute, ast.Name))

@@ -9,6 +9,7 @@ from dataclasses import replace
 from ros2cc_extract.extract.static import flags, heard, homes
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.held_locks import is_counter, lock_of
+from ros2cc_extract.extract.static.items_meant import note_item
 from ros2cc_extract.extract.static.machine import Frame
 from ros2cc_extract.extract.static.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.values import (
@@ -170,7 +171,7 @@ class Effects(Waits):
             return
         place = frame.place(target)
         if isinstance(target, ast.Subscript):
-            self.world.reading.note_item(target.value, target.slice, frame.place(target.value))
+            note_item(self, target.value, target.slice, frame)
             self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
             for owner in options_of(self.evaluate(target.value, frame)):

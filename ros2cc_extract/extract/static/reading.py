@@ -118,11 +118,13 @@ class Reading:
             if known is not None and name in known:
                 self.tests[place] = known - {name}
 
-    def note_item(self, container: ast.expr, key: ast.expr, place: Place) -> None:
-        """``container[key]`` is asked for or stored; ``place`` is that of the container."""
-        name, item = _name_of(container), constant_key(key)
+    def note_item(self, container: ast.expr, item: str | None, place: Place) -> None:
+        """``item`` of a container at ``place`` is meant, or one that is not known."""
+        name = _name_of(container)
         if name is not None and item is not None:
             self.items[place, name] = item
+        elif name is not None:
+            self.items.pop((place, name), None)
 
     def note_use(self, used: ast.expr, place: Place) -> None:
         """An attribute or item of ``used`` is asked for, or it is called."""

@@ -7,6 +7,7 @@ import ast
 from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import default_of, items_by_default
+from ros2cc_extract.extract.static.items_meant import note_item
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -28,7 +29,7 @@ from ros2cc_extract.places import Unknown
 def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     """``owner[key]``, for every owner that is possible."""
     at = frame.place(node.value)
-    machine.world.reading.note_item(node.value, node.slice, at)
+    note_item(machine, node.value, node.slice, frame)
     machine.world.reading.note_use(node.value, at)
     owner = machine.evaluate(node.value, frame)
     key = machine.evaluate(node.slice, frame)
