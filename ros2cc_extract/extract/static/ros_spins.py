@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.ros_executors import (
     record_spin,
     remove_node,
 )
+from ros2cc_extract.extract.static.uncalled import is_handed_on
 from ros2cc_extract.extract.static.values import NONE, Call, Handler, Instance, Value, options_of
 from ros2cc_extract.extract.static.world import ExecutorState
 from ros2cc_extract.places import Place
@@ -120,11 +121,11 @@ def spin_in_passing(machine: Machine, node: Value, how: str, place: Place) -> No
 def _warn_of_theft(
     machine: Machine, node: Instance, executor: Instance, how: str, place: Place
 ) -> None:
-    if machine.world.when is When.LATER:
-        return  # nobody in sight calls this: it may run before the node is in that executor
     old = node.slots.get('__executor__')
     for other in options_of(old) if isinstance(old, Value) else ():
         if not isinstance(other, Instance) or other is executor:
+            continue
+        if machine.world.when is When.LATER and not _is_spun_then(machine, other):
             continue
         name = other.hint or 'executor'
         machine.world.diagnostics.append(
@@ -138,10 +139,33 @@ def _warn_of_theft(
                     'the global single-threaded executor'
                     if executor.state.is_global
                     else 'another'
-                ),
+                )
+                + _afterwards(other, how),
                 help=_instead(machine, other, name, how),
             )
         )
+
+
+def _is_spun_then(machine: Machine, executor: Instance) -> bool:
+    """
+    Whether a thread spins ``executor`` when code runs that nobody in sight calls.
+
+    So it is where the program hands that on, as to a window, and the spin ends with rclpy or
+    never. What nobody names may be for use before the spin, or none at all.
+    """
+    world = machine.world
+    spins = [s for s in world.spins.values() if s.executor is executor]
+    goes_on = any(spin.in_thread and spin.for_ever for spin in spins)
+    ends = [over.what for over in world.over if over.what in (None, executor)]
+    is_whole = not ends or ends[0] is None
+    name = machine.stack[0].name if machine.stack else ''
+    return goes_on and is_whole and world.is_program and is_handed_on(world, name)
+
+
+def _afterwards(executor: Instance, how: str) -> str:
+    if how == 'spin' or not executor.state.spun:
+        return ''
+    return '; after that it is in none until somebody adds it again'
 
 
 def _instead(machine: Machine, other: Instance, name: str, how: str) -> str:

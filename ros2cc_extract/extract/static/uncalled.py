@@ -92,6 +92,21 @@ def _is_dead(world: World, function: str) -> bool:
     return not any(function in text or 'getattr' in text for text in texts)
 
 
+def is_handed_on(world: World, function: str) -> bool:
+    """Whether a text of the program has the function as a value that it does not call."""
+    return any(function in noted_on(tree, 'handed_on', _handed_on) for tree, _ in world.files)
+
+
+def _handed_on(tree: ast.Module) -> frozenset[str]:
+    called = {id(part.func) for part in walk(tree) if isinstance(part, ast.Call)}
+    parts = (part for part in walk(tree) if id(part) not in called)
+    return frozenset(
+        part.attr if isinstance(part, ast.Attribute) else part.id
+        for part in parts
+        if isinstance(part, (ast.Attribute, ast.Name)) and isinstance(part.ctx, ast.Load)
+    )
+
+
 def _mentioned(tree: ast.Module) -> frozenset[str]:
     """What is called, handed on or spelled in a file."""
     names = {part.id for part in walk(tree) if isinstance(part, ast.Name)}

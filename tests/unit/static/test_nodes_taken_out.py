@@ -1,0 +1,63 @@
+"""``rclpy.spin…`` of a node that a thread spins already, in code that others call."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan_text
+
+PROGRAM = """
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+import window
+
+class Panel:
+    def __init__(self, node):
+        self.node = node
+        self.client = node.create_client(Trigger, 'start')
+        {made}
+
+    def clicked(self):
+        future = self.client.call_async(Trigger.Request())
+        {wait}
+
+def main():
+    rclpy.init()
+    node = Node('panel')
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    panel = Panel(node)
+    {rest}
+
+main()
+"""
+SPIN = 'spinner = threading.Thread(target=executor.spin); spinner.start(); '
+ASK = 'rclpy.spin_until_future_complete(self.node, future)'
+BUTTON = 'window.loops.append((1, self.clicked))'
+
+
+@pytest.mark.parametrize(
+    ('made', 'wait', 'rest', 'lines'),
+    [
+        (BUTTON, ASK, SPIN + 'window.mainloop()', [17]),
+        (BUTTON, ASK, SPIN + 'window.mainloop(); rclpy.shutdown(); spinner.join()', [17]),
+        ('window.on_click(self.clicked)', ASK, SPIN + 'window.mainloop()', [17]),
+        # It may be called before anything spins.
+        ('pass', ASK, SPIN + 'window.mainloop()', []),
+        (BUTTON, ASK, 'window.mainloop(); executor.spin()', []),
+        # Or when the thread does no more.
+        (BUTTON, ASK, SPIN + 'executor.shutdown(); window.mainloop()', []),
+        (BUTTON, 'future.add_done_callback(print)', SPIN + 'window.mainloop()', []),
+        ('pass', ASK, 'panel.clicked(); ' + SPIN, []),
+    ],
+)
+def test_a_node_that_leaves_the_executor_of_a_thread(
+    made: str, wait: str, rest: str, lines: list[int]
+) -> None:
+    found = scan_text(PROGRAM.format(made=made, wait=wait, rest=rest)).diagnostics
+    mine = [each for each in found if each.slug == 'node-taken-out']
+    assert [each.place.line for each in mine] == lines
+    assert all('after that it is in none' in each.message for each in mine)
