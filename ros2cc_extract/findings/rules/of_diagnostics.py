@@ -39,7 +39,7 @@ TAKEN_OUT = Rule(
     title='Node taken out of its executor',
     what='A node that an executor serves is given to another one. A node is in one executor '
     'only, the one that added it last, and in none after `rclpy.spin_until_future_complete` or '
-    '`rclpy.spin_once` has taken it. Code counts that `main` or a thread runs beside the spin, and '
+    '`rclpy.spin_once` has taken it. Code counts that `main` or a thread runs beside a spin, and '
     'what is handed to others, as to the buttons of a window.',
     why='`add_node` sets `node.executor`, and that setter removes the node from its previous '
     'executor. Sources: rclpy 7.1.6 and 9.1.2, `node.py`, `executors.py`.',
