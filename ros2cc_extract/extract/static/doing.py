@@ -23,6 +23,7 @@ class Deeds:
     :param unread: of waits for a child process, where it is made and which pipe of it is not read
         before, see ``pipes.py``.
     :param loops: how many loops of several rounds, known ones, are followed now.
+    :param order: messages, clears of events and waits for events, see ``wiped_out.py``.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -39,6 +40,7 @@ class Deeds:
     stored: dict[Hold, set[str]] = field(default_factory=dict)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
+    order: list[tuple[str, object]] = field(default_factory=list)
 
 
 def way_of(block: Blocking) -> object:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import flags, heard, homes
+from ros2cc_extract.extract.static import flags, heard, homes, wiped_out
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.held_locks import is_counter, lock_of
 from ros2cc_extract.extract.static.items_meant import note_item
@@ -305,6 +305,7 @@ class Effects(Waits):
             name = key.unknown
         is_open = self.world.path != self.world.callback_path
         deeds.written.setdefault((name, place), (deeds.behind, is_open))
+        wiped_out.note_sent(deeds, str(name))
         note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:

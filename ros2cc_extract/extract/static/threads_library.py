@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.wait_table import INITIAL
 from ros2cc_extract.extract.static.wakings import Word
+from ros2cc_extract.extract.static.wiped_out import note_cleared
 from ros2cc_extract.extract.static.world import PlainState, ThreadState
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
@@ -255,6 +256,7 @@ def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
     before = len(world.entities) + len(world.builtins)
     world.cleared.setdefault(id(receiver), {}).setdefault((doer, call.place), before)
     _keep_flag(machine, receiver, Const(False))
+    note_cleared(world.deeds, receiver)
     return NONE
 
 

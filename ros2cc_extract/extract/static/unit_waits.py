@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.wakings import (
     Waking,
     Word,
 )
+from ros2cc_extract.extract.static.wiped_out import why_wiped_out
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import BY_ITSELF, OUTSIDE, TIME, Access, Blocking, Needs, Waker
@@ -288,7 +289,9 @@ class UnitWaits:
         why = why or why_unspun(self._world, wakers, doer, self._name)
         if why is not None or forgets(reference, mine, doer):
             return why
-        return why_lost(self._world, reference, mine, doer, self._doers, self._name)
+        why = why_lost(self._world, reference, mine, doer, self._doers, self._name)
+        is_for_ever = raw.seconds is None and why is None
+        return why_wiped_out(reference, mine, doer, self._doers) if is_for_ever else why
 
     def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
         """Whether ``doer`` itself ends it, when it has waited."""

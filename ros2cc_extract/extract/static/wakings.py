@@ -81,6 +81,7 @@ class ResourceRef(SettableRef):
     :param parties: of a barrier, how many must come; ``None`` where that is not known.
     :param is_own: a callback makes it anew in each run.
     :param guard: of a condition.
+    :param answered: topics of messages whose answers may be gone, see ``wiped_out.py``.
     """
 
     ended_by: frozenset[Word] = frozenset()
@@ -92,6 +93,7 @@ class ResourceRef(SettableRef):
     parties: int | None = None
     is_own = False
     guard: Guard | None = None
+    answered: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
