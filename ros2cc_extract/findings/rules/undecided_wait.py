@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.never_ends import open_facts, unexplained
+from ros2cc_extract.findings.stuck import stuck_in
 from ros2cc_extract.findings.used_up import is_used_up
-from ros2cc_extract.findings.verdicts import PROGRESS, surely_ends, verdict_on
+from ros2cc_extract.findings.verdicts import PROGRESS, refuting_run, surely_ends, verdict_on
 from ros2cc_extract.findings.waits import (
     AnyWait,
     WaitKind,
@@ -30,6 +31,9 @@ CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
 _FOREIGN = frozenset({'await', 'unknown wait'})
 _NOBODY_KNOWN = 'it is not known who ends it'
+_WAKES_NOBODY = (
+    'only a thread ends it, which wakes no executor: it goes on once something else does so'
+)
 
 
 def find_undecided(context: Context) -> Iterator[Hit]:
@@ -60,6 +64,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _cut_short(context, waits):
             waits.append(wait)
             reasons[id(wait)] = _limit_of(wait, context)
+        for wait in _unwoken(context):
+            waits.append(wait)
+            reasons[id(wait)] = _WAKES_NOBODY
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
@@ -136,6 +143,25 @@ def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
             )
 
 
+def _unwoken(context: Context) -> Iterator[AnyWait]:
+    """
+    Awaits that a thread ends, and that last for ever in the model, which knows no other wake-up.
+
+    Whether somebody calls ``wake``, or else something comes, the specification does not say.
+    """
+    for caller in context.written:
+        run = refuting_run(PROGRESS, context, caller)
+        if run is None or caller.name in {stuck.doer.name for stuck in stuck_in(run, context)}:
+            continue
+        for block in caller.blocking:
+            if _is_by_thread(block):
+                yield AnyWait(caller, block, kind_of(block))
+
+
+def _is_by_thread(block: Blocking) -> bool:
+    return block.call == 'await' and block.foreign and block.seconds is None
+
+
 def _not_proven(context: Context) -> Iterator[AnyWait]:
     """Waits that last for ever in the model of a unit of which not all facts are known."""
     if open_facts(context):
@@ -172,6 +198,8 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
     if is_outside:
         own = '' if isinstance(wait.caller, Activity) else ', or do it in a thread of its own'
         return f'give it a time-out{own}'
+    if _is_by_thread(wait.block):
+        return 'call wake() of the executor after that, or let a callback end it'
     if wait.block.call == ENDLESS_LOOP:
         return 'let a timer do the work of the loop'
     return 'give it a time-out, or see to it that whoever ends it can be followed'
@@ -190,9 +218,10 @@ UNDECIDED = Rule(
     title='Wait that could not be decided',
     what='A callback, `main` or a thread waits for something, and whoever ends that wait could '
     'not be followed: the object was handed to code that is not in sight, or nobody in sight '
-    'ends it. Whether the wait ends is open, and so is every claim that rests on it. There is '
-    'one line for each wait, not for each callback that it may hold up. With `--strict` the exit '
-    'status is 3.',
+    'ends it. So is an await of what a thread makes done: that wakes no executor, and nobody '
+    'knows when something else does. Whether the wait ends is open, and so is every claim that '
+    'rests on it. There is one line for each wait, not for each callback that it may hold up. '
+    'With `--strict` the exit status is 3.',
     why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
     'result means that no wait can last for ever; where that is not known it is said. Sources: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py`.',
