@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static import (
     ros_nodes,
     ros_shutdown,
     ros_spins,
+    servers_library,
     threads_library,
 )
 from ros2cc_extract.extract.static.library_table import Library, merged
@@ -57,6 +58,7 @@ def table() -> Library:
             threads_library.TABLE,
             futures_library.TABLE,
             asyncio_library.TABLE,
+            servers_library.TABLE,
             queues_library.TABLE,
             outside_library.TABLE,
             ros_groups.TABLE,
