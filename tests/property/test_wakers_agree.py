@@ -13,13 +13,14 @@ from ros2cc_extract.checker.api import Limits, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify import narrowing
+from ros2cc_extract.verify import again, narrowing
 from ros2cc_extract.verify.unit import Options, verify_unit
 
 #: A larger one is passed over: it would take seconds.
 STATES = 30_000
 SLICED = Options(profile=Profile.RCLPY, structural=False)
-WHOLE = replace(SLICED, limits=Limits(states=300_000))
+MOST_STATES = 300_000
+WHOLE = replace(SLICED, limits=Limits(states=MOST_STATES))
 LIMIT = 'limit'
 Said = dict[str, str]
 Ways = Callable[[ClosedSpec], tuple[Said, Said]]
@@ -86,12 +87,17 @@ def test_texts_agree_on_many() -> None:
     assert differences(units(range(1_000, 2_000)), by_texts) == []
 
 
-def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:
+def one_bound_for_both(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
+    monkeypatch.setattr(again, 'SLICE_STATES', MOST_STATES)
+
+
+def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:
+    one_bound_for_both(monkeypatch)
     assert differences(units(range(25)), by_slices) == []
 
 
 @pytest.mark.slow
 def test_slices_agree_on_many(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    one_bound_for_both(monkeypatch)
     assert differences(units(range(2_000, 2_500), callbacks=5), by_slices) == []
