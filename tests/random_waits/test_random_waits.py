@@ -15,7 +15,7 @@ from tests.random_waits.programs import program
 from tests.random_waits.recorded import Ran, add, load, unfinished
 from tests.random_waits.suite import ENDS, FOUND, Tally, judge, watch
 
-SEEDS = range(30030, 30038)
+SEEDS = range(30030, 30032)
 
 
 def test_a_seed_gives_one_program() -> None:
