@@ -85,6 +85,7 @@ class Blocking:
     :param assumed: the rule by which ``seconds`` was assumed.
     :param unread: ``stdout`` or ``stderr`` of a child process whose end is waited for while nobody
         reads that pipe.
+    :param at_end: of a thread, where the program ends the wait when its spin is over.
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
         locks held and the wait.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
@@ -107,6 +108,7 @@ class Blocking:
     only_if: str | None = None
     assumed: str | None = None
     unread: str | None = None
+    at_end: Place | None = None
     repeats: bool = False
     times: int = 1
 

@@ -86,6 +86,7 @@ def begin(
     machine.charge(THING_STEPS)
     state.path, state.count = world.path, _count(world, call.place)
     state.thread, state.on_loop = world.threads + 1, on_loop
+    state.spins = world.main_spins
     world.activities.append(state)
     outer, world.activity = world.activity, state
     try:

@@ -56,7 +56,8 @@ class ActivityState:
     :param place: where it is started.
     :param runners: the threads or futures that stand for it; who waits on one waits for its end.
     :param starts: who starts it.
-    :param ends_first: the set-up waits for its end.
+    :param spins: how many spins the set-up has called before its start.
+    :param ends_first: the set-up waits for its end before it spins again.
     :param serves: it spins an executor; for ever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param turns: equal for those that have one thread between them.
@@ -75,6 +76,7 @@ class ActivityState:
     count: int | Unknown = 1
     daemon: bool = False
     loops: bool = False
+    spins: int = 0
     ends_first: bool = False
     serves: bool = False
     is_executor: bool = False

@@ -132,6 +132,8 @@ def may_be_filled(machine: Machine, value: Collection) -> bool:
 def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
     """Everything made inside is made ``count`` times as often."""
     before = machine.world.count
+    if machine.world.open_loops == 0:
+        machine.world.before_loop = machine.world.main_spins
     machine.world.open_loops += isinstance(count, Unknown)
     if isinstance(count, Unknown) or isinstance(before, Unknown):
         machine.world.count = before if isinstance(before, Unknown) else count

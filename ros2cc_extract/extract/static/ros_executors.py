@@ -51,7 +51,7 @@ from ros2cc_extract.extract.static.world import (
     Spin,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import EntityKind, GroupType
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 BASE = 'rclpy.executors.Executor'
 SINGLE = 'rclpy.executors.SingleThreadedExecutor'
@@ -244,7 +244,11 @@ def record_spin(
         world.spins.setdefault(spin.key, spin)
     for node in nodes:
         node.state.spun, node.state.loop = True, world.loop
-    if ever and not world.in_thread:
+    if world.in_thread:
+        return
+    # Callbacks of a pool go on beside what comes behind a spin that ends.
+    world.main_spins += world.when is When.START and (ever or executor.state.threads == 1)
+    if ever:
         world.after_spin = True
 
 

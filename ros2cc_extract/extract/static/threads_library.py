@@ -314,7 +314,8 @@ def _note_end(machine: Machine, thread: Value) -> None:
     world = machine.world
     if world.deeds is None and not world.after_spin:
         for activity in world.activities:
-            activity.ends_first = activity.ends_first or thread in activity.runners
+            is_first = thread in activity.runners and activity.spins == world.main_spins
+            activity.ends_first = activity.ends_first or is_first
 
 
 def _join(machine: Machine, receiver: Value, call: Call) -> Value:

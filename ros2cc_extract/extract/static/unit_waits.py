@@ -230,6 +230,8 @@ class UnitWaits:
             escapes = escapes or why
             named = replace(named, forgets=self._forgets(raw.resource, doer))
             wakings = wakings_of(self._world, raw.resource)
+            if is_activity(doer):
+                named = replace(named, at_end=self._ended_last(raw.resource))
             initial = self._initial(raw.resource, wakings)
             given = [w for w in wakings if w.word in raw.resource.ended_by]
             number = stock.counted(raw, initial, self._doers, given)
@@ -324,9 +326,7 @@ class UnitWaits:
     def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
         by, place = waking.by, waking.place
         if by is None:
-            if waking.after_spin and is_activity(doer):
-                yield Waker(by=OUTSIDE, source=place)
-            elif waking.uncalled is None and not waking.after_spin:
+            if waking.uncalled is None and not comes_last(waking, self._world):
                 yield from self._by_set_up(waking, reference)
             return
         name = self._names.get(id(by))
@@ -353,11 +353,21 @@ class UnitWaits:
         ):
             yield Waker(by=TIME, source=waking.place, conditional=True)
 
+    def _ended_last(self, reference: ResourceRef) -> Place | None:
+        """Where the program ends a wait when its spin is over."""
+        wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
+        last = (waking for waking in wakings if comes_last(waking, self._world))
+        return next((waking.place for waking in last), None)
+
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
         """How many waits end without a waker, as the set-up leaves it."""
         if reference.initial is None or reference.is_kept:
             return reference.initial
-        early = [w for w in mine if w.by is None and w.uncalled is None and not w.after_spin]
+        early = [
+            w
+            for w in mine
+            if w.by is None and w.uncalled is None and not comes_last(w, self._world)
+        ]
         counted = [w for w in early if w.word in (Word.PUT, Word.RELEASE) and w.is_counted]
         return reference.initial + len(counted)
 
@@ -378,6 +388,12 @@ def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
     if known is not None:
         return known
     return [waking for number in reference.like for waking in world.wakings.get(number, ())]
+
+
+def comes_last(waking: Waking, world: World) -> bool:
+    """Whether the set-up does it when its last spin is over, and no callback runs any more."""
+    is_behind = 0 < waking.spins == world.main_spins
+    return waking.by is None and (waking.after_spin or is_behind)
 
 
 def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:

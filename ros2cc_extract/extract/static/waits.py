@@ -243,6 +243,7 @@ class Waits(Machine):
             behind=world.deeds.behind if world.deeds is not None else None,
             conditional=world.path != world.callback_path if doer else bool(world.path),
             after_spin=world.after_spin,
+            spins=0 if world.spun_in_loop else world.main_spins,
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
             held=held_over(world, thing),
             is_counted=not world.path and world.count == 1,

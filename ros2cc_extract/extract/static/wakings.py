@@ -104,6 +104,8 @@ class Waking:
     :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
         calls.
     :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
+    :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
+        in which it stands itself.
     :param uncalled: in whose text, which nobody in sight calls, it stands.
     :param is_counted: it happens once, whatever branches are taken.
     :param in_loop: it stands in a loop of which nobody knows how often it goes round.
@@ -119,6 +121,7 @@ class Waking:
     behind: object = None
     conditional: bool = False
     after_spin: bool = False
+    spins: int = 0
     uncalled: str | None = None
     held: tuple[str, ...] = ()
     is_counted: bool = False

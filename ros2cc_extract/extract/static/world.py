@@ -352,6 +352,8 @@ class World:
     :param readers: who reads the pipes of a child process, by the place where that is made.
     :param homes: the attribute that first held a collection, see ``homes.py``.
     :param locks: the locks that were taken, by the name they are stored under.
+    :param main_spins: how many spins the set-up has called in its own thread, behind which no
+        callback runs, and how many it had ``before_loop``, the outermost of those loops.
     :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
         and ``begun`` where something was made or started in one.
@@ -410,6 +412,8 @@ class World:
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
     open_loops: int = 0
+    main_spins: int = 0
+    before_loop: int = 0
     picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
     skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
         default_factory=dict
@@ -518,3 +522,8 @@ class World:
     def in_callback(self) -> bool:
         """Whether a callback is followed, and no thread that it starts."""
         return self.deeds is not None and self.activity is None
+
+    @property
+    def spun_in_loop(self) -> bool:
+        """Whether what is followed stands in a loop that has spun, and may again."""
+        return self.open_loops > 0 and self.main_spins > self.before_loop

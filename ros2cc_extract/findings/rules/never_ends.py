@@ -123,7 +123,9 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
         names = {each.doer.name for each in stuck}
         if caller.name in names and not names & explained:
             together = _together(caller.name, stuck)
-            if together[0].wait.block.call == WORKING_LOOP:
+            block = together[0].wait.block
+            # A thread that the program ends at its end waits as long as it is meant to.
+            if block.call == WORKING_LOOP or block.at_end is not None:
                 continue
             told.update(each.doer.name for each in together)
             yield together, stuck
