@@ -97,6 +97,12 @@ fuzz-guided: $(VENV)/developed
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[fuzz]'
 	$(BIN)/python scripts/fuzz-scanner --runs $(FUZZ_RUNS) --atheris
 
+# Texts for each other parser, chosen by atheris: an hour each before a release.
+FUZZ_SECONDS ?= 3600
+fuzz-parsers: $(VENV)/developed
+	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[fuzz]'
+	$(BIN)/python scripts/fuzz-parsers --seconds $(FUZZ_SECONDS)
+
 # What strangers may do to us, in the numbers of record: hostile files, caches, repositories, users.
 attack: $(VENV)/developed $(JAZZY)/installed
 	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' tests/attack $(PYTEST_FLAGS)

@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ros2cc_extract.files import open_regular
+from ros2cc_extract.jsontext import read_json
 from ros2cc_extract.packing import Packer, PackingError
 from ros2cc_extract.trust import changeable_by_others, open_to_others
 
@@ -71,7 +72,7 @@ def load_value(path: Path, packer: Packer[T]) -> T | None:
         return None
     try:
         with _no_collection():
-            return packer.unpack(json.loads(content))
+            return packer.unpack(read_json(content))
     except (PackingError, ValueError, RecursionError):
         return None
 

@@ -87,6 +87,8 @@ def _parse(path: Path, mend: str = 'mend the file') -> Mapping[str, Any] | None:
         raise InputError('no TOML: no UTF-8 text', Place(str(path)), mend) from None
     except ValueError as error:  # also of a number or a date that Python has not
         raise InputError(f'no TOML: {error}', Place(str(path)), mend) from None
+    except RecursionError:
+        raise InputError('it is nested too deeply', Place(str(path)), mend) from None
     tool = data.get('tool', {})
     table = tool.get(TABLE) if isinstance(tool, dict) else None
     if table is not None and not isinstance(table, dict):

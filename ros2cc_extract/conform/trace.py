@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named
+from ros2cc_extract.jsontext import read_json
 from ros2cc_extract.places import Place
 
 MOST_BYTES = 1_000_000_000
@@ -99,7 +99,7 @@ def read_traces(path: Path) -> tuple[Trace, ...]:
 def _lines(text: str, path: Path) -> Iterator[Mapping[str, Any]]:
     for number, line in enumerate(text.splitlines(), start=1):
         try:
-            data = json.loads(line)
+            data = read_json(line)
         except ValueError:
             data = None
         if not isinstance(data, dict):

@@ -15,6 +15,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.jsontext import read_json
 from ros2cc_extract.places import Place
 from ros2cc_extract.shown import json_text
 
@@ -61,10 +62,12 @@ def read_baseline(text: str, file: str) -> frozenset[str]:
     :raises InputError: when ``text`` is no baseline of this version.
     """
     try:
-        data = json.loads(text)
+        data = read_json(text)
     except json.JSONDecodeError as error:
         place = Place(file, error.lineno, error.colno)
         raise InputError(f'no JSON: {error.msg}', place, _MEND) from None
+    except ValueError as error:
+        raise InputError(f'no JSON that can be read: {error}', Place(file), _MEND) from None
     if not isinstance(data, dict) or data.get('ros2cc_baseline') != VERSION:
         raise InputError(f'no baseline of version {VERSION}', Place(file), _MEND)
     entries = data.get('findings')

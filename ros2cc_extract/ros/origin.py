@@ -7,12 +7,12 @@ names a commit, or a wheel by its content or in the repository itself.
 
 from __future__ import annotations
 
-import json
 import re
 from importlib import metadata
 from typing import Any
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.jsontext import read_json
 
 DISTRIBUTION = 'ros2cc-extract'
 MEND = (
@@ -50,7 +50,7 @@ def _direct_url() -> dict[str, Any]:
     """Where this tool was installed from (PEP 610); empty where pip has not kept it."""
     try:
         text = metadata.distribution(DISTRIBUTION).read_text('direct_url.json')
-        data = json.loads(text or '{}')
+        data = read_json(text or '{}')
     except (metadata.PackageNotFoundError, ValueError):
         return {}
     return data if isinstance(data, dict) else {}

@@ -22,6 +22,7 @@ LEAVES = {
     'crew',
     'cachefile',
     'files',
+    'jsontext',
     'packing',
     'shown',
     'trust',

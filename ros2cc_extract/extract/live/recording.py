@@ -7,7 +7,6 @@ little old, because it is only ever replaced as a whole.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named, real_path
+from ros2cc_extract.jsontext import read_json
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Distribution, Measured
 
@@ -149,7 +149,7 @@ def read_recording(path: Path, shown_from: Path) -> Recording:
     :raises InputError: when the file cannot be read or is none of ours.
     """
     try:
-        data = json.loads(read_named(path, MOST_BYTES))
+        data = read_json(read_named(path, MOST_BYTES))
     except ValueError as error:
         raise InputError('is no recording (not JSON)', Place(str(path)), MEND) from error
     if not isinstance(data, dict) or data.get('format') != FORMAT:

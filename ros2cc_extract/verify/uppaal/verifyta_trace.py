@@ -31,7 +31,7 @@ def read_runs(text: str) -> tuple[PrintedRun, ...]:
     before = 'State'
     for kind, body in _items(text):
         if kind == 'State' and (state := _state(body)):
-            if before == 'State':
+            if before == 'State' or not runs:
                 runs.append([])
             if before != 'Delay':
                 runs[-1].append(state)
