@@ -6,7 +6,7 @@ One arrival for each callback is enough for all else; see ``arrivals.crowding`` 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.checker.api import Limits, Verdict
@@ -29,7 +29,9 @@ def ask_again(
     The search has its own bound on states: who waits may overlap itself in many a unit.
     """
     arrivals = crowding(closed.spec)
-    asked = [query for query in queries if query.family in _OF_ENDS]
+    asked = [
+        query for query in queries if query.family in _OF_ENDS and _may_be_of(query, arrivals)
+    ]
     left = [query for query in asked if _may_be_refuted(found.results[key_of(query)])]
     if not arrivals or not left:
         return found
@@ -44,6 +46,11 @@ def ask_again(
         total((found.check, second.check)), complete=found.check.complete and second.check.complete
     )
     return Found(results, check, found.by_slices)
+
+
+def _may_be_of(query: Query, arrivals: Mapping[str, int]) -> bool:
+    """Tell whether runs that fill the threads may refute it: who starves has none of its own."""
+    return query.family is not Family.STARVATION or not arrivals.keys() <= set(query.callbacks)
 
 
 def _may_be_refuted(result: QueryResult) -> bool:

@@ -22,6 +22,8 @@ from ros2cc_extract.verify.slices import Names, Slicer
 #: A unit of up to so many callbacks is explored as a whole if it has no more states than that.
 SMALL = 8
 FIRST_LOOK_STATES = 20_000
+#: Most states of the whole unit, where no limit of the user's says less; ``None`` for all.
+WHOLE_STATES: int | None = None
 
 
 def narrow(
@@ -66,7 +68,8 @@ def narrow(
             results = found.results
     rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
     if rest or found is None:
-        whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, limits)
+        most = replace(limits, states=limits.states or WHOLE_STATES)
+        whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, most)
         found = whole if found is None else joined(found, whole)
     complete = not any(map(_is_open, found.results.values()))
     return replace(found, check=replace(found.check, complete=complete))

@@ -27,8 +27,9 @@ from ros2cc_extract.verify.unit import Options, Verification, verify_unit
 
 Drawn = Iterator[tuple[int, ClosedSpec]]
 SLICED = Options(profile=Profile.RCLPY, structural=False)
+WHOLE_STATES = 300_000
 #: A limit on states asks for the whole unit.
-WHOLE = replace(SLICED, limits=Limits(states=300_000))
+WHOLE = replace(SLICED, limits=Limits(states=WHOLE_STATES))
 
 
 def draw(numbers: range, *, callbacks: int) -> Drawn:
@@ -49,12 +50,18 @@ def draw_entities(numbers: range, *, callbacks: int) -> Drawn:
 
 @contextmanager
 def no_unit_is_small() -> Iterator[None]:
-    """Slices are for large units; here all count as such."""
-    small, narrowing.SMALL = narrowing.SMALL, 0
+    """
+    Slices are for large units; here all count as such.
+
+    What they leave open is asked of the whole unit with the limit that it is compared with: more
+    would be compared with nothing, and takes a dozen GB of some units.
+    """
+    small, most = narrowing.SMALL, narrowing.WHOLE_STATES
+    narrowing.SMALL, narrowing.WHOLE_STATES = 0, WHOLE_STATES
     try:
         yield
     finally:
-        narrowing.SMALL = small
+        narrowing.SMALL, narrowing.WHOLE_STATES = small, most
 
 
 def differences(unit: ClosedSpec) -> tuple[Verification, list[str]]:

@@ -89,3 +89,18 @@ def test_crowds_say_what_the_whole_unit_says() -> None:
             assert verdicts(verify_unit(unit, SLICED)) == verdicts(whole)
     finally:
         narrowing.SMALL = small
+
+
+def test_runs_of_its_own_do_not_make_a_callback_starve() -> None:
+    """Alone in filling the threads: who starves does not run, so nothing is asked twice."""
+    closed = crowded(callers=1, threads=8, others=9)
+    groups = (
+        replace(g, type=GroupType.REENTRANT) if g.name == 'of_ask_0' else g
+        for g in closed.spec.groups
+    )
+    found = verify_unit(replace(closed, spec=replace(closed.spec, groups=tuple(groups))), SLICED)
+    assert not [r.words for r in found.results if r.verdict is Verdict.UNDECIDED]
+    assert found.states < 20_000
+    of = verdicts(found)
+    assert of['starvation', ('ask_0',)] is Verdict.SATISFIED
+    assert of['starvation', ('other_8',)] is Verdict.NOT_SATISFIED
