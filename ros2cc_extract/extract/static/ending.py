@@ -15,6 +15,7 @@ CANCEL = 'cancel'
 DESTROY_PUBLISHER, PUBLISHED = 'destroy_publisher', 'publish'
 RAISES = 'raise'
 USED = 'used when rclpy was shut down'
+OF_RATE = 'rclpy.create_rate'
 # Of base classes, and of generators; a Ctrl-C is not for an executor.
 _NO_END = frozenset({'NotImplementedError', 'StopIteration', 'KeyboardInterrupt'})
 

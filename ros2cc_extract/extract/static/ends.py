@@ -6,7 +6,9 @@ Measured on rclpy 3.3.21 (its ``executors.py`` and ``task.py`` over those of 7.1
 executor that runs it, waits for its own end on 3.3 and goes on later; a publisher raises when
 rclpy is shut down; an entity destroyed while another thread spins it ends that spin by
 ``InvalidHandle`` on 3.3 and 7.1 after some dozen times, and not on 9.1 (``executors.py``, where
-the wait set is read by handle).
+the wait set is read by handle). What raises there are the events of a subscription, which are no
+entities of the node; the timer of a rate has none, and in 10,385 rounds of making, sleeping by and
+destroying one, by a thread and in a pool, no spin ended on 7.1.6.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from ros2cc_extract.extract.static.ending import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
+    OF_RATE,
     REMOVE_NODE,
     SHUTDOWN,
     SHUTDOWN_EXECUTOR,
@@ -113,6 +116,8 @@ def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnost
     waits = [block for block in _waits_on(entity, end, world) if block.seconds is None]
     if waits:
         yield _awaited(end, entity, waits[0])
+        return
+    if entity.library == OF_RATE:
         return
     executor = executor_of(entity.node)
     spins = _spins_of(executor, world)

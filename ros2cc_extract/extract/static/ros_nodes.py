@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.ending import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
+    OF_RATE,
     note_end,
 )
 from ros2cc_extract.extract.static.heard import note_begun, note_made
@@ -240,10 +241,10 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     if known is not None:
         return known
     if state.rate_group is None:
-        group = GroupState(type=GroupType.REENTRANT, library='rclpy.create_rate', node=receiver)
+        group = GroupState(type=GroupType.REENTRANT, library=OF_RATE, node=receiver)
         state.rate_group = new_group(machine, group, call.place, 'rate_group')
     entity = add_entity(machine, receiver, EntityKind.TIMER, state.rate_group, call.place)
-    entity.library = 'rclpy.create_rate'
+    entity.library = OF_RATE
     frequency = call.argument(0, 'frequency')
     if isinstance(frequency, Const) and isinstance(frequency.value, (int, float)):
         entity.period = Const(1.0 / frequency.value) if frequency.value else None
