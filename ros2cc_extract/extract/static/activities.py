@@ -61,7 +61,7 @@ def begin(
     call: Call,
     runner: Value | None = None,
     *,
-    daemon: bool = False,
+    daemon: bool | None = False,
     on_loop: bool = False,
     turns: object = None,
 ) -> None:
@@ -76,8 +76,9 @@ def begin(
     site = (text, world.chain, id(world.activity or world.current))
     known = _own_text(world, text) or next((e for e in world.activities if e.site == site), None)
     state = known or ActivityState(
-        kind, call.place, target, call, daemon=daemon, site=site, turns=turns
+        kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
     )
+    state.is_daemon = daemon
     _note_start(machine, state, runner)
     note_begun(world, call.place)
     if known is not None:

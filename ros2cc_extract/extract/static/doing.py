@@ -24,6 +24,7 @@ class Deeds:
         before, see ``pipes.py``.
     :param loops: how many loops of several rounds, known ones, are followed now.
     :param order: messages, clears of events and waits for events, see ``wiped_out.py``.
+    :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
 
@@ -38,6 +39,7 @@ class Deeds:
     own: list[str] = field(default_factory=list)
     behind: object = None
     stored: dict[Hold, set[str]] = field(default_factory=dict)
+    looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
     order: list[tuple[str, object]] = field(default_factory=list)
@@ -56,6 +58,8 @@ class ActivityState:
     :param place: where it is started.
     :param runners: the threads or futures that stand for it; who waits on one waits for its end.
     :param starts: who starts it.
+    :param endless: its loop that nothing ends, the end of rclpy included.
+    :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
     :param ends_first: the set-up waits for its end before it spins again.
     :param serves: it spins an executor; for ever where it ``is_executor``.
@@ -75,7 +79,9 @@ class ActivityState:
     path: Path = ()
     count: int | Unknown = 1
     daemon: bool = False
+    is_daemon: bool | None = False
     loops: bool = False
+    endless: Place | None = None
     spins: int = 0
     ends_first: bool = False
     serves: bool = False

@@ -12,10 +12,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.doing import ActivityState
+from ros2cc_extract.extract.static.doing import ActivityState, way_of
 from ros2cc_extract.extract.static.uncalled import uncalled_wakers
 from ros2cc_extract.extract.static.values import Bound, Function, Instance, Value, options_of
-from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, Waking
+from ros2cc_extract.extract.static.wakings import EntityRef, ResourceRef, Waking, Word
 from ros2cc_extract.extract.static.world import EntityState, OutsideWait, Over, Spin, World
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
@@ -71,15 +71,32 @@ def never_joined(
         loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.deeds.blocking}
         for block in state.deeds.blocking:
             # A loop that does nothing but sleep is one that polls.
-            goes_round = state.loops or WORKING_LOOP in loops or (loops and block.call == RATE)
+            goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
+            goes_round = goes_round or comes_back(block, state, world)
             if goes_round or not wait.is_late:
-                why = _why_for_ever(block, state, wait, world, spun)
+                why = why_for_ever(block, state, wait, world, spun)
                 if why is not None:
                     yield _told(wait, block, why)
                     return
 
 
-def _why_for_ever(
+def comes_back(block: Blocking, state: ActivityState, world: World) -> bool:
+    """
+    Whether the thread stands in the wait again when it has been woken.
+
+    One that may leave its loop is taken to stay where nothing that is put looks like a sign.
+    """
+    if state.loops:
+        return True
+    resource = block.resource
+    is_queue = isinstance(resource, ResourceRef) and resource.ended_by == {Word.PUT}
+    if not is_queue or way_of(block) not in state.deeds.looped or not _leaves(state):
+        return False
+    wakings = world.wakings.get(resource.number, ())  # type: ignore[union-attr]
+    return not any(waking.is_sign for waking in wakings if waking.word is Word.PUT)
+
+
+def why_for_ever(
     block: Blocking,
     state: ActivityState,
     wait: OutsideWait,

@@ -237,7 +237,7 @@ class Machine(ABC):
         """Names of globals that some function of the module rebinds or changes in place."""
 
     @abstractmethod
-    def note_endless(self, node: ast.While) -> None:
+    def note_endless(self, node: ast.While, place: Place) -> None:
         """A loop was followed that nothing in its body leaves."""
 
     @abstractmethod
@@ -382,7 +382,7 @@ class Machine(ABC):
         """A lock is given back."""
 
     @abstractmethod
-    def note_wake(self, thing: Value, word: Word, place: Place) -> None:
+    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
 
     @abstractmethod

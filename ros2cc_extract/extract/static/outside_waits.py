@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.doing import ActivityState
 from ros2cc_extract.extract.static.joined import JOIN, is_over, never_joined
+from ros2cc_extract.extract.static.kept_at_exit import kept_at_exit
 from ros2cc_extract.extract.static.uncalled import uncalled_wakers
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.wakings import Word
@@ -42,6 +43,7 @@ _PLAIN = {
     'spin_until_future_complete': ('future',),
 }
 _PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+_HARMLESS = _PASTIMES | {'error', 'append', 'len', 'str', 'time', 'monotonic', 'put', 'set'}
 
 
 def awaits_each_round(loop: ast.While) -> bool:
@@ -83,6 +85,13 @@ def is_idle(loop: ast.While) -> bool:
         for part in ast.walk(statement)
         if isinstance(part, (ast.Call, ast.Await))
     )
+
+
+def minds_nothing(loop: ast.While) -> bool:
+    """Whether it is ``while True``, and does nothing that may raise when rclpy is shut down."""
+    called = (_called_name(part) for part in ast.walk(loop) if isinstance(part, ast.Call))
+    is_plain = not any(isinstance(part, (ast.Raise, ast.Await)) for part in ast.walk(loop))
+    return isinstance(loop.test, ast.Constant) and is_plain and _HARMLESS.issuperset(called)
 
 
 def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> str:
@@ -173,6 +182,7 @@ def note_unanswered(world: World) -> None:
             if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
                 world.diagnostics.append(_unanswered(wait, wait.client, what))
                 break
+    world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(_spun_beside(wait, world))))
 
 
 def _may_be_spun_elsewhere(node: Instance) -> bool:

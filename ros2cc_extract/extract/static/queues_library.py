@@ -5,7 +5,15 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.values import NONE, Call, Const, Handler, Instance, Value
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Value,
+    options_of,
+)
 from ros2cc_extract.extract.static.wait_table import INITIAL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState
@@ -51,7 +59,7 @@ def _put(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, call)
-    machine.note_wake(receiver, Word.PUT, call.place)
+    machine.note_wake(receiver, Word.PUT, call.place, is_sign=_is_sign(call))
     _move(machine, receiver, Word.PUT)
     return NONE
 
@@ -62,11 +70,18 @@ def give_items(machine: Machine, call: Call) -> None:
         machine.give_away(item, 'it is put into a queue', call.place)
 
 
+def _is_sign(call: Call) -> bool:
+    """Whether what is put may mean the end to whoever takes it."""
+    items = (*call.args[:1], *call.keywords.values())
+    return any(isinstance(o, (Const, Instance)) for item in items for o in options_of(item))
+
+
 def _without_waiting(word: Word) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         if word is Word.PUT:
             give_items(machine, call)
-        machine.note_wake(receiver, word, call.place)
+        is_sign = word is Word.PUT and _is_sign(call)
+        machine.note_wake(receiver, word, call.place, is_sign=is_sign)
         if word is not Word.DONE:
             _move(machine, receiver, word)
         return machine.mystery('what was put into a queue', call.place, 'get_nowait()')

@@ -401,7 +401,7 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
         after = answers.of_all([*ends, *frame.known_at_break] or [ready])
     machine.world.ready = ready
     if not flow & (BREAK | RETURN):
-        machine.note_endless(node)
+        machine.note_endless(node, frame.place(node))
     if flow & (NEXT | CONTINUE):
         polls.note(machine, node, frame, before)
     machine.world.ready = after

@@ -84,8 +84,16 @@ def _start(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _is_daemon(thread: Instance) -> bool:
-    return bool(thread.slots.get('daemon', NONE) == Const(True))
+def _is_daemon(thread: Instance) -> bool | None:
+    """Known, or ``None``."""
+    daemon = thread.slots.get('daemon', NONE)
+    return bool(daemon.value) if isinstance(daemon, Const) else None
+
+
+def _set_daemon(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, 'daemon', call.argument(0, 'daemonic') or NONE)
+    return NONE
 
 
 def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -332,7 +340,7 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
 _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
-    methods={'start': _start, 'join': _join, 'is_alive': _is_alive},
+    methods={'start': _start, 'join': _join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
 )
 
 _JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')

@@ -60,12 +60,16 @@ from ros2cc_extract.spec.model import ActivityKind, When
 class Waits(Machine):
     """Notes for the callback or activity that is being followed."""
 
-    def note_endless(self, node: ast.While) -> None:
+    def note_endless(self, node: ast.While, place: Place) -> None:
         """A loop was followed that nothing but the end of the program ends."""
         world = self.world
         is_telling = world.activity is not None and world.deeds is not None
         if is_telling and outside_waits.is_endless(node) and world.path == world.callback_path:
-            world.activity.loops = True  # type: ignore[union-attr]
+            state = world.activity
+            assert state is not None
+            state.loops = True
+            if outside_waits.minds_nothing(node):
+                state.endless = place
 
     def note_blocking(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -101,6 +105,8 @@ class Waits(Machine):
         if thing is not None:
             self.store.show(thing)
         deeds.behind = way_of(block)
+        if world.open_loops:
+            deeds.looped.add(way_of(block))
         _note_round(deeds, block, world.round)
 
     def note_loop_on_data(
@@ -218,21 +224,21 @@ class Waits(Machine):
                 'asyncio await' if self.world.on_loop else 'await', value, None, place
             )
 
-    def note_wake(self, thing: Value, word: Word, place: Place) -> None:
+    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
         world = self.world
         if world.activity is not None and world.deeds is None:
             return
         for option in options_of(thing):
             wakings = world.wakings.setdefault(id(option), [])
-            waking = self._waking(option, word, place)
+            waking = self._waking(option, word, place, is_sign=is_sign)
             if not any(_is_same_waking(waking, other) for other in wakings):
                 wakings.append(waking)
                 if isinstance(option, Instance):
                     self._made_there(option)
             touch(world.activity, option)
 
-    def _waking(self, thing: Value, word: Word, place: Place) -> Waking:
+    def _waking(self, thing: Value, word: Word, place: Place, *, is_sign: bool) -> Waking:
         world = self.world
         doer = world.activity or (world.current if world.deeds is not None else None)
         is_uncalled = doer is None and world.when is When.LATER
@@ -252,6 +258,7 @@ class Waits(Machine):
             repeats=bool(world.reading.loops),
             told=frozenset(access.name for access in (world.deeds or Deeds()).writes),
             holds=heard.holds_of(world),
+            is_sign=is_sign,
         )
 
     def note_nested_spin(

@@ -113,6 +113,7 @@ class Waking:
     :param repeats: it stands in a loop.
     :param told: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
+    :param is_sign: what is put may tell who takes it to stop: it is a constant, or an object.
     """
 
     word: Word
@@ -130,6 +131,7 @@ class Waking:
     repeats: bool = False
     told: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()
+    is_sign: bool = False
 
 
 class DataRef(EntityRef):

@@ -21,13 +21,17 @@ NOBODY_SPINS = Rule(
     'never ends. The same for `Rate.sleep` on a node that nobody has spun, and for `Thread.join` '
     'on a thread that stands in a wait which only callbacks end: after the spin, or after the '
     'executor that another thread spins is shut down, where the thread goes round in a loop, that '
-    'is a warning. So is a join where only a thread that was joined before ended the wait.',
+    'is a warning. So is a join where only a thread that was joined before ended the wait; and '
+    'the end of the program where such a thread, or one that never asks whether to stop, is no '
+    'daemon or works for a pool.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '
     '7.1.6 and 9.1.2, `client.py` (`Client.call`), `timer.py` (`Rate.sleep`), `__init__.py` '
     '(`spin_until_future_complete` spins the given node alone). Measured on 7.1.6: neither an '
-    'answer nor the end of a rate of 2 Hz within 5 s.',
+    'answer nor the end of a rate of 2 Hz within 5 s. The interpreter joins threads that are no '
+    'daemons, and those of pools (CPython 3.12, `threading.py`, `_shutdown`; '
+    '`concurrent/futures/thread.py`, `_python_exit`); measured: such a program outlives Ctrl-C.',
     bad="""\
 def main():
     rclpy.init()
@@ -46,7 +50,7 @@ def main():
     mend='Spin while you wait, by `rclpy.spin_until_future_complete`; or let one thread spin an '
     'executor that has all nodes concerned, from before the wait on. Wake a thread before you '
     'join it: put a last item into its queue, or notify its condition after its flag has changed '
-    'and let the predicate ask for the flag.',
+    'and let the predicate ask for the flag. A thread that need not finish may be a daemon.',
 )
 LOCK_KEPT = Rule(
     code='CC112',
