@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.rule import Context
+from ros2cc_extract.spec.claims import admits_one, lets_one_wait
 from ros2cc_extract.spec.model import Callback, EntityKind, When
 
 Key = tuple[str, str, int]
@@ -27,7 +28,8 @@ class Capacity:
     The largest set of callbacks that can wait at once.
 
     :param together: one such set, without repetitions of a callback with itself.
-    :param at_least: its size, entities of loops counted as often as they are made.
+    :param at_least: its size, entities of loops counted as often as they are made, services as
+        often as clients in sight may ask them at a time.
     :param unbounded: callbacks that may also overlap themselves, so that no number is enough.
     """
 
@@ -89,11 +91,17 @@ def _runs_once(callback: Callback) -> bool:
 
 
 def _copies(callback: Callback, context: Context) -> int:
-    """A loop makes several entities; in exclusive groups they coincide if it makes groups too."""
+    """
+    Count the runs that may coincide.
+
+    A loop makes several entities; in exclusive groups they coincide if it makes groups too. Else
+    a service runs as often at a time as clients in sight may ask it.
+    """
     group = context.group_of(callback)
     own = callback.count if isinstance(callback.count, int) else 1
     if context.exclusive_group(callback) is None:
-        return own
+        is_held_back = lets_one_wait(callback) or admits_one(callback, context.unit)
+        return own if is_held_back else max(own, callback.askers)
     return min(own, group.count) if isinstance(group.count, int) else 1
 
 

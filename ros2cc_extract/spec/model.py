@@ -163,6 +163,8 @@ class Callback:
     :param count: how many such entities one creation place makes.
     :param alternative: equal marks stand for branches of which only one is taken.
     :param branch: which of these; callbacks of one branch are there together.
+    :param askers: of a service, how many requests at a time may be on their way from the clients
+        in sight, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
     :param builtin: made by rclpy itself; nobody wrote it.
     :param unresolved: why the callback function or its node could not be followed.
@@ -186,6 +188,7 @@ class Callback:
     branch: int | None = None
     coroutine: bool = False
     one_shot: bool = False
+    askers: int = 0
     destroyed: bool = False
     groupless: bool = False
     library: str | None = None

@@ -246,6 +246,7 @@ CALLBACK = record(
                 ('branch', 'branch', optional(COUNT)),
                 ('coroutine', 'coroutine', FLAG),
                 ('one_shot', 'one_shot', FLAG),
+                ('askers', 'askers', COUNT),
                 ('destroyed', 'destroyed', FLAG),
                 ('groupless', 'groupless', FLAG),
                 ('library', 'library', optional(TEXT)),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.alternatives import Branches, exclusive
+from ros2cc_extract.extract.static.askers import with_askers
 from ros2cc_extract.extract.static.ros_executors import nodes_of
 from ros2cc_extract.extract.static.spun_twice import are_concurrent
 from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
@@ -27,6 +28,7 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
             world.diagnostics.append(_not_spun(unit.executor))
         spec = UnitBuilder(world, unit).build(entry)
         found.append(_with_unresolved(spec))
+    found = with_askers(found)
     told = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
     told |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
     lost = [cut for cut in world.cut if (cut.reason, cut.place) not in told]

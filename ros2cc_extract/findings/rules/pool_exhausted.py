@@ -12,7 +12,7 @@ from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.own_group_call import shut_out_by
 from ros2cc_extract.findings.verdicts import is_of_repeated, run_in_which_one_hangs
 from ros2cc_extract.findings.waits import Wait, WaitKind, kind_of, waits_of
-from ros2cc_extract.findings.words import plural, shown
+from ros2cc_extract.findings.words import called, plural, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.claims import admits_one, lets_one_wait
@@ -160,17 +160,27 @@ def _awaited(waits: Sequence[Wait]) -> str:
 
 
 def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:
+    asked = [each for each in capacity.together if each.askers and each.count == 1]
+    runs = 'run' if asked and len(capacity.together) < capacity.at_least else 'callback'
     names = shown(capacity.together)
     return Hit(
         place=_first(waits, capacity).place,
-        message=f'{plural(capacity.at_least, "callback")} can wait at the same time ({names}) '
-        f'{rest}',
+        message=f'{plural(capacity.at_least, runs)} can wait at the same time ({names}) {rest}',
         help=_help(capacity),
         severity=severity,
         subjects=tuple(callback.name for callback in capacity.together),
         chain=_first(waits, capacity).chain,
-        related=_others(waits, capacity),
+        related=(*_others(waits, capacity), *_asked(capacity)),
     )
+
+
+def _asked(capacity: Capacity) -> Iterator[Remark]:
+    for service in capacity.together:
+        if service.askers and service.source is not None:
+            words = (
+                f'{plural(service.askers, "client")} in sight may ask {called(service)} at once'
+            )
+            yield Remark(service.source, words)
 
 
 def _help(capacity: Capacity) -> str:
@@ -248,11 +258,12 @@ RULE = Rule(
     'overlap itself is a note; where a subscription or timer sleeps by a `Rate`, a '
     'warning, since each run sleeps a period long, and of a service that waits without a '
     'time-out where the model shows a run in which all threads are taken by what arrives '
-    'once for each callback. Where it takes several requests at a time that come from '
-    'elsewhere, the run is shown and it stays a note, also where the clients are in sight '
-    'on another executor. It is not said of one that claims a state under a lock, waits, '
-    'and gives it back. Loops that sleep and look again whether another callback has '
-    'written something take threads too, where they end otherwise as well: a warning.',
+    'once for each callback. A service of a reentrant group counts as often as clients in '
+    'sight may ask it at a time, on whatever executor they are. Where it takes more requests '
+    'than these, the run is shown and it stays a note. It is not said of one that claims a '
+    'state under a lock, waits, and gives it back. Loops that sleep and look again whether '
+    'another callback has written something take threads too, where they end otherwise as '
+    'well: a warning.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
     'are handled by the same workers, and the spinning thread runs no callbacks. Without '
     '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '
