@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies lint schema site paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -119,7 +119,7 @@ paper: $(VENV)/developed $(JAZZY)/installed
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[bench]'
 	ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(JAZZY)/bin/python $(BIN)/python benchmarks/paper.py
 
-# dist/: sources, and wheels for each CPython that is here with its headers, on glibc and musl, x86-64
+# dist/: sources, and wheels for each CPython that is here or in Debian's packages, on glibc and musl, x86-64
 # and aarch64; audited, installed where no compiler is, and their tests run (aarch64 by qemu-user-static).
 WHEELS ?= dist
 release_with = $(RELEASE)/bin/python -m release.$(1)
@@ -128,13 +128,19 @@ wheels: $(RELEASE)/prepared
 	$(call release_with,audit) $(WHEELS)
 	$(call release_with,trial) $(WHEELS)
 
-# All that a release needs and that can be done without publishing.
+# All that a release needs and that can be done without publishing; RELEASE_CHECK=--unreleased before
+# its changelog is.
 release-check: wheels dependencies
-	$(call release_with,check) $(WHEELS)
+	$(call release_with,check) $(RELEASE_CHECK) $(WHEELS)
 
 # Tests with the lowest versions of all dependencies on the lowest CPython here, and the newest on the newest.
 dependencies: $(RELEASE)/prepared
 	$(call release_with,dependencies)
+
+# The wheels on each CPython, the extremes first: an example, --diff-base, the suite without ROS; some
+# 20 minutes of CPU each. PYTHONS="3.14 3.10" are some of them.
+pythons: $(RELEASE)/prepared
+	$(call release_with,pythons) --wheels $(WHEELS) $(PYTHONS)
 
 schema: $(VENV)/installed
 	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \

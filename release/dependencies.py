@@ -16,6 +16,7 @@ import sys
 
 from packaging.requirements import Requirement
 
+from release.environments import QUIET, made
 from release.sources import ROOT, copied_tree
 from release.targets import Interpreter, interpreters
 
@@ -34,10 +35,10 @@ TOOLS = {'mypy', 'ruff', 'types-pyyaml', 'pre-commit', 'setuptools', 'hypno'}
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('ends', nargs='*', default=['lowest', 'newest'])
+    parser.add_argument('--jobs', default='auto', help='of pytest-xdist')
+    args = parser.parse_args()
     here = list(interpreters().values())
-    done = [
-        judged(end, here[0] if end == 'lowest' else here[-1]) for end in parser.parse_args().ends
-    ]
+    done = [judged(end, here[0] if end == 'lowest' else here[-1], args.jobs) for end in args.ends]
     return 0 if here and all(done) else 1
 
 
@@ -56,14 +57,13 @@ def lowest(requirement: Requirement) -> str:
     return f'{requirement.name}=={bound}{marker}'
 
 
-def judged(end: str, interpreter: Interpreter) -> bool:
+def judged(end: str, interpreter: Interpreter, jobs: str) -> bool:
     folder = WORK / end
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    subprocess.run([interpreter.path, '-m', 'venv', folder / 'venv'], check=True)
-    python = folder / 'venv/bin/python'
+    python = made(interpreter.path, folder / 'venv')
     wanted = [lowest(each) if end == 'lowest' else str(each) for each in requirements()]
-    pip = [python, '-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--upgrade']
+    pip = [python, '-m', 'pip', 'install', *QUIET, '--upgrade']
     # PyYAML before 6.0.1 is built for Python 3.10 only by a Cython of before 3.
     (folder / 'build.txt').write_text('cython<3\nsetuptools<70\n', encoding='utf-8')
     constrained = {f'PIP_{name}CONSTRAINT': str(folder / 'build.txt') for name in ('', 'BUILD_')}
@@ -75,7 +75,7 @@ def judged(end: str, interpreter: Interpreter) -> bool:
     subprocess.run(install, check=True, env={**os.environ, 'ROS2CC_NATIVE_BUILD': 'required'})
     for name in ('ros2cc_extract', 'generator'):
         shutil.rmtree(tree / name)
-    tests = [python, '-m', 'pytest', '-q', '-n', 'auto', *TESTS]
+    tests = [python, '-m', 'pytest', '-q', '-n', jobs, *TESTS]
     done = subprocess.run(tests, cwd=tree, capture_output=True, text=True)
     (folder / 'output').write_text(done.stdout + done.stderr, encoding='utf-8')
     last = (done.stdout.strip().splitlines() or ['no output'])[-1]

@@ -8,7 +8,11 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+
+from release.debian import own_python
+from release.sources import ROOT
 
 VERSIONS = ('3.10', '3.11', '3.12', '3.13', '3.14')
 
@@ -54,36 +58,49 @@ class Interpreter:
     pyconfig: Path
 
 
+UNPACKED = ROOT / 'build' / 'debian'
+# Debian keeps pyconfig.h of each architecture apart, and beside it one that asks which.
 _ASK = """
-import json, platform, sys, sysconfig
+import json, pathlib, platform, sys, sysconfig
+include = pathlib.Path(sysconfig.get_path('include'))
+apart = include.parent / str(sysconfig.get_config_var('MULTIARCH')) / include.name / 'pyconfig.h'
 print(json.dumps([
     platform.python_implementation() == 'CPython' and not sysconfig.get_config_var('Py_DEBUG')
     and not sysconfig.get_config_var('Py_GIL_DISABLED') and sys.maxsize == 2**63 - 1,
     '%d.%d' % sys.version_info[:2],
-    sysconfig.get_path('include'),
-    sysconfig.get_config_h_filename(),
+    str(include),
+    str(apart) if apart.exists() else sysconfig.get_config_h_filename(),
 ]))
 """
 
 
+@cache
 def interpreters() -> dict[str, Interpreter]:
-    """Give one interpreter of each version that is here and has its headers."""
-    found: dict[str, Interpreter] = {}
-    for path in _candidates():
+    """
+    Give one interpreter of each version that is here and has its headers.
+
+    What is not installed is unpacked from Debian's packages, where a release has it.
+    """
+    found = {version: _interpreter(version) for version in VERSIONS}
+    return {version: each for version, each in found.items() if each}
+
+
+def _interpreter(version: str) -> Interpreter | None:
+    for path in _candidates(version):
         interpreter = _asked(path)
-        if interpreter and interpreter.version in VERSIONS:
-            found.setdefault(interpreter.version, interpreter)
-    return dict(sorted(found.items(), key=lambda item: VERSIONS.index(item[0])))
+        if interpreter and interpreter.version == version:
+            return interpreter
+    unpacked = own_python(version, UNPACKED)
+    return _asked(unpacked) if unpacked else None
 
 
-def _candidates() -> Iterator[Path]:
+def _candidates(version: str) -> Iterator[Path]:
     pyenv = Path(os.environ.get('PYENV_ROOT', Path.home() / '.pyenv')) / 'versions'
-    for version in VERSIONS:
-        yield from sorted(pyenv.glob(f'{version}.*/bin/python{version}'))
-        on_path = shutil.which(f'python{version}')
-        if on_path:
-            yield Path(on_path)
-        yield Path(f'/usr/bin/python{version}')
+    yield from sorted(pyenv.glob(f'{version}.*/bin/python{version}'))
+    on_path = shutil.which(f'python{version}')
+    if on_path:
+        yield Path(on_path)
+    yield Path(f'/usr/bin/python{version}')
 
 
 def _asked(path: Path) -> Interpreter | None:
@@ -103,8 +120,7 @@ def headers_copied(interpreter: Interpreter, to: Path) -> Path:
     """
     Give a folder with the headers that serve every 64-bit Linux.
 
-    Debian keeps ``pyconfig.h`` of each architecture apart and asks by a macro of the compiler
-    which; the types that it describes have the same sizes on both machines and both libraries.
+    The types that ``pyconfig.h`` describes have the same sizes on both machines and libraries.
     """
     folder = to / interpreter.version
     shutil.rmtree(folder, ignore_errors=True)

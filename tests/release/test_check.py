@@ -25,7 +25,31 @@ def test_another_version_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
         'package.xml says 0.1.0, and version.py 9.9',
         'release/robostack/recipe.yaml says 0.1.0, and version.py 9.9',
     ]
-    assert list(check.changelog()) == ['CHANGELOG.md has no section "## 9.9"']
+    told = ['the newest section of CHANGELOG.md is not "## 9.9"']
+    assert list(check.changelog()) == told
+
+
+@pytest.mark.parametrize(
+    ('heading', 'unreleased', 'is_accepted'),
+    [
+        ('## 9.9', False, True),
+        ('## [9.9] - 2026-11-23', True, True),
+        ('## 9.9.1', True, False),
+        ('## Unreleased', True, True),
+        ('## Unreleased', False, False),
+    ],
+)
+def test_the_newest_section_of_the_changelog_is_this_version(
+    heading: str,
+    unreleased: bool,
+    is_accepted: bool,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    monkeypatch.setattr(check, '__version__', '9.9')
+    monkeypatch.setattr(check, 'ROOT', tmp_path)
+    (tmp_path / 'CHANGELOG.md').write_text(f'# Changelog\n\n{heading}\n\n## 9.9\n')
+    assert (not list(check.changelog(unreleased=unreleased))) == is_accepted
 
 
 def test_wheels_that_are_not_there_are_told(tmp_path: Path) -> None:

@@ -1,0 +1,39 @@
+"""What a trial of a wheel accepts, and what it does not."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from release.demonstration import CHECKER, FINDING, VERDICTS, differing
+from release.trial import unbound
+
+SAID = f'  20 states ({CHECKER})\n{FINDING} drive waits\n1 error; {VERDICTS}\n'
+
+
+def test_the_result_that_is_known_is_accepted() -> None:
+    assert differing(1, SAID, '') == ''
+
+
+@pytest.mark.parametrize(
+    ('status', 'stdout', 'stderr', 'told'),
+    [
+        (0, SAID, '', 'exit status 0'),
+        (1, SAID.replace(':44:', ':45:'), '', f'no "{FINDING}"'),
+        (1, SAID.replace('7 not', '6 not'), '', f'no "{VERDICTS}"'),
+        (1, SAID.replace('0 undecided', '18 undecided'), '', f'no "{VERDICTS}"'),
+        (1, SAID.replace('native', 'reference'), '', f'no "{CHECKER}"'),
+        (1, SAID, 'the core did not load\n', 'stderr: the core did not load'),
+    ],
+)
+def test_another_result_is_told(status: int, stdout: str, stderr: str, told: str) -> None:
+    assert differing(status, stdout, stderr) == told
+
+
+def test_only_the_symbols_of_the_interpreter_may_be_missing() -> None:
+    own = 'Error relocating _core.so: {}: symbol not found'
+    lines = [own.format(name) for name in ('PyList_New', '_Py_Dealloc', '__memcpy_chk')]
+    lines.append('Error loading shared library libstdc++.so.6: No such file or directory')
+    command = [sys.executable, '-c', f'import sys; print(*{lines}, sep=chr(10), file=sys.stderr)']
+    assert unbound(command) == lines[2:]
