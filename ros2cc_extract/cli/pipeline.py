@@ -12,7 +12,7 @@ from ros2cc_extract.cachefile import default_cache_folder
 from ros2cc_extract.cli.config import Config
 from ros2cc_extract.cli.progress import bar
 from ros2cc_extract.cli.sources import scan_sources
-from ros2cc_extract.cli.verifying import Examined, Task, examine_all
+from ros2cc_extract.cli.verifying import Examined, Task, examine_all, joined_task
 from ros2cc_extract.deadline import Deadline, Patience, deadline_in
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
@@ -21,6 +21,7 @@ from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.baseline import compare
 from ros2cc_extract.findings.collect import all_findings, is_unread
+from ros2cc_extract.findings.joined import without_what_is_told
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
@@ -153,14 +154,20 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     with bar(stderr, 'verifying') as meter:
         folder = default_cache_folder() if job.cached else None
         is_over = extraction.interrupted
-        examination = examine_all(tasks, folder, meter, deadline, interrupted=is_over)
-    examined = examination.units
+        more = [joined_task(each, job.policy, job.options) for each in extraction.joined]
+        examination = examine_all([*tasks, *more], folder, meter, deadline, interrupted=is_over)
+    examined, together = examination.units[: len(tasks)], examination.units[len(tasks) :]
+    own = [each.findings for each in examined]
+    across = without_what_is_told(
+        (finding for each in together for finding in each.findings),
+        (finding for found in own for finding in found),
+    )
     defects = tuple(_defects(units, examined))
     noticed = (*job.noticed, *extraction.diagnostics, *defects)
     extraction = replace(extraction, diagnostics=noticed)
     findings = (
         *all_findings(
-            [*(each.findings for each in examined), findings_across(units)],
+            [*own, findings_across(units), across],
             extraction.diagnostics,
             {unit.rclpy for unit in units},
         ),

@@ -19,10 +19,12 @@ from ros2cc_extract.cli.progress import Meter
 from ros2cc_extract.crew import Crew, usable_cores
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
 from ros2cc_extract.findings.collect import findings_of_unit
+from ros2cc_extract.findings.joined import findings_of_joined
 from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.packing import Packer
-from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.close import ClosedSpec, Policy, close
+from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.known import Shelf
@@ -50,12 +52,14 @@ class Task:
 
     :param unit: as it was extracted; ``closed`` is what the model shows of it.
     :param keeps_runs: every run is wanted, not only those that findings show.
+    :param joined: of what units ``unit`` is made, where it is made of several.
     """
 
     unit: Spec
     closed: ClosedSpec
     options: Options
     keeps_runs: bool
+    joined: Joined | None = None
 
     @property
     def judging(self) -> Options | None:
@@ -186,11 +190,23 @@ def examine_all(
     return Examination(tuple(units), interrupted)
 
 
+def _findings(task: Task, judged: Verification | None) -> tuple[Finding, ...]:
+    if task.joined is not None:
+        return findings_of_joined(task.joined, judged)
+    return findings_of_unit(task.unit, judged)
+
+
+def joined_task(joined: Joined, policy: Policy, options: Options) -> Task:
+    """What several units are asked together: only findings are told of it."""
+    task = Task(joined.spec, close(joined.spec, policy), options, False, joined)
+    return replace(task, options=task.judging or options)
+
+
 def _unasked(task: Task, reason: str) -> Examined:
     """A unit that nobody has come to."""
     shown = undecided_unit(task.closed, task.options, reason)
     judged = undecided_unit(task.closed, task.judging, reason) if task.judging else shown
-    return Examined(shown, judged, findings_of_unit(task.unit, judged))
+    return Examined(shown, judged, _findings(task, judged))
 
 
 def examine(
@@ -211,7 +227,7 @@ def examine(
             raise  # such as a program that was asked for and is not there
         shown = failed_unit(task.closed, task.options, error)
         judged = failed_unit(task.closed, task.judging, error) if task.judging else shown
-        return Examined(shown, judged, findings_of_unit(task.unit, None))
+        return Examined(shown, judged, _findings(task, None))
 
 
 def _examine(
@@ -221,7 +237,7 @@ def _examine(
     judged = shown
     if task.judging:
         judged = _verify_in_time(task.closed, task.judging, watch, deadline, shelf)
-    findings = findings_of_unit(task.unit, judged)
+    findings = _findings(task, judged)
     kept = _kept(shown, task.keeps_runs)
     return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
 
 
@@ -16,6 +17,7 @@ class Extraction:
     :param units: one per executor, in the order of the files and of the lines in them.
     :param diagnostics: sorted by place.
     :param files_seen: every file that was read, as shown to the user.
+    :param joined: units of one program that wait for each other, as one.
     :param cut: why not all was followed to its end; empty where it was.
     :param interrupted: somebody has ended it.
     """
@@ -23,5 +25,6 @@ class Extraction:
     units: tuple[Spec, ...]
     diagnostics: tuple[Diagnostic, ...]
     files_seen: tuple[str, ...]
+    joined: tuple[Joined, ...] = ()
     cut: str = ''
     interrupted: bool = False

@@ -27,10 +27,11 @@ from ros2cc_extract.extract.static.reached import scanned_files
 from ros2cc_extract.extract.static.relevance import replaces_rclpy
 from ros2cc_extract.extract.static.runs import run_entry
 from ros2cc_extract.extract.static.source import SourceFile
-from ros2cc_extract.extract.static.units import specs_of
+from ros2cc_extract.extract.static.units import joined_of, specs_of
 from ros2cc_extract.extract.static.values import Class
 from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place
+from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
 
 Progress = Callable[[int, int], None]
@@ -64,6 +65,7 @@ class Found:
     """
     What following one file gave.
 
+    :param joined: units that wait for each other, as one.
     :param perhaps: the same of functions that only spin, which may be starts: where they stand.
     :param cut: why it was not followed to its end; empty where it was.
     """
@@ -72,6 +74,7 @@ class Found:
     noticed: tuple[Diagnostic, ...] = ()
     covered: frozenset[Place] = frozenset()
     perhaps: tuple[tuple[Place, Found], ...] = ()
+    joined: tuple[Joined, ...] = ()
     cut: str = ''
 
 
@@ -236,6 +239,9 @@ class _Scan:
         unread = (*self._project.barred, *(d for each in read for d in each.unread))
         extraction = Extraction(
             units=each_once([unit for pair in every for found in pair for unit in found.units]),
+            joined=tuple(
+                dict.fromkeys(each for pair in every for found in pair for each in found.joined)
+            ),
             diagnostics=_sorted([*noticed, *unread]),
             files_seen=tuple(source.shown for source in self._project.given),
             cut=next(filter(None, cut), ''),
@@ -352,7 +358,8 @@ def _failed(source: SourceFile, slug: str, message: str, mend: str = '') -> Foun
 
 def _found(world: World, label: str | None) -> Found:
     units = tuple(specs_of(world, label))
-    return Found(units, tuple(world.diagnostics), _covered(world))
+    joined = tuple(joined_of(world, label, units))
+    return Found(units, tuple(world.diagnostics), _covered(world), joined=joined)
 
 
 def _joined(parts: Iterable[Found]) -> Found:
@@ -361,6 +368,7 @@ def _joined(parts: Iterable[Found]) -> Found:
         tuple(unit for part in found for unit in part.units),
         tuple(diagnostic for part in found for diagnostic in part.noticed),
         frozenset(place for part in found for place in part.covered),
+        joined=tuple(each for part in found for each in part.joined),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -14,7 +15,8 @@ from ros2cc_extract.extract.static.unit_executor import Unit, is_handed_over
 from ros2cc_extract.extract.static.values import Class, Instance, options_of
 from ros2cc_extract.extract.static.values import Value as AnyValue
 from ros2cc_extract.extract.static.world import Cut, Spin, World
-from ros2cc_extract.spec.model import Spec, collect_unresolved
+from ros2cc_extract.spec.joined import KINDS, Joined, joined
+from ros2cc_extract.spec.model import Executor, Spec, collect_unresolved
 
 
 def specs_of(world: World, entry: str | None) -> list[Spec]:
@@ -34,6 +36,36 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
     lost = [cut for cut in world.cut if (cut.reason, cut.place) not in told]
     world.diagnostics.extend(_not_told(cut) for cut in lost)
     return found
+
+
+def joined_of(world: World, entry: str | None, specs: Sequence[Spec]) -> Iterator[Joined]:
+    """
+    Units that run at the same time and wait for each other, as one.
+
+    :param specs: the specifications of the same run.
+    """
+    pairs = [
+        (unit, spec)
+        for unit, spec in zip(units_of(world), specs, strict=True)
+        if _is_known(spec.executor)
+    ]
+    threads = [pair for pair in pairs if pair[1].executor.in_thread]
+    others = [pair for pair in pairs if pair not in threads]
+    beside = [*threads, *others] if len(others) == 1 else threads
+    if entry is None or len(beside) < 2:
+        return
+    units, own = [unit for unit, _ in beside], [spec for _, spec in beside]
+    nodes = [node for unit in units for node in unit.nodes]
+    whole = Unit(None, nodes, None, is_only=len(units) == len(specs))
+    found = joined(UnitBuilder(world, whole).build(entry), own)
+    if found is not None:
+        yield found
+
+
+def _is_known(executor: Executor) -> bool:
+    """Whether it is spun, whatever branch is taken, and serves as those of rclpy do."""
+    is_spun = executor.spun is not None and executor.alternative is None
+    return is_spun and executor.unresolved is None and executor.kind in KINDS
 
 
 def _not_told(cut: Cut) -> Diagnostic:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.model import Remark
@@ -60,10 +60,26 @@ def find(context: Context) -> Iterator[Hit]:
     """
     yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
     if not open_facts(context):
-        for together, stuck in unexplained(context):
-            yield _hit(together, stuck, context)
+        yield from hits_of(context)
         for wait in used_up(context):
             yield _once_used_up(wait, context)
+
+
+def _all_concern(_together: Sequence[Stuck]) -> bool:
+    return True
+
+
+def hits_of(
+    context: Context, concerns: Callable[[Sequence[Stuck]], bool] = _all_concern
+) -> Iterator[Hit]:
+    """
+    One finding for all that hang together.
+
+    :param concerns: whether it is to be told of those.
+    """
+    for together, stuck in unexplained(context):
+        if concerns(together):
+            yield _hit(together, stuck, context)
 
 
 def _for_writers(context: Context) -> Iterator[AnyWait]:
@@ -249,11 +265,13 @@ RULE = Rule(
     what='The model of the unit knows a run after which a callback, `main` or a thread of the '
     'program waits and nothing moves any more: nobody ends the wait, or whoever could cannot '
     'run, comes too early, or waits itself. This is the general rule; where a cause has a name '
-    'of its own, its rule speaks instead. The run is shown. As a note: it takes several runs of '
-    'one callback at a time, which a reentrant group allows, to hold all threads or a lock; '
-    'whether so many come together the rates decide. As a warning: a bounded queue or a '
-    'semaphore is used up by earlier runs, and who gives back cannot run while somebody waits; or '
-    'the end of a child process is waited for while nobody reads the pipe it writes to.',
+    'of its own, its rule speaks instead. Executors of one program that run at the same time '
+    'and wait for each other are judged together. The run is shown. As a note: it takes '
+    'several runs of one callback at a time, which a reentrant group allows, to hold all '
+    'threads or a lock; whether so many come together the rates decide. As a warning: a bounded '
+    'queue or a semaphore is used up by earlier runs, and who gives back cannot run while '
+    'somebody waits; or the end of a child process is waited for while nobody reads the pipe '
+    'it writes to.',
     why='A thread of the program that is no daemon keeps the process from its end. A callback '
     'keeps its thread and its mutually exclusive group while it waits. Two services that call '
     'each other each keep the group that the other needs. Decided by the model of profile '
