@@ -109,7 +109,7 @@ if __name__ == '__main__':
 #   timer begin in worker_default every 3
 #     blocks time.sleep 0.02 s @52
 #     reads Worker.job @49
-#     writes Worker.job @51
+#     writes Worker.job rests under Worker.job (flag) @51
 #     changes done_callback @53
 #   subscription hear in worker_default key=heard
 #   subscription on_order in worker_default key=order

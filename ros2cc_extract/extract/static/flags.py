@@ -97,7 +97,9 @@ def _is_up(world: World, name: str) -> bool:
     stored = world.reading.stored
     if stored is None or NONE in options_of(stored):
         return False
-    found = (world.reading.found.get(step, {}).get(name) for step in world.path)
+    found = (
+        world.reading.found.get(step, {}).get(name) for step in world.reading.behind(world.path)
+    )
     return FOUND_NONE in found or not isinstance(stored, Const) or bool(stored.value)
 
 
@@ -120,7 +122,8 @@ def leave(world: World, frame: Frame, *, goes_on: bool) -> None:
 
 
 def _found_down(world: World) -> frozenset[str]:
-    known = (world.reading.down.get(step, ()) for step in world.path)
+    reading = world.reading
+    known = (reading.down.get(step, ()) for step in reading.behind(world.path))
     return frozenset(flag for flags in known for flag in flags)
 
 

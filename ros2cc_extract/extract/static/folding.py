@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.identities import Identity
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     Choice,
@@ -159,6 +160,9 @@ def compare(op: ast.cmpop, left: Value, right: Value) -> bool | None:
             return bool(_COMPARE[type(op)](left.value, right.value))
         except _TROUBLE:
             return None
+    if isinstance(left, Identity) and isinstance(right, Identity):
+        one, other = left.thing.serial, right.thing.serial
+        return bool(_COMPARE[type(op)](one, other)) if one != other else None
     if isinstance(op, (ast.Eq, ast.NotEq)) and _is_sure(left) and _is_sure(right):
         same = _identical(left, right)
         if same is not None and not isinstance(left, (Sequence, Mapping)):

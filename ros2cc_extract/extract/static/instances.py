@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 from functools import partial
 
 from ros2cc_extract.extract.static import again, memo
 from ros2cc_extract.extract.static.class_attributes import scanned_new
+from ros2cc_extract.extract.static.dataclass_fields import fill_fields, is_dataclass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.same_node import made_before, remember
 from ros2cc_extract.extract.static.values import (
@@ -96,8 +96,8 @@ class Instances(Machine):
         try:
             if isinstance(init, (Bound, Native)):
                 self.call(init, call)
-            elif _is_dataclass(cls):
-                self._fill_fields(cls, made, call)
+            elif is_dataclass(cls):
+                self._fill(cls, made, call)
         finally:
             self.beginning.pop()
         return made
@@ -109,23 +109,9 @@ class Instances(Machine):
         known = self.world.made_by_looking.get((self.world.looking[-1:], cls, place))
         return known if known is not None and _MADE in known.slots else None
 
-    def _fill_fields(self, cls: Class, instance: Instance, call: Call) -> None:
-        names = [
-            item.target.id
-            for item in cls.node.body
-            if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name)
-        ]
-        for index, name in enumerate(names):
-            value = call.argument(index, name)
-            if value is not None:
-                self.store.write(instance, name, value)
+    def _fill(self, cls: Class, instance: Instance, call: Call) -> None:
+        """Run the ``__init__`` that a decorator made."""
+        fill_fields(self, cls, instance, call)
         post = self.attribute(instance, '__post_init__', call.place)
         if isinstance(post, Bound):
             self.call(post, Call(call.place))
-
-
-def _is_dataclass(cls: Class) -> bool:
-    return any(
-        'dataclass' in ast.dump(decorator) or 'attr' in ast.dump(decorator)
-        for decorator in cls.node.decorator_list
-    )

@@ -136,8 +136,16 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: World) -> str | None:
         return None
     stopped = [over.what for over in _certain(wait) if isinstance(over.what, Instance)]
     serving = [spin for spin in world.spins.values() if _serves(spin, timer.node)]
-    is_stopped = all(any(s.executor is each for each in stopped) for s in serving)
+    is_stopped = all(
+        _waits_itself(s, wait) or any(s.executor is each for each in stopped) for s in serving
+    )
     return _NOT_SPUN if serving and is_stopped else None
+
+
+def _waits_itself(spin: Spin, wait: OutsideWait) -> bool:
+    """Whether who spins is who waits, and that spin ends while rclpy is there still."""
+    is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
+    return is_main and not spin.for_ever and spin.how.endswith('spin_until_future_complete')
 
 
 def _serves(spin: Spin, node: Instance) -> bool:

@@ -23,7 +23,15 @@ from ros2cc_extract.extract.static.outside_waits import (
 )
 from ros2cc_extract.extract.static.reading import Asked
 from ros2cc_extract.extract.static.relevance import walk
-from ros2cc_extract.extract.static.values import Heaped, Mystery, Value, choice
+from ros2cc_extract.extract.static.values import (
+    Bound,
+    Function,
+    Heaped,
+    Mystery,
+    Value,
+    choice,
+    options_of,
+)
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
 from ros2cc_extract.places import Unknown
@@ -209,7 +217,7 @@ def _note(
 ) -> None:
     place = frame.place(tests[0])
     call = call_of_loop(loop, POLL, machine.world.activity)
-    ends_otherwise = any(_is_foreign(test, loop) for test in tests)
+    ends_otherwise = any(_is_foreign(machine, test, loop, frame) for test in tests)
     if names:
         own = frozenset(
             (access.name, access.source) for access in (machine.world.deeds or Deeds()).writes
@@ -299,7 +307,7 @@ def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
         world.deeds = noted
 
 
-def _is_foreign(test: ast.expr, loop: ast.While) -> bool:
+def _is_foreign(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
     """Whether something else than shared data may turn out otherwise: a clock, a counter."""
     parts = [part for each in loop.body for part in walk(each)]
     assigned = {name for part in parts for name in _assigned(part)}
@@ -307,9 +315,33 @@ def _is_foreign(test: ast.expr, loop: ast.While) -> bool:
     for part in walk(test):
         if isinstance(part, ast.Name) and part.id in assigned | grown:
             return True
-        if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not _is_neutral(part):
+        if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not (
+            _is_neutral(part) or _only_looks(machine, part, frame)
+        ):
             return True
     return False
+
+
+def _only_looks(machine: Machine, part: ast.expr, frame: Frame) -> bool:
+    """A call of functions of the program that ask nothing else than what they read."""
+    if not isinstance(part, ast.Call):
+        return False
+    world = machine.world
+    noted, world.deeds = world.deeds, Deeds()
+    try:
+        called = options_of(machine.evaluate(part.func, frame))
+    finally:
+        world.deeds = noted
+    functions = [each.function if isinstance(each, Bound) else each for each in called]
+    return bool(functions) and all(map(_asks_nobody, functions))
+
+
+def _asks_nobody(function: Value) -> bool:
+    if not isinstance(function, Function) or function.is_coroutine:
+        return False
+    asking = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
+    parts = walk(function.node)
+    return all(_is_neutral(part) for part in parts if isinstance(part, asking))
 
 
 def _assigned(part: ast.AST) -> Iterator[str]:

@@ -10,11 +10,13 @@ from typing import Any
 from ros2cc_extract.extract.static import builtin_methods, folding, loops
 from ros2cc_extract.extract.static.answers import of_items
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.dataclass_fields import field
 from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
 from ros2cc_extract.extract.static.memo import keep_results
+from ros2cc_extract.extract.static.sorting import identity, in_order
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
@@ -367,7 +369,8 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.tuple': _converted('tuple'),
     'builtins.set': _set,
     'builtins.frozenset': _set,
-    'builtins.sorted': _converted('list'),
+    'builtins.sorted': in_order,
+    'builtins.id': identity,
     'builtins.iter': _converted('list'),
     'builtins.reversed': _reversed,
     'builtins.dict': _dict,
@@ -404,6 +407,10 @@ _FUNCTIONS: dict[str, Handler] = {
     'contextlib.contextmanager': _same,
     'contextlib.asynccontextmanager': _same,
     'dataclasses.dataclass': _same,
+    'dataclasses.field': field,
+    'attr.ib': field,
+    'attr.field': field,
+    'attrs.field': field,
     'collections.deque': _deque,
     'collections.OrderedDict': _dict,
     'collections.defaultdict': _defaultdict,

@@ -52,6 +52,8 @@ class Reading:
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
     :param found: what tests have found of them there, see ``Access.found``.
+    :param passed: tests behind which the program is because it has not raised there; that leads
+        to no step of the path.
     """
 
     read: set[str] = field(default_factory=set)
@@ -68,6 +70,11 @@ class Reading:
     loops: list[Asked] = field(default_factory=list)
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
+    passed: Path = ()
+
+    def behind(self, path: Path) -> Path:
+        """All the tests that have led to where the program is."""
+        return (*path, *self.passed)
 
     @contextmanager
     def of(self, found: set[str]) -> Iterator[None]:
@@ -91,29 +98,30 @@ class Reading:
 
     def governs(self, name: str, path: Path) -> bool:
         """Whether a test of ``name`` has led to where the program is."""
-        return any(name in self.tests.get(place, ()) for place, _ in path)
+        return any(name in self.tests.get(place, ()) for place, _ in self.behind(path))
 
     def found_of(self, name: str, path: Path) -> str | None:
         """What tests of ``name`` have found, where nothing else of it matters any more."""
         if name in self.flowing or not self.governs(name, path):
             return None
-        known = [self.found.get(step, {}).get(name) for step in path]
+        known = [self.found.get(step, {}).get(name) for step in self.behind(path)]
         return next((each for each in reversed(known) if each is not None), None)
 
     def refuse(self, path: Path, found: Iterable[str]) -> None:
         """A goal is turned down here, after tests of what led here and of what was found."""
         self.refusing.update(found)
-        for place, _ in path:
+        for place, _ in self.behind(path):
             self.refusing |= self.tests.get(place, frozenset())
 
     def has_called_since(self, name: str, path: Path) -> bool:
         """Whether something was called since ``name`` was tested last."""
-        tests = (place for place, _ in path if name in self.tests.get(place, ()))
+        behind = self.behind(path)
+        tests = (place for place, _ in behind if name in self.tests.get(place, ()))
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
 
     def forget(self, name: str, path: Path) -> None:
         """The callback has stored something itself: what it has read before decides no more."""
-        for place, _ in path:
+        for place, _ in self.behind(path):
             known = self.tests.get(place)
             if known is not None and name in known:
                 self.tests[place] = known - {name}

@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static import (
     settings,
 )
 from ros2cc_extract.extract.static.containers import Sequence as Items
+from ros2cc_extract.extract.static.contexts import run_with
 from ros2cc_extract.extract.static.flow import BREAK, CONTINUE, DEAD, LEAVING, NEXT, RETURN
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.same_node import note_open_test
@@ -58,6 +59,7 @@ class Statements(Machine):
     def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
         """Run ``body`` in order; what follows a possible early exit is conditional."""
         path, exits = self.world.path, 0
+        reading, passed = self.world.reading, self.world.reading.passed
         try:
             for statement in body:
                 flow = self.execute(statement, frame)
@@ -66,9 +68,11 @@ class Statements(Machine):
                     return exits
                 if flow & LEAVING and frame.function is not None:
                     self.world.path = (*self.world.path, (frame.place(statement), -1))
+                if _may_raise(statement):
+                    reading.passed = (*reading.passed, (frame.place(statement), -1))
             return exits | NEXT
         finally:
-            self.world.path = path
+            self.world.path, reading.passed = path, passed
 
     def execute(self, statement: ast.stmt, frame: Frame) -> int:
         """Run one statement."""
@@ -234,6 +238,13 @@ def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
     return RETURN
 
 
+def _may_raise(statement: ast.stmt) -> bool:
+    """A test that turns away by an exception; what follows is done where it does not."""
+    if not isinstance(statement, ast.If) or statement.orelse:
+        return False
+    return isinstance(statement.body[-1], ast.Raise)
+
+
 def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
     if node.exc is not None:
         machine.evaluate(node.exc, frame)
@@ -300,24 +311,6 @@ def _arm(
         return machine.execute_block(body, frame)
 
     return run
-
-
-def _with(machine: Statements, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
-    held = machine.world.held
-    entered_ones: list[tuple[Value, Place]] = []
-    try:
-        for item in node.items:
-            value = machine.evaluate(item.context_expr, frame)
-            entered = machine.enter_context(value, frame.place(item.context_expr))
-            if item.optional_vars is not None:
-                machine.assign(item.optional_vars, entered, frame)
-            entered_ones.append((entered, frame.place(item.context_expr)))
-        flow = machine.execute_block(node.body, frame)
-        for value, place in reversed(entered_ones):
-            machine.leave_context(value, place)
-        return flow
-    finally:
-        machine.world.held = flags.after_block(held, machine.world.held)
 
 
 def _match(machine: Statements, node: ast.Match, frame: Frame) -> int:
@@ -511,8 +504,8 @@ _STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
     ast.Raise: _raise,
     ast.If: _if,
     ast.Try: run_try,
-    ast.With: _with,
-    ast.AsyncWith: _with,
+    ast.With: run_with,
+    ast.AsyncWith: run_with,
     ast.Match: _match,
     ast.For: _for,
     ast.AsyncFor: _for,

@@ -146,6 +146,31 @@ def test_a_join_after_the_spin_of_another_thread(
     assert _joins(SPUN.format(wait=wait, end=end)) == told
 
 
+ALONE = """
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+{spin}
+node.running = False
+{end}node.writer.join()
+executor.shutdown()
+"""
+UNTIL_ARRIVED = 'executor.spin_until_future_complete(rclpy.Future())'
+
+
+@pytest.mark.parametrize(
+    ('spin', 'end', 'told'),
+    [
+        (UNTIL_ARRIVED, '', MAY),
+        (UNTIL_ARRIVED, 'rclpy.shutdown()\n', []),
+        # This one ends with rclpy, which wakes who sleeps by a rate.
+        ('executor.spin()', '', []),
+    ],
+)
+def test_a_rate_sleeps_on_when_main_has_spun(spin: str, end: str, told: list[Severity]) -> None:
+    head = SPUN[: SPUN.index('executor = ')].format(wait=RATE)
+    assert _joins(head + ALONE.format(spin=spin, end=end)) == told
+
+
 FED = """
 import queue
 import threading

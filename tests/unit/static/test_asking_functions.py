@@ -1,0 +1,56 @@
+"""Loops on plain data that ask by functions of the program: these only look, or do more."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan_text
+
+PROGRAM = """
+import time
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+class Lift(Node):
+    def __init__(self):
+        super().__init__('lift')
+        self.level = 0
+        self.asked = lambda level: self.level == level
+        self.create_subscription(Empty, 'level', self.on_level, 10)
+        self.create_timer(1.0, self.tick)
+
+    def on_level(self, msg):
+        self.level = 3
+
+    def is_there(self, level):
+        return {answer}
+
+    def tick(self):
+        level = 3
+        while not {test}:
+            time.sleep(0.02)
+
+rclpy.init()
+rclpy.spin(Lift())
+"""
+LOOKS = 'bool(self.level) and self.level == level'
+
+
+@pytest.mark.parametrize(
+    ('test', 'answer', 'is_open'),
+    [
+        ('self.is_there(level)', LOOKS, False),
+        ('self.asked(level)', LOOKS, False),
+        ('self.is_there(level)', f'time.time() > 5 or {LOOKS}', True),
+        ('self.is_there(level)', f'self.given_up() or {LOOKS}', True),
+    ],
+)
+def test_a_function_that_only_looks_ends_no_loop_by_itself(
+    test: str, answer: str, is_open: bool
+) -> None:
+    (unit,) = scan_text(PROGRAM.format(test=test, answer=answer)).units
+    tick = next(each for each in unit.callbacks if each.name == 'tick')
+    (loop,) = (block for block in tick.blocking if block.call == 'polling loop')
+    assert (loop.seconds is not None) == is_open
+    assert [waker.by for waker in loop.wakers] == ['on_level']
