@@ -85,6 +85,8 @@ class Blocking:
     :param assumed: the rule by which ``seconds`` was assumed.
     :param unread: ``stdout`` or ``stderr`` of a child process whose end is waited for while nobody
         reads that pipe.
+    :param answer_to: the topic of the message on which another process must answer, by a
+        subscription, before the wait ends.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
         locks held and the wait.
@@ -108,6 +110,7 @@ class Blocking:
     only_if: str | None = None
     assumed: str | None = None
     unread: str | None = None
+    answer_to: str | None = None
     at_end: Place | None = None
     repeats: bool = False
     times: int = 1

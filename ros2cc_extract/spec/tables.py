@@ -103,6 +103,7 @@ BLOCKING = record(
                 ('only_if', 'only_if', optional(TEXT)),
                 ('assumed', 'assumed', optional(TEXT)),
                 ('unread', 'unread', optional(TEXT)),
+                ('answer_to', 'answer_to', optional(TEXT)),
                 ('at_end', 'at_end', _OPTIONAL_PLACE),
                 ('repeats', 'repeats', FLAG),
                 ('times', 'times', COUNT),

@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
+from ros2cc_extract.extract.static.wiped_out import sent_up_to
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, Blocking
 
@@ -55,12 +56,17 @@ class Mark:
     waits: int
     writes: int
     own: int
+    order: int
 
 
 def mark(machine: Machine) -> Mark | None:
     """Before the loop; ``None`` where nothing is noted."""
     deeds = machine.world.deeds
-    return None if deeds is None else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own))
+    return (
+        None
+        if deeds is None
+        else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own), len(deeds.order))
+    )
 
 
 def begin(machine: Machine, loop: ast.While, frame: Frame, told: Told | None) -> None:
@@ -199,7 +205,7 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     written = {access.name for access in deeds.writes[before.writes :]}
     if names & (written | set(deeds.own[before.own :])):
         return
-    _note(machine, loop, frame, tests, names)
+    _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
 
 
 def _note_asked(
@@ -213,7 +219,12 @@ def _note_asked(
 
 
 def _note(
-    machine: Machine, loop: ast.While, frame: Frame, tests: list[ast.expr], names: set[str]
+    machine: Machine,
+    loop: ast.While,
+    frame: Frame,
+    tests: list[ast.expr],
+    names: set[str],
+    sent: frozenset[str],
 ) -> None:
     place = frame.place(tests[0])
     call = call_of_loop(loop, POLL, machine.world.activity)
@@ -224,6 +235,7 @@ def _note(
         )
         reference = DataRef(sorted(names)[0])
         reference.names, reference.before = frozenset(names), own
+        reference.sent = sent
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
     elif (not ends_otherwise or _is_idle(loop, tests)) and not any(

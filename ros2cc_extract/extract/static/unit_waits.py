@@ -23,10 +23,19 @@ from ros2cc_extract.extract.static.wakings import (
     Waking,
     Word,
 )
-from ros2cc_extract.extract.static.wiped_out import why_wiped_out
+from ros2cc_extract.extract.static.wiped_out import answer_from_outside, why_wiped_out
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import BY_ITSELF, OUTSIDE, TIME, Access, Blocking, Needs, Waker
+from ros2cc_extract.spec.deeds import (
+    BY_ITSELF,
+    OUTSIDE,
+    POLLING_LOOP,
+    TIME,
+    Access,
+    Blocking,
+    Needs,
+    Waker,
+)
 from ros2cc_extract.spec.model import ActivityKind
 
 # What is waited for of one object may be several things.
@@ -215,7 +224,10 @@ class UnitWaits:
             unsure = unsure or why_unspun(self._world, by, doer, self._name)
             if unsure is not None:
                 writers = _unsure(writers)
-            return replace(named, wakers=writers, escapes=why or unsure)
+            asked = answer_from_outside(raw.on.sent, by, self._world)
+            is_poll = raw.call == POLLING_LOOP and raw.seconds is None
+            asked = asked if is_poll and not is_activity(doer) else None
+            return replace(named, wakers=writers, escapes=why or unsure, answer_to=asked)
         forked = self._world.forked
         if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
             raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
@@ -230,6 +242,7 @@ class UnitWaits:
             escapes = escapes or why
             named = replace(named, forgets=self._forgets(raw.resource, doer))
             wakings = wakings_of(self._world, raw.resource)
+            named = replace(named, answer_to=self._answer_to(raw, raw.resource, doer))
             if is_activity(doer):
                 named = replace(named, at_end=self._ended_last(raw.resource))
             initial = self._initial(raw.resource, wakings)
@@ -271,6 +284,15 @@ class UnitWaits:
             found = list(_unsure(found))
         why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)
         return found, why
+
+    def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
+        """What the wait is an answer to; a thread that takes items in turn waits for no answer."""
+        is_in_turn = is_activity(doer) and not reference.is_kept
+        if raw.seconds is not None or is_in_turn:
+            return None
+        wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
+        by = [waking.by for waking in wakings if not comes_last(waking, self._world)]
+        return answer_from_outside(reference.sent, by, self._world)
 
     def _forgets(self, reference: ResourceRef, doer: Doer) -> bool:
         wakings = wakings_of(self._world, reference)

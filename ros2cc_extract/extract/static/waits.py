@@ -43,7 +43,7 @@ from ros2cc_extract.extract.static.wakings import (
     Waking,
     Word,
 )
-from ros2cc_extract.extract.static.wiped_out import sent_before_clear
+from ros2cc_extract.extract.static.wiped_out import sent_before, sent_before_clear
 from ros2cc_extract.extract.static.world import (
     RECENT,
     EntityState,
@@ -165,8 +165,10 @@ class Waits(Machine):
         reference.ended_by = row.ended_by
         reference.asked = asked
         reference.is_kept = row.needs is Needs.ONCE
-        if reference.is_kept and self.world.deeds is not None:
-            reference.answered = sent_before_clear(self.world.deeds, thing)
+        if self.world.deeds is not None:
+            reference.sent = sent_before(self.world.deeds, thing)
+            answered = sent_before_clear(self.world.deeds, thing)
+            reference.answered = answered if reference.is_kept else frozenset()
         reference.initial = _initial(thing, row)
         reference.made, reference.is_own = thing.place, thing.born is not None
         if Word.ARRIVE in row.ended_by:

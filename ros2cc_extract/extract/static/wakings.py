@@ -82,6 +82,7 @@ class ResourceRef(SettableRef):
     :param is_own: a callback makes it anew in each run.
     :param guard: of a condition.
     :param answered: topics of messages whose answers may be gone, see ``wiped_out.py``.
+    :param sent: topics of messages that come before the wait, and behind the one before.
     """
 
     ended_by: frozenset[Word] = frozenset()
@@ -94,6 +95,7 @@ class ResourceRef(SettableRef):
     is_own = False
     guard: Guard | None = None
     answered: frozenset[str] = frozenset()
+    sent: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +142,11 @@ class DataRef(EntityRef):
 
     :param names: what the test reads.
     :param before: what the loop's own callback has written before the loop, and where.
+    :param sent: topics of messages that come before the loop.
     """
 
     number = 0
+    sent: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     before: frozenset[tuple[str, Place | None]] = frozenset()
 

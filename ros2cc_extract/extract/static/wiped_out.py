@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.values import Const
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
-from ros2cc_extract.extract.static.world import EntityState
+from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import EntityKind
 
@@ -30,6 +30,41 @@ def note_cleared(deeds: Deeds | None, event: object) -> None:
     """An event is cleared."""
     if deeds is not None:
         deeds.order.append((CLEAR, id(event)))
+
+
+def sent_before(deeds: Deeds, thing: object) -> frozenset[str]:
+    """The topics on which was published since the last wait for ``thing``; a wait begins."""
+    sent = set[str]()
+    for kind, what in reversed(deeds.order):
+        if (kind, what) == (WAIT, id(thing)):
+            break
+        if kind == _SEND:
+            sent.add(str(what))
+    return frozenset(sent)
+
+
+def sent_up_to(deeds: Deeds, number: int) -> frozenset[str]:
+    """The topics on which was published by then, where nothing is behind that."""
+    is_last = all(kind != _SEND for kind, _ in deeds.order[number:])
+    sent = (str(what) for kind, what in deeds.order[:number] if kind == _SEND)
+    return frozenset(sent) if is_last else frozenset()
+
+
+def answer_from_outside(
+    sent: frozenset[str], wakers: Sequence[object], world: World
+) -> str | None:
+    """
+    The topics of the messages for whose answers a wait is, where another process gives these.
+
+    They come by subscriptions whose topics nobody in sight publishes. Who sends nothing before it
+    waits takes it that messages come by themselves.
+    """
+    heard = {_topic(waker) for waker in wakers}
+    doers: tuple[Doer, ...] = (*world.entities, *world.activities)
+    acts = (act for doer in doers for act in (doer.deeds or Deeds()).publishes)
+    published = {act.name.strip('/') if isinstance(act.name, str) else None for act in acts}
+    is_open = None in heard or None in published or not heard.isdisjoint(published)
+    return ', '.join(sorted(sent)) if sent and heard and not is_open else None
 
 
 def sent_before_clear(deeds: Deeds, event: object) -> frozenset[str]:

@@ -70,8 +70,26 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
+    else:
+        for wait in _for_answers(context):
+            waits.append(wait)
+            reasons[id(wait)] = ''
     for alike in at_one_place(waits):
         yield _hit(alike, reasons[id(alike[0])], is_outside=is_outside)
+
+
+def _for_answers(context: Context) -> Iterator[AnyWait]:
+    """
+    Waits for a message from another process that answers one of this program.
+
+    Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
+    anyhow, that is told.
+    """
+    for caller in context.doers:
+        if refuting_run(PROGRESS, context, caller) is None:
+            for block in caller.blocking:
+                if block.answer_to is not None:
+                    yield AnyWait(caller, block, kind_of(block))
 
 
 def _open(
@@ -180,6 +198,12 @@ def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
     verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
     start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
     ends = f'and {verb} for ever if {_nobody_else(wait)} outside this program ends it'
+    if wait.block.answer_to is not None and is_outside:
+        topic = wait.block.answer_to
+        ends = (
+            f'and {verb} for ever if nobody outside this program answers the message on {topic}, '
+            'or one of the two is lost'
+        )
     return Hit(
         place=wait.place,
         message=f'{start} without a time-out, {ends}'
@@ -251,7 +275,8 @@ OUTSIDE_WAIT = Rule(
     severity=Severity.NOTE,
     title='Wait that only another program ends',
     what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
-    'serial line or a person. The verdicts assume that it ends. If it does not, a callback keeps '
+    'serial line or a person, or for the message by which another program answers one that was '
+    'published before. The verdicts assume that it ends. If it does not, a callback keeps '
     'its thread and its mutually exclusive group for ever, and a thread keeps the process.',
     why='Nothing in this program ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
