@@ -24,3 +24,14 @@ def fits(function: Function, call: Call) -> bool:
         if default is None
     ]
     return given.issuperset(needed)
+
+
+def sources_of(function: Function, call: Call) -> dict[str, frozenset[str]]:
+    """The shared data behind the parameters of a function, as ``Call.sources`` tells it."""
+    arguments = function.node.args
+    names = [parameter.arg for parameter in (*arguments.posonlyargs, *arguments.args)]
+    return {
+        names[at] if isinstance(at, int) else at: sources
+        for at, sources in call.sources.items()
+        if isinstance(at, str) or at < len(names)
+    }

@@ -8,7 +8,7 @@ from functools import partial
 
 from ros2cc_extract.extract.static import flags, memo, plain_data, subclasses
 from ros2cc_extract.extract.static.answers import of_all
-from ros2cc_extract.extract.static.arguments import fits
+from ros2cc_extract.extract.static.arguments import fits, sources_of
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.flow import DEAD, NEXT, RETURN
@@ -95,6 +95,8 @@ class Calls(Machine):
         frame = Frame(scope, function, qualname=qualname, path=self.world.path)
         for name, value in self.bind(function, call).items():
             scope.slots[name] = value
+        if call.sources:
+            frame.sources.update(sources_of(function, call))
         chain, count = self.world.chain, self.world.count
         path = self.world.path
         self.world.chain = (*chain, call.place)

@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.relevance import (
 )
 from ros2cc_extract.extract.static.values import (
     NONE,
+    Call,
     Class,
     Instance,
     Module,
@@ -97,6 +98,21 @@ def _evaluate_for(
         (target.id, flowing) for target in targets if isinstance(target, ast.Name)
     )
     reading.flowing = flowing
+    return held
+
+
+def evaluate_argument(
+    machine: Machine, argument: ast.expr, frame: Frame, call: Call, at: int | str | None
+) -> Value:
+    """The value of an argument; a parameter knows what it was computed from, as a name does."""
+    if machine.world.deeds is None or isinstance(argument, ast.Constant):
+        return machine.evaluate(argument, frame)
+    found = set[str]()
+    with machine.world.reading.of(found):
+        held = machine.evaluate(argument, frame)
+    sources = frozenset(found) | _computed_from(argument, frame)
+    if at is not None and sources:
+        call.sources[at] = sources
     return held
 
 

@@ -276,9 +276,10 @@ def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
             call.args.extend(items)
             call.more = call.more or rest
         else:
-            call.args.append(machine.evaluate(argument, frame))
+            at = len(call.args) if call.more is None else None
+            call.args.append(changing.evaluate_argument(machine, argument, frame, call, at))
     for keyword in node.keywords:
-        value = machine.evaluate(keyword.value, frame)
+        value = changing.evaluate_argument(machine, keyword.value, frame, call, keyword.arg)
         if keyword.arg is not None:
             call.keywords[keyword.arg] = value
         else:

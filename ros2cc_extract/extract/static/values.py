@@ -373,6 +373,7 @@ class Call:
     :param args: positional arguments, starred ones spread out.
     :param more: why there may be more arguments than these (``*args`` of unknown content).
     :param text: source of the function expression.
+    :param sources: shared data that arguments were computed from, by their place or name.
     """
 
     place: Place
@@ -380,6 +381,7 @@ class Call:
     keywords: dict[str, Value] = field(default_factory=dict)
     more: Unknown | None = None
     text: str | ast.expr = ''
+    sources: dict[int | str, frozenset[str]] = field(default_factory=dict)
 
     def argument(self, index: int | None, *names: str) -> Value | None:
         """The argument at ``index`` or of one of ``names``; a mystery when it may be passed."""
@@ -392,7 +394,9 @@ class Call:
 
     def bound_to(self, receiver: Value) -> Call:
         """The same call with ``receiver`` as first argument."""
-        return Call(self.place, [receiver, *self.args], self.keywords, self.more, self.text)
+        args = [receiver, *self.args]
+        moved = {at + 1 if isinstance(at, int) else at: of for at, of in self.sources.items()}
+        return Call(self.place, args, self.keywords, self.more, self.text, moved)
 
 
 Handler = Callable[['Machine', Value, Call], Value]

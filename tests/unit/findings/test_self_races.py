@@ -301,3 +301,54 @@ def test_who_asks_and_how_often_is_read_from_the_text(tick: str, go: str, severi
     text = ASKING.replace('TICK', tick).replace('GO', go)
     findings = findings_of(scan_text(text).units, [], [None])
     assert [f.severity.value for f in findings if f.code == 'CC304'] == [severity]
+
+
+LEDGER = """
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from std_msgs.msg import Int64
+from std_srvs.srv import Trigger
+
+class Store:
+    def __init__(self):
+        self.level = 0
+        self.top = 0
+
+    def put(self, level, top=0):
+        self.level = level
+        self.top = top
+
+class Tank(Node):
+    def __init__(self):
+        super().__init__('tank')
+        self.store = Store()
+        free = ReentrantCallbackGroup()
+        self.client = self.create_client(Trigger, 'ask', callback_group=free)
+        self.create_subscription(Int64, 'fill', self.on_fill, 10, callback_group=free)
+
+    async def on_fill(self, message):
+        BODY
+
+rclpy.init()
+rclpy.spin(Tank())
+"""
+
+
+@pytest.mark.parametrize(
+    ('body', 'lost'),
+    [
+        ('old = self.store.level; await ASK; self.store.put(old + message.data)', ['Store.level']),
+        ('old = self.store.top; await ASK; self.store.put(5, top=old + 1)', ['Store.top']),
+        ('old = self.store.top; await ASK; self.store.put(*[5], old + 1)', ['Store.top']),
+        ('old = self.store.level; await ASK; self.store.put(message.data, 7)', []),
+        ('await ASK; self.store.put(self.store.level + message.data)', []),
+    ],
+)
+def test_a_copy_stays_one_when_it_is_handed_to_a_helper(body: str, lost: list[str]) -> None:
+    """What a parameter was computed from is known as it is of any other own name."""
+    asked = 'self.client.call_async(Trigger.Request())'
+    spec = scan_text(LEDGER.replace('BODY', body.replace('ASK', asked)))
+    told = [f for f in findings_of(spec.units, [], [None]) if f.code == 'CC304']
+    assert [name for f in told for name in lost if name in f.message] == lost
+    assert len(told) == len(lost)
