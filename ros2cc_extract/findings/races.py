@@ -26,6 +26,7 @@ from ros2cc_extract.findings.sections import (
     is_other_item,
     keep_apart,
     kept_between,
+    read_acted_on,
     read_for,
     reads_of,
     writes_of,
@@ -268,7 +269,7 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
 
 def _is_stale(first: Use, second: Use) -> bool:
     write, doer = first.access, first.doer
-    read = read_for(write, doer) if write.rests and not write.in_place else None
+    read = read_acted_on(write, doer, second.access)
     if read is None or is_other_item(write, second.access) or _leaves_as_found(first, second):
         return False
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
@@ -322,7 +323,8 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         if first.access.update and not first.access.in_place:
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
-        is_told = not first.access.in_place and first.access.rests
+        is_told = read_acted_on(first.access, first.doer, second.access) is not None
+        is_told = is_told or (first.access.rests and not first.access.in_place)
         is_told = is_told and not _leaves_as_found(first, second)
         if is_told and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
@@ -341,7 +343,7 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     """A lock helps only who keeps it from what was read to what is written because of that."""
     for first, second in ((one, other), (other, one)):
         write = first.access
-        read = read_for(write, first.doer) if write.rests and not write.in_place else None
+        read = read_acted_on(write, first.doer, second.access)
         if _leaves_as_found(first, second):
             continue
         if read is not None and not keep_apart(

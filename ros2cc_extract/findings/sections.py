@@ -49,6 +49,27 @@ def read_for(deed: Access, doer: Callback | Activity) -> Access | None:
     return found
 
 
+def read_acted_on(
+    write: Access, doer: Callback | Activity, rival: Access | None = None
+) -> Access | None:
+    """
+    The read on which a write rests that its ``rival`` can make wrong, in another run its own.
+
+    Items that two change in place may be different ones, except where both have looked for one in
+    the collection, and the doer has waited since: then the other finds the same.
+    """
+    both_chosen = write.chosen and (rival is None or rival.chosen or not rival.in_place)
+    if not write.rests or (write.in_place and not both_chosen):
+        return None
+    read = read_for(write, doer)
+    return read if read is None or not write.in_place or waits(read, write, doer) else None
+
+
+def waits(first: Access, last: Access, doer: Callback | Activity) -> bool:
+    """Whether ``doer`` waits between the two."""
+    return any(steps(first) < steps(block) < steps(last) for block in doer.blocking)
+
+
 def _read_for(deed: Access, doer: Callback | Activity) -> Access | None:
     end = steps(deed)
     reads = [

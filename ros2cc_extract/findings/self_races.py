@@ -12,7 +12,13 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.findings.races import Use
-from ros2cc_extract.findings.sections import is_operand, keep_apart, kept_between, read_for
+from ros2cc_extract.findings.sections import (
+    is_operand,
+    keep_apart,
+    kept_between,
+    read_acted_on,
+    waits,
+)
 from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.spec.deeds import Access
 from ros2cc_extract.spec.model import Callback
@@ -68,10 +74,12 @@ def self_races_over_awaits(
 
 def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iterator[SelfRace]:
     plain = [write for write in writes if not write.in_place]
+    chosen = [write for write in writes if write.in_place and write.chosen]
     for write in plain:
         if write.update and not keep_apart(write.locks, write.locks):
             yield SelfRace(SelfRaceKind.LOST_UPDATE, callback, Use(callback, write), waits=False)
-    stale = [found for write in plain if (found := _stale(write, plain, callback)) is not None]
+    stored = [*plain, *chosen]
+    stale = [found for write in stored if (found := _stale(write, stored, callback)) is not None]
     yield from sorted(stale, key=lambda race: not race.waits)
     for read in () if is_shared else callback.reads:
         if _is_overwritten(read, plain, callback):
@@ -80,7 +88,7 @@ def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iter
 
 def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace | None:
     """A write because of a read that another run may have made wrong."""
-    read = read_for(write, callback) if write.rests and not write.update else None
+    read = read_acted_on(write, callback) if write.in_place or not write.update else None
     if read is None:
         return None
     kept = kept_between(read, write, callback)
@@ -88,17 +96,13 @@ def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace 
         return None
     at_once = is_operand(read, write)
     kind = SelfRaceKind.LOST_UPDATE if at_once else SelfRaceKind.STALE_READ
-    return SelfRace(kind, callback, Use(callback, write), _waits(read, write, callback))
+    return SelfRace(kind, callback, Use(callback, write), waits(read, write, callback))
 
 
 def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:
     """Whether a run reads, after a wait, what it has written before."""
     own = [w for w in writes if w.name == read.name and steps(w) < steps(read) and not w.update]
     last = max(own, key=steps, default=None)
-    if last is None or read.compared or not _waits(last, read, callback):
+    if last is None or read.compared or not waits(last, read, callback):
         return False
     return not keep_apart(kept_between(last, read, callback), last.locks)
-
-
-def _waits(first: Access, last: Access, callback: Callback) -> bool:
-    return any(steps(first) < steps(block) < steps(last) for block in callback.blocking)

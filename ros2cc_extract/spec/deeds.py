@@ -140,6 +140,7 @@ class Access:
         takes an item out.
     :param iterates: class of the collection, where a loop goes over it.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
+    :param chosen: true for a change of the item that a look at the collection has led to.
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
@@ -161,6 +162,7 @@ class Access:
     moves: str | None = None
     iterates: str | None = None
     item: str | None = None
+    chosen: bool = False
     rests: bool = False
     clears: bool = False
     lowers: bool = False

@@ -130,6 +130,7 @@ ACCESS = record(
                 ('moves', 'moves', optional(TEXT)),
                 ('iterates', 'iterates', optional(TEXT)),
                 ('item', 'item', optional(TEXT)),
+                ('chosen', 'chosen', FLAG),
                 ('rests', 'rests', FLAG),
                 ('clears', 'clears', FLAG),
                 ('lowers', 'lowers', FLAG),

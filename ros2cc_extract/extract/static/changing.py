@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static import flags, heard, loops
 from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.reading import Asked, names_in
+from ros2cc_extract.extract.static.reading import Asked, computed_from, names_in
 from ros2cc_extract.extract.static.relevance import (
     assignments_of_attributes,
     noted_on,
@@ -54,7 +54,7 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
         holds = decide(machine, node.test, frame)
     place = frame.place(outer)
     known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
-    reading.tests[place] = known | found | _computed_from(node.test, frame)
+    reading.tests[place] = known | found | computed_from(node.test, frame.sources)
     if node is outer:
         reading.tested_at[place] = calls
         flags.note_test(reading, node, found, place)
@@ -67,7 +67,7 @@ def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool |
     found = set[str]()
     with machine.world.reading.of(found):
         holds = decide(machine, node.test, frame)
-    names = frozenset(found) | _computed_from(node.test, frame)
+    names = frozenset(found) | computed_from(node.test, frame.sources)
     place = frame.place(node)
     return holds, heard.note_test(machine.world, node.test, place, names, repeats=True)
 
@@ -93,7 +93,7 @@ def _evaluate_for(
     reading, found = machine.world.reading, set[str]()
     with reading.of(found):
         held = machine.evaluate(value, frame)
-    flowing = frozenset(found) | _computed_from(value, frame)
+    flowing = frozenset(found) | computed_from(value, frame.sources)
     frame.sources.update(
         (target.id, flowing) for target in targets if isinstance(target, ast.Name)
     )
@@ -110,16 +110,22 @@ def evaluate_argument(
     found = set[str]()
     with machine.world.reading.of(found):
         held = machine.evaluate(argument, frame)
-    sources = frozenset(found) | _computed_from(argument, frame)
+    sources = frozenset(found) | computed_from(argument, frame.sources)
     if at is not None and sources:
         call.sources[at] = sources
     return held
 
 
-def _computed_from(value: ast.expr, frame: Frame) -> frozenset[str]:
-    """The shared data behind the own names that stand in ``value``."""
-    none = frozenset[str]()
-    return none.union(*(frame.sources.get(name, none) for name in names_in(value)))
+def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> Value:
+    """What a loop goes over; the names of its rounds are computed from what was read for it."""
+    if machine.world.deeds is None:
+        return machine.evaluate(node.iter, frame)
+    found = set[str]()
+    with machine.world.reading.of(found):
+        values = machine.evaluate(node.iter, frame)
+    sources = frozenset(found) | computed_from(node.iter, frame.sources)
+    frame.sources.update(dict.fromkeys(names_in(node.target), sources))
+    return values
 
 
 def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:

@@ -113,7 +113,9 @@ class Effects(Waits):
         if is_read:
             reading.read.add(name)
         at = place, attribute or name.rpartition('.')[2]
-        rests = reading.governs(name, self.world.path) or name in reading.flowing
+        is_content = kind is AccessKind.UPDATE_IN_PLACE
+        chosen = is_content and name in reading.choices.get(at, ())
+        rests = reading.governs(name, self.world.path) or name in reading.flowing or chosen
         is_used = rests and is_read and at in reading.used
         if kind is AccessKind.WRITE:
             flags.put_up(self.world, name)
@@ -122,11 +124,12 @@ class Effects(Waits):
             source=place,
             locks=self.world.held,
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
-            in_place=kind is AccessKind.UPDATE_IN_PLACE,
+            in_place=is_content,
             keeps_size=self.world.refilling,
             moves=self.world.moves,
             iterates=self.world.iterating,
             item=reading.items.get(at),
+            chosen=chosen,
             rests=is_used or (rests and not is_read),
             compared=is_read and at in reading.compared,
             later=is_used and reading.has_called_since(name, self.world.path),

@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.clock_times import time_from_now
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
 from ros2cc_extract.extract.static.machine import Frame, Machine
+from ros2cc_extract.extract.static.reading import computed_from
 from ros2cc_extract.extract.static.relevance import CHANGING_METHODS
 from ros2cc_extract.extract.static.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.values import (
@@ -210,6 +211,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
         return machine.zero_argument_super(frame)
     _note_heap(machine, node, frame)
     machine.world.reading.note_use(node.func, frame.place(node.func))
+    _note_choice(machine, node, frame)
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
     if isinstance(function, Mystery):
@@ -244,6 +246,19 @@ _MOVES = {
     **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
     **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
 }
+
+
+_OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
+
+
+def _note_choice(machine: Expressions, node: ast.Call, frame: Frame) -> None:
+    """``self.free.remove(slot)``: which item is meant may have been looked up before."""
+    function = node.func
+    if machine.world.deeds is None or not isinstance(function, ast.Attribute):
+        return
+    if function.attr in _OF_ONE_ITEM and node.args:
+        sources, place = computed_from(node.args[0], frame.sources), frame.place(function.value)
+        machine.world.reading.note_choice(function.value, sources, place)
 
 
 def _note_heap(machine: Expressions, node: ast.Call, frame: Frame) -> None:

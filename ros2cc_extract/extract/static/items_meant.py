@@ -11,7 +11,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
-from ros2cc_extract.extract.static.reading import constant_key
+from ros2cc_extract.extract.static.reading import computed_from, constant_key
 from ros2cc_extract.extract.static.relevance import noted_on, walk
 from ros2cc_extract.extract.static.values import Const, Scope, Value
 from ros2cc_extract.extract.static.world import EntityState
@@ -24,8 +24,11 @@ _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame) -> None:
     """``container[key]`` is asked for or stored."""
     if machine.world.deeds is not None:
-        item = constant_key(key) or _given(machine, key, frame)
+        item, sources = constant_key(key), computed_from(key, frame.sources)
+        if item is None and not sources:
+            item = _given(machine, key, frame)
         machine.world.reading.note_item(container, item, frame.place(container))
+        machine.world.reading.note_choice(container, sources, frame.place(container))
 
 
 def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:

@@ -8,7 +8,7 @@ container is meant, and which objects are used rather than only looked at.
 from __future__ import annotations
 
 import ast
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -43,6 +43,7 @@ class Reading:
     :param flowing: names on which the value rests that is being stored.
     :param tests: names that a branch or an early return rests on, by the place of the test.
     :param items: the item that is meant, by the place of the container and its attribute.
+    :param choices: the shared data because of which it is that item, in the same way.
     :param used: objects of which more is asked than whether they are there, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
@@ -60,6 +61,7 @@ class Reading:
     flowing: frozenset[str] = frozenset()
     tests: dict[Place, frozenset[str]] = field(default_factory=dict)
     items: dict[tuple[Place, str], str] = field(default_factory=dict)
+    choices: dict[tuple[Place, str], frozenset[str]] = field(default_factory=dict)
     used: set[tuple[Place, str]] = field(default_factory=set)
     compared: set[tuple[Place, str]] = field(default_factory=set)
     refusing: set[str] = field(default_factory=set)
@@ -134,6 +136,12 @@ class Reading:
         elif name is not None:
             self.items.pop((place, name), None)
 
+    def note_choice(self, container: ast.expr, sources: frozenset[str], place: Place) -> None:
+        """Which item of a container at ``place`` is meant was computed from ``sources``."""
+        name = _name_of(container)
+        if name is not None:
+            self.choices[place, name] = sources
+
     def note_use(self, used: ast.expr, place: Place) -> None:
         """An attribute or item of ``used`` is asked for, or it is called."""
         name = _name_of(used)
@@ -157,6 +165,12 @@ def constant_key(key: ast.expr) -> str | None:
     if not isinstance(key, ast.Constant) or type(key.value) not in (str, int):
         return None
     return repr(key.value)
+
+
+def computed_from(value: ast.expr, sources: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    """The shared data behind the own names that stand in ``value``."""
+    none = frozenset[str]()
+    return none.union(*(sources.get(name, none) for name in names_in(value)))
 
 
 def names_in(value: ast.expr) -> Iterable[str]:

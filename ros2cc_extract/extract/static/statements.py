@@ -340,7 +340,7 @@ def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
 
 def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     place = frame.place(node.iter)
-    values = machine.evaluate(node.iter, frame)
+    values = changing.evaluate_iterated(machine, node, frame)
     machine.note_iteration(node.iter, frame)
     items = loops.items_to_run(machine, values, place)
 

@@ -121,7 +121,8 @@ RULE = Rule(
     title='Callback that may overlap itself updates an attribute',
     what='A callback of a reentrant group, or one outside every group, reads an attribute and '
     'writes it back without a lock, at once (`+=`), after a test, or from a copy; or it writes '
-    'one, waits, and reads it back. Two runs of the same callback may coincide. It is only a note '
+    'one, waits, and reads it back; or it looks for an item in a collection, waits, and changes '
+    'that one. Two runs of the same callback may coincide. It is only a note '
     'for a timer whose runs are known to be shorter than its period, for a done-callback where '
     'one such timer alone asks, once in a run, and for a test that is followed by the write '
     'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
