@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from ros2cc_extract.findings.one_shots import cancels_too_late
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.spec.claims import admits_one, lets_one_wait
 from ros2cc_extract.spec.model import Callback, EntityKind, When
@@ -87,7 +88,8 @@ def _runs_once(callback: Callback) -> bool:
     """A task that is made at one known place, once, before anything spins, has no second run."""
     is_task = callback.entity in (EntityKind.TASK, EntityKind.DONE_CALLBACK)
     made_once = callback.when is When.START and callback.count == 1 and callback.source is not None
-    return callback.one_shot or (is_task and made_once)
+    is_one_shot = callback.one_shot and not cancels_too_late(callback)
+    return is_one_shot or (is_task and made_once)
 
 
 def _copies(callback: Callback, context: Context) -> int:

@@ -120,6 +120,8 @@ RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
 FLAG = ' (flag)'
 ADDS, TAKES = 'adds', 'takes'
+CANCELS = 'cancel'
+"""The name of the change by which a timer ends itself after it has waited."""
 FOUND_NONE, FOUND_FALSE = 'None', 'false'
 
 

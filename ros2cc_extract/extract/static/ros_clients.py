@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import CANCELS, Act
 from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
 
 
@@ -83,7 +84,11 @@ def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
     if not isinstance(entity, EntityState):
         return NONE
     if entity is world.current:
-        entity.one_shot = entity.one_shot or world.path == world.callback_path
+        if world.path == world.callback_path:
+            entity.one_shot = True
+            if world.deeds is not None and world.deeds.blocking:
+                act = Act(name=CANCELS, source=call.place, chain=world.chain[1:])
+                note_once(world.deeds.changes, act)
     elif world.when is When.START and not world.in_callback and world.activity is None:
         is_early = not world.after_spin and not world.path
         entity.dormant = call.place if is_early else entity.dormant

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
+from ros2cc_extract.findings.one_shots import cancel_of, cancels_too_late, may_cancel_too_late
 from ros2cc_extract.findings.overlap import interleaves, is_quick, overlaps_itself
 from ros2cc_extract.findings.races import RaceKind, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
@@ -17,7 +18,9 @@ from ros2cc_extract.findings.self_races import (
 )
 from ros2cc_extract.findings.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.workers import runs_in_parallel
 from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind
 
 _TWICE = {
@@ -29,12 +32,43 @@ _TWICE = {
 
 def find(context: Context) -> Iterator[Hit]:
     """Only where no other callback loses the same update: one lock mends both."""
+    late = [callback for callback in context.written if _runs_again(callback, context)]
+    yield from (_late_hit(callback, cancel_of(callback), context) for callback in late)
     losing = list(_losing(context))
     told = set(_told_of_others(context)) if losing else set()
     for race in losing:
+        if race.callback in late:
+            continue
         name, callback = race.use.access.name, race.callback.name
         if not told & {(name, race.use.place), (name, callback)}:
             yield _hit(race, context)
+
+
+def _runs_again(callback: Callback, context: Context) -> bool:
+    """Whether a timer that is to run once may run beside itself before it is cancelled."""
+    if not runs_in_parallel(context.unit.executor):
+        return False
+    is_free = context.group_of(callback).unresolved is None
+    is_free = is_free and context.exclusive_group(callback) is None
+    return is_free and may_cancel_too_late(callback)
+
+
+def _late_hit(callback: Callback, cancel: Act | None, context: Context) -> Hit:
+    every = callback.period_s
+    period = f'its period of {every:g} s' if isinstance(every, float) else 'its period'
+    is_sure = cancels_too_late(callback)
+    how = 'runs several times, beside itself' if is_sure else 'may run several times'
+    waits = 'sleeps' if is_sure else 'waits'
+    when = f'longer than {period}' if is_sure else f', perhaps longer than {period},'
+    return Hit(
+        place=(cancel and cancel.source) or callback.defined or Place(callback.name),
+        message=f'{callback.display_name} {waits} {when} before it cancels its timer here: what '
+        f'is to be done once {how}',
+        help='cancel the timer first, or put it into a mutually exclusive group',
+        severity=None if is_sure else Severity.NOTE,
+        subjects=(callback.name,),
+        related=tuple(made_at(callback, context.group_of(callback))),
+    )
 
 
 def _losing(context: Context) -> Iterator[SelfRace]:
@@ -122,7 +156,10 @@ RULE = Rule(
     what='A callback of a reentrant group, or one outside every group, reads an attribute and '
     'writes it back without a lock, at once (`+=`), after a test, or from a copy; or it writes '
     'one, waits, and reads it back; or it looks for an item in a collection, waits, and changes '
-    'that one. Two runs of the same callback may coincide. It is only a note '
+    'that one. Two runs of the same callback may coincide. So do those of a timer that is to run '
+    'once and cancels itself only after it has slept longer than its period (a note where it '
+    'waits and nobody knows how long): everything in it is done several times. An update is only '
+    'a note '
     'for a timer whose runs are known to be shorter than its period, for a done-callback where '
     'one such timer alone asks, once in a run, and for a test that is followed by the write '
     'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
