@@ -122,6 +122,8 @@ FLAG = ' (flag)'
 ADDS, TAKES = 'adds', 'takes'
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
+ABORTS = 'abort'
+"""The name of the change by which a callback tells a running goal to stop."""
 FOUND_NONE, FOUND_FALSE = 'None', 'false'
 
 

@@ -32,9 +32,9 @@ from ros2cc_extract.extract.static.values import (
     options_of,
     present,
 )
-from ros2cc_extract.extract.static.world import AccessKind
+from ros2cc_extract.extract.static.world import AccessKind, note_once
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import ADDS, TAKES
+from ros2cc_extract.spec.deeds import ABORTS, ADDS, TAKES, Act
 from ros2cc_extract.spec.model import When
 
 _DEPTH_LIMIT = 120
@@ -216,6 +216,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     call = arguments(machine, node, frame)
     if isinstance(function, Mystery):
         call.text = node
+        _note_abort(machine, node, call.place)
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
@@ -246,6 +247,14 @@ _MOVES = {
     **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
     **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
 }
+
+
+def _note_abort(machine: Expressions, node: ast.Call, place: Place) -> None:
+    """``goal_handle.abort()``: a goal that runs is told to stop."""
+    deeds, function = machine.world.deeds, node.func
+    if deeds is not None and isinstance(function, ast.Attribute) and function.attr == ABORTS:
+        act = Act(name=ABORTS, source=place, chain=machine.world.chain[1:])
+        note_once(deeds.changes, act)
 
 
 _OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
