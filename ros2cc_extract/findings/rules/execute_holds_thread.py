@@ -70,8 +70,8 @@ def _hit_of_server(wait: Wait, execute: Callback, context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{wait.caller.display_name} waits in {wait.block.call} until '
-        f'{execute.display_name} has executed a goal, and holds {held}: no cancel request and no other goal is seen until '
-        'then',
+        f'{execute.display_name} has executed a goal, and holds {held}: no cancel '
+        'request and no other goal is seen until then',
         help='keep the goals in a queue and return: let the end of one execute the next one',
         subjects=(wait.caller.name,),
         chain=wait.chain,
