@@ -59,14 +59,22 @@ def _waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     locks = _contended_locks(spec)
     kept = {lock for wait in (*others, *absent) for lock in wait.held}
     looked_into = [lock for lock in _taken_locks(callback) if lock in locks - kept]
-    if signals:
+    ends = tuple(wait for wait in others if _is_end(wait, callback))
+    if len(ends) < len(signals):
         # Whether it takes them before its signals is not known.
         for lock in looked_into:
             yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock, may_skip=True, is_open=True)
-    yield from _with_locks(others, callback, locks)
+    yield from _with_locks((wait for wait in others if wait not in ends), callback, locks)
     for lock in looked_into:
         yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock)
+    yield from ends
     yield from _with_locks(absent, callback, locks)
+
+
+def _is_end(wait: NamedWait, actor: Actor) -> bool:
+    """Whether a step is the signal that a thread gives by its end, behind all that it does."""
+    waker = wait.waker if wait.is_signal else None
+    return isinstance(actor, Activity) and waker is not None and waker.after is None
 
 
 def _with_signals(

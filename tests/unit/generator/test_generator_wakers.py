@@ -356,6 +356,16 @@ def test_a_thread_that_needs_a_lock_that_is_held_while_it_is_waited_for():
     ]
 
 
+@pytest.mark.parametrize(('held', 'stuck'), [(LOCKED, True), ('', False)])
+def test_a_thread_takes_its_locks_before_its_end(held: str, stuck: bool):
+    """Whatever it waits for besides, the lock comes before what a join needs."""
+    stops = wait('running', 'by: drive, after: 0')
+    worker = f'name: worker, kind: thread, node: arm, locks: [{{name: lock}}], {blocking(stops)}'
+    joins = wait('worker', 'by: worker', more=held).replace('Event.wait', 'Thread.join')
+    closed = unit(f'drive a: {blocking(joins)}', activities=beside(worker))
+    assert said(closed) == (['dead-lock', 'drive', 'worker'] if stuck else [])
+
+
 def test_a_thread_calls_a_service_of_a_group_that_is_held():
     calls = '{call: client.call, waits_for: client}'
     worker = f'name: worker, kind: thread, {blocking(calls)}'
