@@ -40,6 +40,7 @@ from ros2cc_extract.extract.static.values import (
 from ros2cc_extract.extract.static.wakings import EntityRef
 from ros2cc_extract.extract.static.world import End, EntityState, Spin, World
 from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import ActivityKind, When
 
 _SINGLE = 'SingleThreadedExecutor'
 _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
@@ -124,10 +125,33 @@ def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnost
     if executor is None or not spins or executor.state.kind == 'EventsExecutor':
         return
     is_by_callback = isinstance(end.doer, EntityState)
+    if _is_main(end.doer) and not any(spin.in_thread for spin in spins):
+        return
     has_pool = executor.state.threads != 1
     is_of_other = is_by_callback and executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
     if has_pool or is_of_other or not is_by_callback:
-        yield _destroyed_meanwhile(end, entity, executor)
+        yield _destroyed_meanwhile(end, entity, executor, _is_done_again(end, world))
+
+
+def _is_main(doer: object) -> bool:
+    return isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN
+
+
+def _is_done_again(end: End, world: World) -> bool:
+    """
+    Whether entities come and go there while the program runs.
+
+    One of the set-up goes once, and one of a life-cycle transition with each turn of that.
+    """
+    gone = [each.what for each in world.ends if each.kind == DESTROY and each.place == end.place]
+    made = [each for each in world.entities if each.maker is end.doer]
+    return any(_comes_again(each) for each in (*gone, *made) if isinstance(each, EntityState))
+
+
+def _comes_again(entity: EntityState) -> bool:
+    is_of_set_up = entity.when is When.START
+    is_of_set_up = is_of_set_up and (entity.maker is None or _is_main(entity.maker))
+    return not is_of_set_up and entity.when is not When.CONFIGURE
 
 
 def _waits_on(entity: EntityState, end: End, world: World) -> Iterator[Blocking]:
@@ -203,10 +227,12 @@ def _awaited(end: End, entity: EntityState, wait: Blocking) -> Diagnostic:
     )
 
 
-def _destroyed_meanwhile(end: End, entity: EntityState, executor: Instance) -> Diagnostic:
+def _destroyed_meanwhile(
+    end: End, entity: EntityState, executor: Instance, is_done_again: bool
+) -> Diagnostic:
     kind = entity.kind.value.replace('_', ' ')
     return Diagnostic(
-        severity=Severity.WARNING,
+        severity=Severity.WARNING if is_done_again else Severity.NOTE,
         slug='destroyed-while-spun',
         place=end.place,
         message=f'this {kind} is destroyed while another thread spins '

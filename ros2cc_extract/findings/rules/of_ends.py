@@ -46,7 +46,8 @@ DESTROYED_WHILE_SPUN = Rule(
     severity=Severity.WARNING,
     title='Entity destroyed while another thread spins it',
     what='A callback of a pool, or a thread of the program, destroys a subscription, timer, '
-    'client or service of a node that another thread spins.',
+    'client or service of a node that another thread spins. A note for one that the set-up or a '
+    'life-cycle transition has made: it goes once, and each time the spin most likely goes on.',
     why='The thread that spins reads the handle of each entity behind its wait; of one that was '
     'destroyed meanwhile that raises `InvalidHandle`, which ends the spin. Measured: on rclpy '
     '7.1.6 after 34 to 43 times, on 3.3.21 after 3, on 9.1.2 not in 243. The timer of a `Rate` '

@@ -1,0 +1,70 @@
+"""CC117: entities that come and go while another thread spins, and such as go once."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan_text
+
+NODE = """
+import threading
+import rclpy
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode
+from std_msgs.msg import Empty
+
+class View(LifecycleNode):
+    def __init__(self):
+        super().__init__('view')
+        self.timer = None
+        self.first = self.create_subscription(Empty, 'first', print, 1)
+        self.create_subscription(Empty, 'go', self.on_go, 1)
+
+    def on_activate(self, state):
+        self.timer = self.create_timer(1.0, print)
+
+    def on_deactivate(self, state):
+        LEFT
+
+    def on_go(self, message):
+        GO
+
+def ask(node):
+    client = node.create_client(Empty, 'who')
+    node.destroy_client(client)
+
+rclpy.init()
+view = View()
+executor = EXECUTOR
+executor.add_node(view)
+MAIN
+"""
+POOL, ONE = 'MultiThreadedExecutor(num_threads=2)', 'SingleThreadedExecutor()'
+SPUN = 'executor.spin()'
+AGAIN = """self.destroy_subscription(self.first)
+        self.first = self.create_subscription(Empty, 'next', print, 1)"""
+BESIDE = 'beside = SingleThreadedExecutor(); beside.add_node(rclpy.create_node("other"))\n'
+BESIDE += 'threading.Thread(target=beside.spin).start()\n'
+THREAD = 'threading.Thread(target=executor.spin).start()\n'
+
+
+@pytest.mark.parametrize(
+    ('go', 'left', 'executor', 'main', 'told'),
+    [
+        (AGAIN, 'pass', POOL, SPUN, ['warning']),
+        (AGAIN, 'pass', ONE, SPUN, []),
+        ('self.destroy_subscription(self.first)', 'pass', POOL, SPUN, ['note']),
+        ('pass', 'self.destroy_timer(self.timer)', POOL, SPUN, ['note']),
+        # `main` spins the executor itself, later; another thread spins another one.
+        ('pass', 'pass', ONE, f'{BESIDE}ask(view)\n{SPUN}', []),
+        ('pass', 'pass', POOL, f'{BESIDE}ask(view)\n{SPUN}', []),
+        ('pass', 'pass', ONE, f'{THREAD}ask(view)', ['note']),
+    ],
+)
+def test_what_goes_once_is_a_note(
+    go: str, left: str, executor: str, main: str, told: list[str]
+) -> None:
+    text = NODE.replace('GO', go).replace('LEFT', left)
+    scanned = scan_text(text.replace('EXECUTOR', executor).replace('MAIN', main))
+    found = [d for d in scanned.diagnostics if d.slug == 'destroyed-while-spun']
+    assert [d.severity.value for d in found] == told
