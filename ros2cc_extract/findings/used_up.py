@@ -12,8 +12,11 @@ from collections.abc import Iterator
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.waits import Wait, kind_of
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.deeds import BY_ITSELF, POLLING_LOOP, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.model import Activity, Callback
+
+# What they ask for may be there already, for all runs of the thread.
+_OF_LOOPS = (POLLING_LOOP, WORKING_LOOP)
 
 
 def used_up(context: Context) -> Iterator[Wait]:
@@ -34,8 +37,30 @@ def is_used_up(block: Blocking, caller: object, context: Context) -> bool:
     taken = sum(b.times for b in caller.blocking if _is_for_the_same(b, block))
     if len(own) >= taken:
         return False  # it gives back itself what it takes, perhaps on a branch
-    givers = [context.by_name.get(waker.by) for waker in block.wakers]
-    return all(giver is not None and _is_kept(giver, caller, context) for giver in givers)
+    return all(_is_held_up(waker.by, caller, context) for waker in block.wakers)
+
+
+def _is_held_up(name: str, caller: Callback, context: Context) -> bool:
+    """A callback that cannot run meanwhile, or a thread that may wait for such ones by then."""
+    giver = context.doer_by_name.get(name)
+    if isinstance(giver, Activity):
+        return bool(kept_for(giver, caller, context))
+    return giver is not None and _is_kept(giver, caller, context)
+
+
+def kept_for(giver: Activity, caller: Callback, context: Context) -> tuple[Callback, ...]:
+    """For whom a thread may wait that cannot run while ``caller`` waits, and nobody else can."""
+    for block in giver.blocking:
+        if block.seconds is None and block.escapes is None and block.call not in _OF_LOOPS:
+            needed = [context.by_name.get(waker.by) for waker in block.wakers]
+            kept = [each for each in needed if each is not None and each is not caller]
+            if (
+                kept
+                and len(kept) == len(needed)
+                and all(_is_kept(each, caller, context) for each in kept)
+            ):
+                return tuple(kept)
+    return ()
 
 
 def _is_for_the_same(one: Blocking, other: Blocking) -> bool:

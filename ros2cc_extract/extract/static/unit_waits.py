@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static import barriers, pipes, stock
 from ros2cc_extract.extract.static.activities import is_activity
+from ros2cc_extract.extract.static.consumers import taken_by_itself
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.setters import the_setter
@@ -248,7 +249,10 @@ class UnitWaits:
             initial = self._initial(raw.resource, wakings)
             given = [w for w in wakings if w.word in raw.resource.ended_by]
             number = stock.counted(raw, initial, self._doers, given)
-            if number:
+            taken = taken_by_itself(raw, self._world, self._doers) if initial != 0 else None
+            if taken is not None:
+                wakers = [Waker(by=TIME, source=taken)]
+            elif number:
                 named = replace(named, initial=number)
             elif initial != 0:
                 # A model of so many runs cannot say when they are used up.

@@ -17,7 +17,7 @@ from ros2cc_extract.findings.rules import (
     rate_on_one_thread,
 )
 from ros2cc_extract.findings.stuck import Stuck, shut_out_for, stuck_in, why_stuck
-from ros2cc_extract.findings.used_up import used_up
+from ros2cc_extract.findings.used_up import kept_for, used_up
 from ros2cc_extract.findings.verdicts import (
     PROGRESS,
     is_of_repeated,
@@ -35,7 +35,7 @@ from ros2cc_extract.findings.waits import (
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.findings.words import called, listing, made_at
+from ros2cc_extract.findings.words import called, listing, made_at, shown
 from ros2cc_extract.findings.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import WORKING_LOOP
@@ -108,20 +108,30 @@ def _unread(waits: Sequence[AnyWait]) -> Hit:
 
 def _once_used_up(wait: Wait, context: Context) -> Hit:
     givers = tuple(dict.fromkeys(waker.by for waker in wait.block.wakers))
+    doers = [context.doer_by_name[name] for name in givers]
+    needed = [
+        each
+        for doer in doers
+        if isinstance(doer, Activity)
+        for each in kept_for(doer, wait.caller, context)
+    ]
     who, what = called(wait.caller), wait.block.resource or 'it'
-    by = listing(called(context.by_name[name]) for name in givers)
+    by, kept = shown(doers), shown(needed)
     cannot = f'{by} cannot run meanwhile' if givers else 'nobody gives back'
+    if needed:
+        cannot = f'{by} may be waiting for {kept} then, which cannot run meanwhile'
     return Hit(
         place=wait.place,
         message=f'{who} waits in {waits_in(wait)} for {what} once nothing of it is left, and '
         f'{cannot}: it waits for ever',
-        help=f'let {by} run beside {who}, on a thread and in a group of its own, or do not wait'
+        help=f'let {kept or by} run beside {who}, on a thread and in a group of its own, or do '
+        'not wait'
         if givers
         else 'end it somewhere, or give it a time-out',
         severity=Severity.WARNING,
         subjects=(wait.caller.name, *givers),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, *(context.by_name[name] for name in givers))),
+        related=tuple(made_at(wait.caller, *doers, *needed)),
     )
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from finding_units import ONE_THREAD, at, found, only, threads, timer, unit
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking, Needs, Waker
-from ros2cc_extract.spec.model import Callback, Executor
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Executor
 
 
 def logs(why: str = f'the first 3 {BY_ITSELF}', *givers: str) -> Callback:
@@ -48,4 +50,42 @@ def test_who_gives_back_cannot_run_while_somebody_waits(executor: Executor, grou
 )
 def test_else_it_is_not_said(executor: Executor, log: Callback) -> None:
     spec = unit(executor, log, timer('flush', 'other'))
+    assert [f for f in found(spec) if f.startswith('CC109')] == []
+
+
+def writer(*blocking: Blocking) -> Activity:
+    took = Blocking(call='Queue.get', resource='lines', wakers=(Waker(by='log'),))
+    return Activity(name='write', kind=ActivityKind.THREAD, blocking=(took, *blocking))
+
+
+def waits_for(*wakers: str, seconds: float | None = None, call: str = 'Event.wait') -> Blocking:
+    by = tuple(Waker(by=each) for each in wakers)
+    return Blocking(call=call, resource='acked', wakers=by, seconds=seconds)
+
+
+def test_a_thread_that_gives_back_may_wait_for_who_cannot_run() -> None:
+    spec = unit(ONE_THREAD, logs(f'some {BY_ITSELF}', 'write'), timer('flush', 'other'))
+    spec = replace(spec, activities=(writer(waits_for('flush')),))
+    finding = only(spec, 'CC109')
+    assert finding.severity is Severity.WARNING
+    assert finding.message == (
+        'log waits in Queue.put for lines (room) once nothing of it is left, and thread write may '
+        'be waiting for flush then, which cannot run meanwhile: it waits for ever'
+    )
+
+
+@pytest.mark.parametrize(
+    ('executor', 'blocking'),
+    [
+        (threads(2), waits_for('flush')),
+        (ONE_THREAD, waits_for('flush', seconds=1.0)),
+        (ONE_THREAD, waits_for('flush', 'outside')),
+        (ONE_THREAD, waits_for('time')),
+        (ONE_THREAD, waits_for('flush', call='polling loop')),
+    ],
+    ids=['it can run', 'for some time', 'somebody else may', 'time', 'what may stay so'],
+)
+def test_else_the_thread_goes_on(executor: Executor, blocking: Blocking) -> None:
+    spec = unit(executor, logs(f'some {BY_ITSELF}', 'write'), timer('flush', 'other'))
+    spec = replace(spec, activities=(writer(blocking),))
     assert [f for f in found(spec) if f.startswith('CC109')] == []
