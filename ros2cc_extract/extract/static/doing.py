@@ -59,6 +59,7 @@ class ActivityState:
     :param runners: the threads or futures that stand for it; who waits on one waits for its end.
     :param starts: who starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
+    :param again: where it starts itself anew in each run, whatever branches are taken.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
     :param ends_first: the set-up waits for its end before it spins again.
@@ -82,6 +83,7 @@ class ActivityState:
     is_daemon: bool | None = False
     loops: bool = False
     endless: Place | None = None
+    again: Place | None = None
     spins: int = 0
     ends_first: bool = False
     serves: bool = False

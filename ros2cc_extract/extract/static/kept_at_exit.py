@@ -37,6 +37,8 @@ def kept_at_exit(world: World, spun_beside: Serving) -> Iterator[Diagnostic]:
     if not is_followed or _ends_at_once(world):
         return
     for state in world.activities:
+        if state.again is not None and _is_chain(state, world):
+            yield _goes_on(state, state.again)
         for runner in state.runners if _is_waited_for(state, world) else ():
             if not isinstance(runner, Instance):
                 continue
@@ -73,6 +75,17 @@ def _is_waited_for(state: ActivityState, world: World) -> bool:
     return not is_joined and (is_pool or is_thread)
 
 
+def _is_chain(state: ActivityState, world: World) -> bool:
+    """
+    Whether it is a timer thread that arms itself for ever, rclpy or no rclpy.
+
+    ``Timer.cancel`` sets an event that is asked for once, before the function (CPython 3.12,
+    ``threading.py``); and a publisher raises when rclpy is shut down, which ends the chain.
+    """
+    is_timer = state.kind is ActivityKind.TIMER and state.is_daemon is False
+    return is_timer and not state.deeds.publishes and not _inherits(state, world)
+
+
 def _inherits(state: ActivityState, world: World) -> bool:
     """Whether it may be a daemon as the thread that starts it is one."""
     for start in state.starts:
@@ -102,6 +115,18 @@ def _endless(state: ActivityState, loop: Place) -> Diagnostic:
         message=f'the program ends only when {_who(state)} has ended; that goes round in a loop '
         f'({loop}) which nothing ends: the program stays for ever',
         help=f'ask for rclpy.ok() or a flag in the loop; or {_daemon(state)}',
+    )
+
+
+def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=again,
+        message='this timer thread, no daemon, arms itself anew in each run, and a cancel while '
+        'its function runs ends nothing: the program may stay for ever',
+        help='ask before, under a lock, for a flag that whoever stops it changes under that lock; '
+        'or start it as a daemon',
     )
 
 
