@@ -280,8 +280,8 @@ RULE = Rule(
     'several runs of one callback at a time, which a reentrant group allows, to hold all '
     'threads or a lock; whether so many come together the rates decide. As a warning: a bounded '
     'queue or a semaphore is used up by earlier runs, and who gives back, or whom the thread that '
-    'does so waits for, cannot run while somebody waits; or the end of a child process is waited for while nobody reads the pipe '
-    'it writes to.',
+    'does so waits for, cannot run while somebody waits; or the end of a child process is waited '
+    'for while nobody reads the pipe it writes to.',
     why='A thread of the program that is no daemon keeps the process from its end. A callback '
     'keeps its thread and its mutually exclusive group while it waits. Two services that call '
     'each other each keep the group that the other needs. Decided by the model of profile '

@@ -23,8 +23,8 @@ NOBODY_SPINS = Rule(
     'executor that another thread spins is shut down, where the thread goes round in a loop, that '
     'is a warning. So is a join where only a thread that was joined before ended the wait; and '
     'the end of the program where such a thread, or one that never asks whether to stop, is no '
-    'daemon or works for a pool; and a `threading.Timer`, no daemon, that arms itself anew in each '
-    'run: a `cancel` while its function runs ends nothing.',
+    'daemon or works for a pool; and a `threading.Timer`, no daemon, that arms itself anew in '
+    'each run: a `cancel` while its function runs ends nothing.',
     why='`Client.call` and a loop until `future.done()` spin nothing: the answer is taken by the '
     "executor of the client's node, and a request by that of the server's; a timer of the node "
     'ends `Rate.sleep`. Said only where every spin of the program is in sight. Sources: rclpy '
