@@ -14,7 +14,7 @@ from typing import TypeVar
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.sections import kept_between, read_for
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.deeds import FLAG, FOUND_NONE, Access
+from ros2cc_extract.spec.deeds import FLAG, FOUND_NONE, FOUND_OTHER, FOUND_THIS, Access
 from ros2cc_extract.spec.model import Activity, Callback, Executor
 
 _Doer = TypeVar('_Doer', Callback, Activity)
@@ -78,6 +78,13 @@ def _keeps_out(flag: str, context: Context) -> bool:
         write.lowers and write.found == FOUND_NONE for _, write in setters
     ):
         # Who asks for the truth of it finds down what is not ``None``.
+        return False
+    found = {write.found for _, write in setters}
+    is_state = any(
+        each is not None and each.startswith((FOUND_THIS, FOUND_OTHER)) for each in found
+    )
+    if is_state and len(found) > 1:
+        # What one of them stores is for another no sign to stay away.
         return False
     if not setters:
         return _is_put_up_in_turn(context.unit.executor)

@@ -36,7 +36,7 @@ from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.words import called, listing
 from ros2cc_extract.once import once
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, TAKES, Access
+from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.order import steps
 from ros2cc_extract.verify.evidence import Evidence
@@ -361,7 +361,8 @@ def _leaves_enough(first: Use, second: Use) -> bool:
 def _leaves_as_found(first: Use, second: Use) -> bool:
     """Whether a write stores what the test of another has found: then that still holds."""
     found, write = first.access.found, second.access
-    return (found is not None and write.clears) or (found == FOUND_FALSE and write.lowers)
+    is_empty = found in (FOUND_NONE, FOUND_FALSE)
+    return (is_empty and write.clears) or (found == FOUND_FALSE and write.lowers)
 
 
 def _is_of_threads(*uses: Use) -> bool:

@@ -125,6 +125,7 @@ CANCELS = 'cancel'
 ABORTS = 'abort'
 """The name of the change by which a callback tells a running goal to stop."""
 FOUND_NONE, FOUND_FALSE = 'None', 'false'
+FOUND_THIS, FOUND_OTHER = '== ', '!= '
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +150,8 @@ class Access:
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
     :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
-        ``FOUND_FALSE`` where anything false would do.
+        ``FOUND_FALSE`` where anything false would do; a constant behind ``FOUND_THIS``, or behind
+        ``FOUND_OTHER`` where it is something else.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.

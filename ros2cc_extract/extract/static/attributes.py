@@ -7,6 +7,7 @@ import ast
 from ros2cc_extract.extract.static import builtin_methods, changing, subclasses
 from ros2cc_extract.extract.static.class_attributes import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.enums import Member
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.relevance import MAKING, reassigned_attributes
 from ros2cc_extract.extract.static.values import (
@@ -92,6 +93,8 @@ class Attributes(Machine):
         if value == NONE:
             unset = Mystery(Unknown('it is None here and set elsewhere', place), _owner_text(text))
             return self.member_of_mystery(unset, name, place)
+        if isinstance(value, Const) and isinstance(value.value, Member):
+            return value.value.attribute(name, place)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)
         if isinstance(value, Mystery):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static import flags, memo, plain_data, subclasses
+from ros2cc_extract.extract.static import enums, flags, memo, plain_data, subclasses
 from ros2cc_extract.extract.static.answers import of_all
 from ros2cc_extract.extract.static.arguments import fits, sources_of
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
@@ -294,6 +294,7 @@ class Calls(Machine):
         scope.slots['__class_body__'] = cls
         body = Frame(scope, None, qualname=qualname)
         self.execute_block(node.body, body)
+        enums.settle(cls, scope.slots)
         for name, value in scope.slots.items():
             if name != '__class_body__':
                 self.store.write(cls, mangled(name, cls.name), value)

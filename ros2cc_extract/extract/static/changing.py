@@ -57,9 +57,17 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     reading.tests[place] = known | found | computed_from(node.test, frame.sources)
     if node is outer:
         reading.tested_at[place] = calls
-        flags.note_test(reading, node, found, place)
+        flags.note_test(reading, node, found, place, lambda each: _constant(machine, each, frame))
     heard.note_test(machine.world, node.test, place, reading.tests[place])
     return holds
+
+
+def _constant(machine: Machine, value: ast.expr, frame: Frame) -> str | None:
+    """What a name, or an attribute, or a literal stands for, if that is one constant."""
+    if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
+        return None
+    with machine.world.reading.apart():
+        return flags.text_of(machine.evaluate(value, frame))
 
 
 def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:

@@ -11,7 +11,7 @@ nobody else puts the flag down, is for the reader of the accesses to say.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.machine import Frame, Machine
@@ -19,24 +19,33 @@ from ros2cc_extract.extract.static.reading import Reading
 from ros2cc_extract.extract.static.values import NONE, Call, Const, Value, options_of
 from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE
+from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
 from ros2cc_extract.spec.model import EntityKind
 
 _THEN, _ELSE, _AFTER = 0, 1, -1
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _REFUSING = 'REJECT'
 _Asked = tuple[str, bool, str]
+Constant = Callable[[ast.expr], str | None]
+"""Gives ``text_of`` what an expression stands for."""
 
 
-def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place) -> None:
-    """An ``if`` tells where the flags are down that it asks for, alone or each for itself."""
+def note_test(
+    reading: Reading, node: ast.If, found: Iterable[str], place: Place, constant: Constant
+) -> None:
+    """
+    An ``if`` tells where the flags are down that it asks for, alone or each for itself.
+
+    A state may stand for a flag: who has found that it is a constant, and stores another one, or
+    the other way round.
+    """
     names: dict[str, list[str]] = {}
     for name in found:
         names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
     is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
     is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
     steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
-    for attribute, down_if, value in _flags_of(node.test):
+    for attribute, down_if, value in _flags_of(node.test, constant):
         meant = names.get(attribute, [])
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
@@ -44,33 +53,56 @@ def note_test(reading: Reading, node: ast.If, found: Iterable[str], place: Place
             reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
 
 
-def _flags_of(test: ast.expr) -> Iterator[_Asked]:
+def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
     """The flags that are down where all of ``test`` holds, or where nothing of it does."""
     if isinstance(test, ast.BoolOp):
         down_if = isinstance(test.op, ast.And)
-        parts = [asked for value in test.values for asked in _flags_of(value)]
+        parts = [asked for value in test.values for asked in _flags_of(value, constant)]
         yield from (asked for asked in parts if asked[1] is down_if)
         return
-    asked = _asked(test)
-    if asked is not None:
-        yield asked
+    yield from _asked(test, constant)
 
 
-def _asked(test: ast.expr) -> _Asked | None:
+def _asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
     """The flag that a test asks for, what it gives where that is down, and what it holds then."""
     if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
-        inner = _asked(test.operand)
-        return None if inner is None else (inner[0], not inner[1], inner[2])
-    if isinstance(test, ast.Compare) and len(test.ops) == 1:
-        right, asked = test.comparators[0], _asked(test.left)
-        down_if = {ast.Is: True, ast.IsNot: False}.get(type(test.ops[0]))
-        is_none = isinstance(right, ast.Constant) and right.value is None
-        if asked is None or down_if is None or not is_none or isinstance(test.left, ast.Compare):
-            return None
-        return asked[0], down_if, FOUND_NONE
+        inner = _asked(test.operand, constant)
+        yield from ((name, not down_if, value) for name, down_if, value in inner)
+    elif isinstance(test, ast.Compare) and len(test.ops) == 1:
+        is_same = _SAME.get(type(test.ops[0]))
+        right, name = test.comparators[0], _name_of(test.left)
+        if is_same is None or name is None:
+            return
+        if isinstance(right, ast.Constant) and right.value is None:
+            if isinstance(test.ops[0], (ast.Is, ast.IsNot)):
+                yield name, is_same, FOUND_NONE
+            return
+        text = constant(right)
+        if text is not None:
+            yield name, is_same, FOUND_THIS + text
+            yield name, not is_same, FOUND_OTHER + text
+    elif _name_of(test) is not None:
+        yield _name_of(test) or '', False, FOUND_FALSE
+
+
+_SAME: dict[type[ast.cmpop], bool] = {
+    ast.Is: True,
+    ast.Eq: True,
+    ast.IsNot: False,
+    ast.NotEq: False,
+}
+
+
+def _name_of(test: ast.expr) -> str | None:
     if isinstance(test, ast.Attribute):
-        return test.attr, False, FOUND_FALSE
-    return (test.id, False, FOUND_FALSE) if isinstance(test, ast.Name) else None
+        return test.attr
+    return test.id if isinstance(test, ast.Name) else None
+
+
+def text_of(value: Value) -> str | None:
+    """The same for constants that are equal, ``None`` for what is no constant."""
+    known = isinstance(value, Const) and value.value is not None
+    return repr(value.value) if known else None  # type: ignore[attr-defined]
 
 
 def put_up(world: World, name: str) -> None:
@@ -79,6 +111,7 @@ def put_up(world: World, name: str) -> None:
     is_down = flag in _found_down(world) or (flag in world.still_down and not _has_waited(world))
     if is_down and flag not in world.held and _is_up(world, name):
         world.held = (*world.held, flag)
+        world.flag_tests.setdefault(name, set()).update(_states_found(world, name)[-1:])
 
 
 def _has_waited(world: World) -> bool:
@@ -88,19 +121,41 @@ def _has_waited(world: World) -> bool:
 def put_down(world: World, name: str) -> None:
     """``name`` was stored; who has put down its flag holds it no more."""
     stored = world.reading.stored
-    if isinstance(stored, Const) and not stored.value and not _is_up(world, name):
+    states = world.flag_tests.get(name)
+    if states:
+        is_down = not all(_is_up_for(stored, each) for each in states)
+    else:
+        is_down = isinstance(stored, Const) and not stored.value and not _is_up(world, name)
+    if is_down:
         world.held = tuple(held for held in world.held if held != name + FLAG)
 
 
 def _is_up(world: World, name: str) -> bool:
     """Whether the test finds it up now; one for ``None`` takes every other value for that."""
     stored = world.reading.stored
+    states = _states_found(world, name)
+    if states:
+        return _is_up_for(stored, states[-1])
     if stored is None or NONE in options_of(stored):
         return False
     found = (
         world.reading.found.get(step, {}).get(name) for step in world.reading.behind(world.path)
     )
     return FOUND_NONE in found or not isinstance(stored, Const) or bool(stored.value)
+
+
+def _states_found(world: World, name: str) -> list[str]:
+    """What tests on the path have found it to be, or not to be, of constants."""
+    found = (world.reading.found.get(step, {}).get(name, '') for step in world.path)
+    return [each for each in found if each.startswith((FOUND_THIS, FOUND_OTHER))]
+
+
+def _is_up_for(stored: Value | None, found: str) -> bool:
+    """Whether who finds so by a test does not find it when ``stored`` is there."""
+    texts = [text_of(option) for option in options_of(stored)] if stored is not None else [None]
+    if found.startswith(FOUND_THIS):
+        return None not in texts and found.removeprefix(FOUND_THIS) not in texts
+    return all(text == found.removeprefix(FOUND_OTHER) for text in texts)
 
 
 def after_block(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from ros2cc_extract.extract.static import again, memo
+from ros2cc_extract.extract.static import again, enums, memo
 from ros2cc_extract.extract.static.class_attributes import scanned_new
 from ros2cc_extract.extract.static.dataclass_fields import fill_fields, is_dataclass
 from ros2cc_extract.extract.static.machine import Machine
@@ -41,6 +41,7 @@ class Instances(Machine):
         """What ``type.__call__`` gives: an object from ``__new__``, after its ``__init__``."""
         known = again.made_then(self.world, cls, call.place)
         known = known or self._made_by_looking(cls, call.place) or made_before(self, cls, call)
+        known = known or enums.made(cls, call)
         if known is not None:
             again.remember(self.world, cls, call.place, known)
             return known

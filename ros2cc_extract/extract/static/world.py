@@ -360,6 +360,8 @@ class World:
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param accepted: what the last function held wherever it did not turn down a goal.
     :param admitted: flags that hold for an accepted goal, by node and place of the action server.
+    :param flag_tests: of a state that stands for a flag, what has been found of it by those who
+        then put it up, see ``flags.py``.
     :param found_down: flags that the last function found down wherever it turned no goal down.
     :param open_to: those that were down when a goal was accepted, by the same.
     :param still_down: those that were down when the goal was accepted which is executed.
@@ -437,6 +439,7 @@ class World:
     yielding: tuple[Value, tuple[str, ...]] | None = None
     accepted: tuple[str, ...] = ()
     admitted: dict[tuple[Instance, Place], tuple[str, ...]] = field(default_factory=dict)
+    flag_tests: dict[str, set[str]] = field(default_factory=dict)
     found_down: frozenset[str] = frozenset()
     open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
     still_down: frozenset[str] = frozenset()
