@@ -41,11 +41,11 @@ class Instances(Machine):
         """What ``type.__call__`` gives: an object from ``__new__``, after its ``__init__``."""
         known = again.made_then(self.world, cls, call.place)
         known = known or self._made_by_looking(cls, call.place) or made_before(self, cls, call)
-        known = known or enums.made(cls, call)
         if known is not None:
             again.remember(self.world, cls, call.place, known)
             return known
-        return memo.doubted(self, cls, call, partial(self._make, cls))
+        member = enums.made(cls, call)
+        return member or memo.doubted(self, cls, call, partial(self._make, cls))
 
     def _make(self, cls: Class, call: Call) -> Value:
         new = scanned_new(cls)
