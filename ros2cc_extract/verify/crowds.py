@@ -84,11 +84,12 @@ def refute_by_crowds(
         part = replace(part, results=results, by_slices=len(results))
         left = {key: query for key, query in left.items() if key not in results}
         if results:
-            found = part if found is None else _added(found, part)
+            found = part if found is None else added(found, part)
     return found
 
 
-def _added(found: Found, part: Found) -> Found:
+def added(found: Found, part: Found) -> Found:
+    """Add what a part has refuted."""
     check = replace(
         found.check,
         states=found.check.states + part.check.states,

@@ -6,16 +6,20 @@ What slices cannot decide is asked of the whole unit, as far as the limits go.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.apart import prove_apart
 from ros2cc_extract.verify.asking import Found, Key, Search, Slicing, key_of, total, weighs_more
 from ros2cc_extract.verify.crowds import Refute, refute_by_crowds
+from ros2cc_extract.verify.hunts import refute_by_hunts
 from ros2cc_extract.verify.known import Shelf
+from ros2cc_extract.verify.loosened import Loosened, is_loose, loosened
 from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.slices import Names, Slicer
 
@@ -48,31 +52,74 @@ def narrow(
         found = search(closed, [key_of(query) for query in queries], first)
         if found.check.complete:
             return found
-    left = [q for q in queries if found is None or _is_open(found.results[key_of(q)])]
     slicer = Slicer(closed, max_cycle)
-    slicing = Slicing(slicer, search, limits, Shelf() if shelf is None else shelf)
-    # Who starves follows from who comes to no end, as a rule.
-    for last in (False, True):
-        part = slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
+    ways = _Ways(slicer, search, refute, limits, Shelf() if shelf is None else shelf)
+    for way in ways.in_order():
+        left = _left(queries, found)
+        part = way(left) if left else None
         if part is not None:
-            found = part if found is None else joined(found, part)
-        if found is not None:
-            found = _derive(found, left, slicer)
-            left = [q for q in left if _is_undecided(found.results.get(key_of(q)))]
-    results = {} if found is None else found.results
-    if refute is not None and not slicer.has_threads_to_spare:
-        open_ones = [q for q in queries if _is_undecided(results.get(key_of(q)))]
-        part = refute_by_crowds(slicer, open_ones, refute, limits)
-        if part is not None:
-            found = part if found is None else joined(found, part)
-            results = found.results
-    rest = [key_of(q) for q in queries if _is_undecided(results.get(key_of(q)))]
+            found = _derive(part if found is None else joined(found, part), queries, slicer)
+    rest = [key_of(query) for query in _left(queries, found)]
     if rest or found is None:
         most = replace(limits, states=limits.states or WHOLE_STATES)
         whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, most)
         found = whole if found is None else joined(found, whole)
     complete = not any(map(_is_open, found.results.values()))
     return replace(found, check=replace(found.check, complete=complete))
+
+
+def _left(queries: Iterable[Query], found: Found | None) -> list[Query]:
+    """What asking more may decide."""
+    results = {} if found is None else found.results
+    return [query for query in queries if _is_undecided(results.get(key_of(query)))]
+
+
+_Way = Callable[[Sequence[Query]], Found | None]
+_Refuting = Callable[[Slicer, Sequence[Query], Refute, Limits], Found | None]
+
+
+@dataclass(frozen=True)
+class _Ways:
+    """What may decide claims without the whole unit, each asked for what those before left."""
+
+    slicer: Slicer
+    search: Search
+    refute: Refute | None
+    limits: Limits
+    shelf: Shelf
+
+    def in_order(self) -> Iterator[_Way]:
+        """Give them, those first that take least."""
+        yield partial(self._by_slices, last=False)
+        # Who starves follows from who comes to no end, as a rule.
+        yield partial(self._by_slices, last=True)
+        if not self.slicer.spins:
+            for loose in loosened(self.slicer.closed):
+                yield partial(self._loosened, loose)
+        if self.refute is not None and not self.slicer.has_threads_to_spare:
+            yield partial(self._refuted, self.refute, refute_by_crowds)
+        if self.refute is not None:
+            yield partial(self._refuted, self.refute, refute_by_hunts)
+        yield self._apart
+
+    def _by_slices(self, left: Sequence[Query], *, last: bool) -> Found | None:
+        slicing = Slicing(self.slicer, self.search, self.limits, self.shelf)
+        return slicing.decide(q for q in left if (q.family is Family.STARVATION) is last)
+
+    def _loosened(self, loose: Loosened, left: Sequence[Query]) -> Found | None:
+        slicer = Slicer(loose.closed, self.slicer.max_cycle)
+        slicing = Slicing(slicer, self.search, self.limits, self.shelf)
+        part = slicing.decide(query for query in left if is_loose(query))
+        if part is None:
+            return None
+        results = loose.decided(part.results)
+        return replace(part, results=results, by_slices=len(results))
+
+    def _refuted(self, refute: Refute, way: _Refuting, left: Sequence[Query]) -> Found | None:
+        return way(self.slicer, left, refute, self.limits)
+
+    def _apart(self, left: Sequence[Query]) -> Found | None:
+        return prove_apart(self.slicer, left, self.search, self.limits)
 
 
 def _unasked(queries: Sequence[Query], keys: Sequence[Key], limits: Limits) -> Found:
@@ -131,8 +178,7 @@ def _derived(query: Query, found: Found, slicer: Slicer) -> QueryResult | None:
     if query.family is Family.DEADLOCK:
         return _all_end(found, slicer.asked)
     if query.family is Family.STARVATION:
-        # A run of its own that is suspended keeps a callback from being started again.
-        holders = slicer.holders(query.callbacks[0]) | (slicer.waiting & set(query.callbacks))
+        holders = slicer.holders_from(query.callbacks[0])
         ends = _all_end(found, holders) if slicer.only_asks(holders) else None
         return ends if ends is not None and ends.verdict is Verdict.SATISFIED else None
     if query.family is Family.POOL_EXHAUSTION:

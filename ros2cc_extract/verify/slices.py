@@ -121,6 +121,22 @@ class Slicer:
         """Members of its exclusive group, itself too, that hold it while they wait."""
         return frozenset(self._holders(self._by_name[name]))
 
+    def holders_from(self, name: str) -> Names:
+        """
+        Name who may hold the group of ``name`` for ever before it starts.
+
+        A run of its own that waits keeps it from being started again: not where it runs once.
+        """
+        is_kept = name in self.waiting and not self._runs_once(name)
+        holders = self.holders(name) - {name}
+        return holders | {name} if is_kept else holders
+
+    def _runs_once(self, name: str) -> bool:
+        """Tell whether data arrives for it once; for who gives signals it may arrive again."""
+        if self._callers[name] or any(step.is_signal for step in self._steps[name]):
+            return False
+        return self._runs_by_arrivals(self._by_name[name]) == 1
+
     def only_asks(self, names: Names) -> bool:
         """
         Tell whether all that ``names`` wait for arrives because it was asked for.
@@ -234,6 +250,48 @@ class Slicer:
         part = self.cut(cone)
         is_full = len(part.spec.executor.threads) == self._threads
         return part if is_full and self.has_waits_of(part.spec) else None
+
+    def part_of_end(self, name: str) -> ClosedSpec | None:
+        """
+        Give the slice that is asked whether ``name`` ends, or the whole where there is none.
+
+        ``None`` where others run while one waits on the only thread, or beside the executor.
+        """
+        if self._spinning or len(self._steps) > len(self._by_name):
+            return None
+        if not self.has_threads_to_spare:
+            return self.closed
+        cone = self._cone((name,), Rests.ON_END)
+        part = self.cut(cone) if cone <= self._by_name.keys() else None
+        return part if part is not None and self.has_waits_of(part.spec) else None
+
+    def callback(self, name: str) -> Callback:
+        """Give a callback by its name."""
+        return self._by_name[name]
+
+    def waits_alone(self, name: str) -> bool:
+        """Tell whether of all that its end depends on nobody else waits, and it runs once."""
+        if not self.has_threads_to_spare or not self._runs_once(name):
+            return False
+        return self._cone((name,), Rests.ON_END) & self.waiting <= {name}
+
+    def held_steps(self, name: str) -> Iterator[int]:
+        """Number the steps in which it holds a thread until somebody else has run."""
+        for number, step in enumerate(self._steps[name]):
+            if step.kind is WaitKind.HELD:
+                yield number
+
+    @property
+    def spins(self) -> bool:
+        """Whether a callback spins an executor, so that others run while it waits."""
+        return bool(self._spinning)
+
+    @property
+    def by_request(self) -> Names:
+        """Clients that get data only where a callback of the unit asks."""
+        return frozenset(
+            n for n, callers in self._callers.items() if callers and self._is_client(n)
+        )
 
     def gets_data(self, name: str) -> bool:
         """Whether something may arrive for it that nobody of the unit has asked for."""

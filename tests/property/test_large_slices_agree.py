@@ -1,0 +1,150 @@
+"""What decides claims whose slice is too large says what the whole unit says, on random units."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
+import pytest
+from closed_specs import random_waking_unit
+
+from ros2cc_extract.checker.api import Limits, Verdict
+from ros2cc_extract.generator.build import Profile, Query, queries_of
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.deeds import Blocking, Waker
+from ros2cc_extract.spec.model import GroupType
+from ros2cc_extract.verify import unit as verifying
+from ros2cc_extract.verify.apart import prove_apart
+from ros2cc_extract.verify.asking import Key, Slicing, key_of
+from ros2cc_extract.verify.hunts import refute_by_hunts
+from ros2cc_extract.verify.known import Shelf
+from ros2cc_extract.verify.loosened import is_loose, loosened
+from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.slices import Slicer
+
+LIMITS = Limits(states=30_000)
+OPTIONS = verifying.Options(profile=Profile.RCLPY, reduction=False, limits=LIMITS)
+search = partial(verifying._search, options=OPTIONS, progress=None)
+refute = partial(verifying._refute, options=OPTIONS)
+Said = dict[Key, QueryResult]
+Way = Callable[[ClosedSpec, list[Query]], Iterator[Said]]
+
+
+def by_loosening(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
+    if Slicer(unit, 1).spins:
+        return
+    for loose in loosened(unit):
+        slicing = Slicing(Slicer(loose.closed, 1), search, Limits(), Shelf())
+        found = slicing.decide(query for query in queries if is_loose(query))
+        if found is not None:
+            yield loose.decided(found.results)
+
+
+def by_hunts(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
+    found = refute_by_hunts(Slicer(unit, 1), queries, refute, LIMITS)
+    if found is not None:
+        yield found.results
+
+
+def apart(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
+    found = prove_apart(Slicer(unit, 1), queries, search, LIMITS)
+    if found is not None:
+        yield found.results
+
+
+def compared(units: Iterator[tuple[int, ClosedSpec]], way: Way) -> int:
+    """Compare what one way decides with the whole unit; who needs two arrivals is left out."""
+    decided: Counter[str] = Counter()
+    for number, unit in units:
+        queries = list(queries_of(unit, profile=Profile.RCLPY))
+        whole = search(unit, [key_of(query) for query in queries], LIMITS).results
+        for said in way(unit, queries):
+            for key, result in said.items():
+                verdicts = {result.verdict, whole[key].verdict} - {Verdict.UNDECIDED}
+                assert len(verdicts) <= 1, (number, key, result.verdict, whole[key].verdict)
+                decided[key[0].value] += len(verdicts)
+    print(dict(decided))
+    return decided.total()
+
+
+def waking(numbers: range, callbacks: int = 4) -> Iterator[tuple[int, ClosedSpec]]:
+    for number in numbers:
+        drawn = random.Random(number)
+        yield number, random_waking_unit(drawn, callbacks=callbacks, groups=3, threads=3)
+
+
+def alone(numbers: range) -> Iterator[tuple[int, ClosedSpec]]:
+    """Units in which one callback waits, for one after the other; some have services."""
+    for number, unit in waking(numbers, callbacks=5):
+        drawn = random.Random(-number)
+        spec = unit.spec
+        waiter = drawn.choice(spec.callbacks).name
+        names = [callback.name for callback in spec.callbacks]
+        served = tuple(
+            replace(c, locks=(), blocking=_waits(names, drawn) if c.name == waiter else ())
+            for c in spec.callbacks
+        )
+        groups = tuple(
+            replace(g, type=drawn.choice((GroupType.EXCLUSIVE, g.type))) for g in spec.groups
+        )
+        executor = replace(spec.executor, kind='MultiThreadedExecutor', threads=('t0', 't1', 't2'))
+        yield (
+            number,
+            replace(
+                unit,
+                spec=replace(
+                    spec, callbacks=served, activities=(), groups=groups, executor=executor
+                ),
+            ),
+        )
+
+
+def _waits(names: list[str], drawn: random.Random) -> tuple[Blocking, ...]:
+    return tuple(
+        drawn.choice((_call, _signalled))(names, drawn) for _ in range(drawn.choice((2, 2, 3)))
+    )
+
+
+def _call(names: list[str], drawn: random.Random) -> Blocking:
+    is_skipped = drawn.random() < 0.5
+    return Blocking(call='client.call', on=drawn.choice(names), conditional=is_skipped)
+
+
+def _signalled(names: list[str], drawn: random.Random) -> Blocking:
+    return Blocking(
+        call='Event.wait',
+        resource=drawn.choice(('done', 'other')),
+        wakers=tuple(Waker(by=drawn.choice(names)) for _ in range(drawn.choice((1, 2)))),
+        forgets=drawn.random() < 0.2,
+        conditional=drawn.random() < 0.5,
+    )
+
+
+WAYS = pytest.mark.parametrize(
+    'way', (by_loosening, by_hunts, apart), ids=lambda way: way.__name__
+)
+
+
+@WAYS
+def test_where_one_waits(way: Way) -> None:
+    assert compared(alone(range(40)), way)
+
+
+@pytest.mark.slow
+@WAYS
+def test_where_one_waits_on_many(way: Way) -> None:
+    assert compared(alone(range(1_000, 3_000)), way)
+
+
+@pytest.mark.parametrize('way', (by_loosening, by_hunts), ids=lambda way: way.__name__)
+def test_where_many_wait(way: Way) -> None:
+    assert compared(waking(range(40)), way)
+
+
+@pytest.mark.slow
+@WAYS
+def test_where_many_wait_on_many(way: Way) -> None:
+    compared(waking(range(1_000, 3_000)), way)
