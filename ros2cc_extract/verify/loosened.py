@@ -61,6 +61,8 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
 
     First somebody outside answers, whenever it may be; then the services of the unit.
     """
+    if not any(callback.blocking or callback.locks for callback in closed.spec.callbacks):
+        return
     yield Loosened(_with(closed, lambda callback, spec: ()), is_exact=False)
     yield Loosened(_answered_outside(_with(closed, _questions)), is_exact=False)
     is_exact = all(_may_leave_out(callback, closed.spec) for callback in closed.spec.callbacks)

@@ -53,6 +53,7 @@ def narrow(
         if found.check.complete:
             return found
     slicer = Slicer(closed, max_cycle)
+    found = found and _derive(found, queries, slicer)
     ways = _Ways(slicer, search, refute, limits, Shelf() if shelf is None else shelf)
     for way in ways.in_order():
         left = _left(queries, found)
