@@ -142,14 +142,26 @@ def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instan
     if not isinstance(client, EntityState):
         is_plain = isinstance(state, PlainState) and state.kind in _PLAIN.get(_last(name), ())
         if is_plain and world.is_program:
-            world.outside.append(OutsideWait(name, on, place, world.in_thread, spun))
+            _remember(world, name, on, place, spun)
         return
-    if name == _RATE and not client.node.state.spun:
-        world.outside.append(OutsideWait(name, client, place, world.in_thread))
+    if name == _RATE:
+        _remember(world, name, client, place, ())
     if client.kind not in SERVER_KINDS:
         return
     if name in _ANSWERS or name.endswith('spin_until_future_complete'):
-        world.outside.append(OutsideWait(name, client, place, world.in_thread, spun))
+        _remember(world, name, client, place, spun)
+
+
+def _remember(
+    world: World,
+    name: str,
+    on: EntityState | Instance,
+    place: Place,
+    spun: tuple[Instance, ...],
+) -> None:
+    # Threads are followed where they are started; what a thread waits for has no place among them.
+    begun = None if world.in_thread or world.open_loops else len(world.spins)
+    world.outside.append(OutsideWait(name, on, place, world.in_thread, spun, begun=begun))
 
 
 def forget_awaits(world: World, told: int) -> None:
@@ -174,15 +186,22 @@ def note_unanswered(world: World) -> None:
     """Tell of waits whose answer nobody can take, or nobody can give, when all was followed."""
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
-    for wait in world.outside:
-        if isinstance(wait.client, Instance):
-            world.diagnostics.extend(_unended(wait, wait.client, world))
-            continue
-        for node, what in _needed(wait, wait.client, world):
-            if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
-                world.diagnostics.append(_unanswered(wait, wait.client, what))
-                break
+    told = [each for wait in world.outside for each in _told(wait, world)]
+    worst = {each.place for each in told if each.severity is Severity.ERROR}
+    world.diagnostics.extend(
+        each for each in told if each.severity is Severity.ERROR or each.place not in worst
+    )
     world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(_spun_beside(wait, world))))
+
+
+def _told(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
+    if isinstance(wait.client, Instance):
+        yield from _unended(wait, wait.client, world)
+        return
+    for node, what in _needed(wait, wait.client, world):
+        if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
+            yield _unanswered(wait, wait.client, what)
+            return
 
 
 def _may_be_spun_elsewhere(node: Instance) -> bool:
@@ -242,7 +261,9 @@ def _is_same(one: Value | None, other: Value | None) -> bool:
 def _spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
     """What other threads spin; which thread is which is not told apart."""
     for number, spin in enumerate(world.spins.values()):
-        if (spin.in_thread or wait.in_thread) and not is_over(spin, number, wait, world):
+        is_later = wait.begun is not None and number >= wait.begun
+        is_beside = (spin.in_thread or wait.in_thread) and not is_later
+        if is_beside and not is_over(spin, number, wait, world):
             yield from spin.nodes
             for entry in spin.executor.slots.get('__nodes__', ()):
                 yield from (o for o in options_of(entry) if isinstance(o, Instance))

@@ -61,6 +61,8 @@ EVENTS = 'rclpy.experimental.EventsExecutor'
 Awaited = tuple[Value | None, Value | None]
 _MANY_THREADS = 256
 """A pool starts threads as it needs them: what lies above this is meant as "enough"."""
+_MOST_ALIKE = 4
+"""So many done-callbacks of one text are followed, each with the variables of its own."""
 
 _SPIN_OVERRIDES = frozenset(
     [
@@ -375,6 +377,7 @@ def add_task(
         is_here = known.place == place and known.kind is kind
         is_same = is_here and _name_of(known.key) == _name_of(key)
         if is_same and _code_of(known.callback) == _code_of(run):
+            _run_too(known, run)
             flags.hand_over(world, known)
             note_made(world, kind, place)
             return None
@@ -383,6 +386,13 @@ def add_task(
     entity.count = 1
     flags.hand_over(world, entity)
     return entity
+
+
+def _run_too(known: EntityState, callback: Value | None) -> None:
+    """One function made anew has variables of its own, such as the event that it sets."""
+    alike = (known.callback, *known.extra_callbacks)
+    if isinstance(callback, Function) and callback not in alike and len(alike) < _MOST_ALIKE:
+        known.extra_callbacks += (callback,)
 
 
 def _name_of(key: Value | None) -> object:

@@ -251,6 +251,7 @@ class OutsideWait:
     :param spun: the nodes that it spins meanwhile.
     :param is_late: something has been spun before.
     :param over: what is over by then, ``path`` the undecided branches it stands in.
+    :param begun: how many spins there were by then; ``None`` where their order is not known.
     """
 
     call: str
@@ -261,6 +262,7 @@ class OutsideWait:
     is_late: bool = False
     over: tuple[Over, ...] = ()
     path: Path = ()
+    begun: int | None = None
 
 
 @dataclass(eq=False)
