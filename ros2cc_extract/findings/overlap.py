@@ -76,16 +76,20 @@ def is_quick(callback: Callback, context: Context) -> bool:
     """
     True where a run is known to be shorter than the time from one to the next.
 
-    A timer has its period. A done-callback has that of the timer which asks, where nobody else
-    does but its own runs: then two answers come together only after one has been late by a period.
+    A timer has its period, and a subscription that of the one timer which publishes for it: only
+    messages that were held up come together. A done-callback has that of the timer which asks,
+    where nobody else does but its own runs: then two answers come together only after one has
+    been late by a period.
     """
     if not all(kind_of(block) is WaitKind.SLEEP for block in callback.blocking):
         return False
     if callback.entity is EntityKind.DONE_CALLBACK:
         asking = _asking_timer(callback, context)
         return asking is not None and _is_shorter(callback, asking.period_s)
-    is_timer = callback.entity is EntityKind.TIMER
-    return is_timer and (not callback.blocking or _is_shorter(callback, callback.period_s))
+    if callback.entity is EntityKind.TIMER and not callback.blocking:
+        return True
+    is_timed = callback.entity in (EntityKind.TIMER, EntityKind.SUBSCRIPTION)
+    return is_timed and _is_shorter(callback, callback.period_s)
 
 
 def _is_shorter(callback: Callback, period: float | Unknown | None) -> bool:

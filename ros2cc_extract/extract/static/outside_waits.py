@@ -10,12 +10,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.doing import ActivityState
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.joined import JOIN, is_over, never_joined
 from ros2cc_extract.extract.static.kept_at_exit import kept_at_exit
-from ros2cc_extract.extract.static.uncalled import uncalled_wakers
+from ros2cc_extract.extract.static.uncalled import (
+    data_is_written_elsewhere,
+    uncalled_wakers,
+)
 from ros2cc_extract.extract.static.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import (
@@ -198,6 +202,9 @@ def _told(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
     if isinstance(wait.client, Instance):
         yield from _unended(wait, wait.client, world)
         return
+    if wait.client is None:
+        yield from _unwritten(wait, world)
+        return
     for node, what in _needed(wait, wait.client, world):
         if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
             yield _unanswered(wait, wait.client, what)
@@ -224,20 +231,49 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
     nodes = [doer.node for doer in doers if isinstance(doer, EntityState)]
     if len(nodes) < len(doers) or any(node is each for node in nodes for each in spun):
         return
-    what = 'nobody ends that wait'
-    if nodes:
-        what = 'nobody spins the node whose callback would end it'
     # What nobody touches may be meant to keep the program.
     is_meant = not nodes and not wait.in_thread and wait.call != 'Queue.get'
-    yield Diagnostic(
+    yield _waits_for_ever(wait, name, has_node=bool(nodes), is_meant=is_meant)
+
+
+def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: bool) -> Diagnostic:
+    what = 'nobody ends that wait'
+    if has_node:
+        what = 'nobody spins the node whose callback would end it'
+    return Diagnostic(
         severity=Severity.WARNING if is_meant else Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
         message=f'{wait.call} waits for {name}, but {what}: it waits for ever',
         help='spin the node in a thread before, and only there'
-        if nodes
+        if has_node
         else 'end it somewhere, or give it a time-out',
     )
+
+
+def note_loop(world: World, names: set[str], place: Place) -> None:
+    """Remember that the set-up looks again and again whether data of ``names`` has changed."""
+    is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
+    if is_set_up and world.is_program and not world.in_callback and not world.retelling:
+        begun = None if world.open_loops else len(world.spins)
+        wait = OutsideWait('a polling loop', None, place, in_thread=False, begun=begun)
+        world.outside.append(replace(wait, names=frozenset(names)))
+
+
+def _unwritten(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
+    """Only callbacks write what a loop looks at, and nobody serves them meanwhile."""
+    if any(_writes(state.deeds, wait.names) for state in world.activities):
+        return
+    served = (*world.entities, *world.builtins)
+    nodes = [each.node for each in served if _writes(each.deeds, wait.names)]
+    is_spun = any(node is each for node in nodes for each in _spun_beside(wait, world))
+    if not nodes or is_spun or data_is_written_elsewhere(world, wait.names) is not None:
+        return
+    yield _waits_for_ever(wait, min(wait.names), has_node=True, is_meant=False)
+
+
+def _writes(deeds: Deeds | None, names: frozenset[str]) -> bool:
+    return deeds is not None and any(access.name in names for access in deeds.writes)
 
 
 def _needed(

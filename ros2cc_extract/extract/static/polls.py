@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.outside_waits import (
     call_of_loop,
     is_endless,
     is_idle,
+    note_loop,
     spins,
 )
 from ros2cc_extract.extract.static.reading import Asked
@@ -185,6 +186,7 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     """After one round of ``loop``."""
     deeds = machine.world.deeds
     if before is None or deeds is None:
+        _note_set_up(machine, loop, frame)
         return
     _note_asked(machine, loop, deeds, before, frame)
     asked = machine.world.reading.asked.get(frame.place(loop))
@@ -206,6 +208,24 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     if names & (written | set(deeds.own[before.own :])):
         return
     _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
+
+
+def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:
+    """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
+    is_plain = is_idle(loop) and not _asks_object(loop.test) and not _leaves(loop)
+    if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
+        return
+    names = _read(machine, [loop.test], frame)
+    if names and _holds(machine, loop.test, frame):
+        note_loop(machine.world, names, frame.place(loop.test))
+
+
+def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+    """Whether it comes out so for certain, as long as nobody shuts rclpy down."""
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
+        return all(_holds(machine, each, frame) for each in test.values)
+    is_ok = isinstance(test, ast.Call) and _name_of(test) == 'ok'
+    return is_ok or machine.truth(machine.evaluate(test, frame)) is True
 
 
 def _note_asked(

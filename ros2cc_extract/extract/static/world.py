@@ -248,6 +248,7 @@ class OutsideWait:
     """
     Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
 
+    :param client: ``None`` where it looks at data again and again, of ``names``.
     :param spun: the nodes that it spins meanwhile.
     :param is_late: something has been spun before.
     :param over: what is over by then, ``path`` the undecided branches it stands in.
@@ -255,7 +256,7 @@ class OutsideWait:
     """
 
     call: str
-    client: EntityState | Instance
+    client: EntityState | Instance | None
     place: Place
     in_thread: bool
     spun: tuple[Instance, ...] = ()
@@ -263,6 +264,7 @@ class OutsideWait:
     over: tuple[Over, ...] = ()
     path: Path = ()
     begun: int | None = None
+    names: frozenset[str] = frozenset()
 
 
 @dataclass(eq=False)

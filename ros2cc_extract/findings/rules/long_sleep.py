@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from math import inf
 
@@ -10,6 +11,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.long_holds import LongHold, long_holds
 from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.findings.rule import Context, Hit, Rule
+from ros2cc_extract.findings.rules.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import called, group_words, made_at, plural, served_at, shown
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
@@ -28,13 +30,14 @@ LISTED = 5
 def find(context: Context) -> Iterator[Hit]:
     """One finding per callback, at its longest pause; execute callbacks are CC203's."""
     told: set[str] = set()
-    pauses = (wait for wait in waits_of(context) if _is_pause(wait))
+    timed = (_as_timed(wait, context) for wait in waits_of(context))
+    pauses = (wait for wait in timed if _is_pause(wait) or _is_long_wait(wait, context))
     for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
         own = list(waits)
         long = [wait for wait in own if seconds_of(wait) >= LONG_SLEEP_S]
         short = _long_for_timers_s(own[0].caller, context)
         if not long:
-            sleeps = [wait for wait in own if wait.kind is WaitKind.SLEEP]
+            sleeps = [wait for wait in own if _is_sleep(wait)]
             long = [wait for wait in sleeps if seconds_of(wait) >= short]
         if not long and least_slept_s(own[0].caller.blocking) >= short:
             long = [wait for wait in own if not wait.block.conditional]
@@ -72,7 +75,37 @@ def _is_pause(wait: Wait) -> bool:
     """Whether it is a sleep, or ends after a time in any case, as one does if nothing comes."""
     if wait.caller.entity is EntityKind.ACTION_EXECUTE:
         return False
-    return wait.kind is WaitKind.SLEEP or (wait.block.call in _TIMED and not wait.needs)
+    return _is_sleep(wait) or (wait.block.call in _TIMED and not wait.needs)
+
+
+def _as_timed(wait: Wait, context: Context) -> Wait:
+    """A sleep by a rate whose timer has a thread lasts a period of that timer."""
+    on = wait.block.on
+    timer = context.by_name.get(on) if isinstance(on, str) else None
+    is_rate = wait.kind is WaitKind.RATE and timer is not None
+    if not is_rate or timer is None or is_one_thread(context.unit.executor):
+        return wait
+    return replace(wait, block=replace(wait.block, seconds=timer.period_s))
+
+
+def _is_sleep(wait: AnyWait) -> bool:
+    return wait.kind is WaitKind.SLEEP or (wait.kind is WaitKind.RATE and wait.has_timeout)
+
+
+def _is_long_wait(wait: Wait, context: Context) -> bool:
+    """
+    Whether it may last so long that a timer misses runs, though somebody else may end it.
+
+    What nobody can end meanwhile other rules tell.
+    """
+    is_timed = wait.block.call in _ANSWERED and bool(wait.needs)
+    if not is_timed or wait.caller.entity is EntityKind.ACTION_EXECUTE:
+        return False
+    if is_one_thread(context.unit.executor) or shut_out_by(wait, context) is not None:
+        return False
+    held_up = _held_up(wait.caller, context)
+    every = min((period for _, period in _timers(held_up[1] if held_up else ())), default=inf)
+    return seconds_of(wait) >= max(LONG_SLEEP_S, MISSED * every)
 
 
 _TIMED = frozenset(
@@ -87,6 +120,9 @@ _TIMED = frozenset(
         'Barrier.wait',
     }
 )
+
+
+_ANSWERED = _TIMED | {'client.call'}
 
 
 def seconds_of(wait: Wait) -> float:
@@ -137,7 +173,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
         f'holds {held}: {" and ".join(stopped)} of the node wait that long',
         help='let a timer that cancels itself go on after the pause'
         + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
-        severity=Severity.NOTE if not others and wait.kind is not WaitKind.SLEEP else None,
+        severity=Severity.NOTE if _is_rare(wait, others) else None,
         subjects=(wait.caller.name,),
         chain=wait.chain,
         related=(
@@ -147,6 +183,11 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
             *_listed(more),
         ),
     )
+
+
+def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:
+    """Whether it mostly ends sooner, or nobody waits but the services that rclpy has made."""
+    return not _is_sleep(wait) and (not others or bool(wait.needs))
 
 
 def _missing(wait: Wait, others: Sequence[Callback]) -> Iterator[Remark]:
@@ -161,7 +202,7 @@ def _how_long(wait: AnyWait) -> str:
     seconds = wait.block.seconds
     assert isinstance(seconds, (int, float))
     often = f' {wait.block.times} times' if wait.block.times > 1 else ''
-    if wait.kind is WaitKind.SLEEP:
+    if _is_sleep(wait):
         return f'sleeps {seconds:g} s{often}'
     return f'waits up to {seconds:g} s{often} in {wait.block.call}'
 
@@ -195,9 +236,10 @@ RULE = Rule(
     '`ros2 param` hangs. So it is with a lock that is held over a long sleep, or over a '
     'loop that sleeps in each round, where other callbacks take the lock: an execute '
     'callback that holds it during its whole run holds up the request to cancel. A wait '
-    'with a time-out counts too: it lasts that long where nothing comes. It is only a note '
-    'where nobody waits but the services that rclpy itself has made: they wait that long '
-    'in the rare case alone, and then go on. Rounds of a loop are counted where their '
+    'with a time-out counts too: it lasts that long where nothing comes. So does a sleep by '
+    'a `Rate`. It is only a note where a timer misses five runs and somebody may end the wait '
+    'sooner, and where nobody waits but the services that rclpy itself has made: they wait that '
+    'long in the rare case alone, and then go on. Rounds of a loop are counted where their '
     'number is known, and short sleeps are added up where no branch skips them. A callback '
     'has one finding, at the longest of them.',
     why='Who holds a lock keeps all others from it that long, in whatever group and on however '

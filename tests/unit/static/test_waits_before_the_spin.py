@@ -10,10 +10,12 @@ from ros2cc_extract.extract.static.api import scan
 
 NODE = """\
 import threading
+import time
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from std_msgs.msg import Empty
 from std_srvs.srv import Trigger
 
 
@@ -22,12 +24,21 @@ class Asker(Node):
         super().__init__('asker')
         self.client = self.create_client(Trigger, 'home')
         self.rate = self.create_rate(10)
+        self.pose = None
+        self.create_subscription(Empty, 'pose', self.on_pose, 10)
 
     def home(self):
         done = threading.Event()
         future = self.client.call_async(Trigger.Request())
         future.add_done_callback(lambda _: done.set())
         done.wait()
+
+    def on_pose(self, msg):
+        self.pose = msg
+
+    def look(self):
+        while self.pose is None and rclpy.ok():
+            {look}
 
     def work(self):
         while rclpy.ok():
@@ -49,9 +60,10 @@ def main():
 main()
 """
 START, ASK, CALL = 'thread.start()', 'node.home()', 'node.client.call(Trigger.Request())'
-WORK, NOTHING = 'node.work()', 'pass'
+LOOK, WORK, NOTHING = 'node.look()', 'node.work()', 'pass'
 EVENT = 'Event.wait waits for done, but nobody spins the node whose callback would end it'
 ANSWER = "client.call waits for the answer of 'home' while nobody spins the node that must take it"
+POSE = 'a polling loop waits for Asker.pose, but nobody spins the node whose callback would end it'
 SLEEP = 'Rate.sleep waits for a timer while nobody spins the node that has it'
 
 
@@ -63,6 +75,9 @@ SLEEP = 'Rate.sleep waits for a timer while nobody spins the node that has it'
         ((START, ASK, ASK), NOTHING, []),
         ((CALL, START, NOTHING), NOTHING, [ANSWER]),
         ((START, CALL, ASK), NOTHING, []),
+        ((LOOK, START, NOTHING), 'time.sleep(0.1)', [POSE]),
+        ((START, LOOK, NOTHING), 'time.sleep(0.1)', []),
+        ((LOOK, START, NOTHING), 'rclpy.spin_once(self, timeout_sec=0.1)', []),
         ((WORK, NOTHING, NOTHING), 'rclpy.spin_once(self, timeout_sec=0.0)', [SLEEP]),
         ((START, WORK, NOTHING), NOTHING, []),
     ],
@@ -72,7 +87,7 @@ def test_a_thread_that_is_started_later_serves_nobody_before(
 ) -> None:
     path = tmp_path / 'asker.py'
     first, then, last = steps
-    path.write_text(NODE.format(first=first, then=then, last=last, step=in_loop))
+    path.write_text(NODE.format(first=first, then=then, last=last, step=in_loop, look=in_loop))
 
     found = scan([path])
 
