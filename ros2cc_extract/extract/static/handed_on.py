@@ -7,11 +7,13 @@ the callback is followed again; where that comes to no end, the unit says so.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from ros2cc_extract.extract.static.values import (
+    NONE,
     Bound,
     Class,
+    Const,
     Function,
     Heaped,
     Instance,
@@ -63,6 +65,48 @@ def has_news(met: Mapping[tuple[Heaped, str], Tokens]) -> bool:
     )
 
 
+def _has_other_kinds(met: Mapping[tuple[Heaped, str], Tokens]) -> bool:
+    """
+    Whether something holds objects now that are not like those which were read.
+
+    A callback that makes an object in each run comes to no end, and after some of its runs to
+    nothing new: each is made at the same place and holds what others there have held.
+    """
+    return any(
+        not _kinds(_objects(owner.slots.get(name))) <= _kinds(known)
+        for (owner, name), known in met.items()
+    )
+
+
+def _kinds(tokens: Tokens) -> Tokens:
+    """The places where objects are made, with the values and kinds of objects they hold."""
+    return frozenset(kind for token in tokens for kind in _kinds_of(token))
+
+
+def _kinds_of(token: object) -> Iterator[object]:
+    if isinstance(token, tuple):
+        receiver, function = token
+        yield from ((kind, function) for kind in _kinds_of(receiver))
+    elif not isinstance(token, Instance) or token.born is None:
+        yield token
+    else:
+        made = token.cls, token.place
+        yield made
+        slots = [slot for slot in token.slots.items() if isinstance(slot[1], Value)]
+        held = ((name, _shown(option)) for name, slot in slots for option in options_of(slot))
+        yield from ((made, name, shown) for name, shown in held if shown is not None)
+
+
+def _shown(value: Value) -> object:
+    if isinstance(value, Instance):
+        return value.cls
+    if isinstance(value, Const):
+        return repr(value.value) if value != NONE else None
+    if isinstance(value, Bound):
+        return _shown(value.receiver), id(value.function.node)
+    return _token(value)
+
+
 def next_round(world: World) -> list[EntityState]:
     """The callbacks to follow once more."""
     stale = [entity for entity in world.entities if has_news(world.met_by.get(id(entity), {}))]
@@ -71,7 +115,7 @@ def next_round(world: World) -> list[EntityState]:
         world.rounds[id(entity)] += 1
         if world.rounds[id(entity)] <= _ROUNDS:
             found.append(entity)
-        else:
+        elif _has_other_kinds(world.met_by.get(id(entity), {})):
             reason = 'objects that callbacks hand on to each other are not followed to an end'
             classes = frozenset(cls for cls in entity.node.mro if isinstance(cls, Class))
             note_once(world.cut, Cut(reason, entity.place, classes))
