@@ -47,9 +47,9 @@ class Patience:
 PATIENT = Patience()
 
 
-def deadline_in(seconds: float) -> Deadline:
-    """Give the moment so many seconds from now."""
-    reason = f'the limit of {seconds:g} s for all units was reached; see --max-seconds'
+def deadline_in(seconds: float, of: float) -> Deadline:
+    """Give the moment so many seconds from now, which are left ``of`` so many."""
+    reason = f'the limit of {of:g} s for all units was reached; see --max-seconds'
     return Deadline(time.monotonic() + seconds, reason)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -86,7 +87,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
     with termination_as_interrupt() as termination:
-        job = replace(job, known=_known(args, config, job, stderr))
+        begun = time.monotonic()
+        known = _known(args, config, job, stderr)
+        job = replace(job, known=known, spent_s=time.monotonic() - begun)
         outcome = check_paths(job, stderr)
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing

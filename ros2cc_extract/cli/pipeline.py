@@ -47,6 +47,7 @@ class Job:
     :param root: repository to which fingerprints are relative.
     :param keeps_runs: the run behind every verdict is wanted.
     :param max_seconds: for scanning all files and verifying all units together.
+    :param spent_s: of these seconds, on what was checked before.
     :param files: those of the disk, or of another revision.
     :param noticed: what is known already, such as folders that cannot be looked into.
     """
@@ -61,6 +62,7 @@ class Job:
     cached: bool = True
     keeps_runs: bool = False
     max_seconds: float | None = None
+    spent_s: float = 0.0
     files: Files = DISK
     noticed: tuple[Diagnostic, ...] = ()
 
@@ -132,14 +134,15 @@ def _has_callbacks(unit: Spec) -> bool:
 
 def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
-    deadline = None if job.max_seconds is None else deadline_in(job.max_seconds)
+    left_s = None if job.max_seconds is None else max(0.0, job.max_seconds - job.spent_s)
+    deadline = None if left_s is None else deadline_in(left_s, job.max_seconds or left_s)
     extraction = scan_sources(
         job.paths,
         stderr,
         cached=job.cached,
         lists_builtin=job.policy.builtin,
         files=job.files,
-        patience=_patience(deadline, job.max_seconds),
+        patience=_patience(deadline, left_s),
     )
     units = tuple(
         assume(unit, job.assumptions)

@@ -22,6 +22,8 @@ def fingerprints_at(revision: str, job: Job, stderr: TextIO) -> frozenset[str]:
     """
     Check the same paths as they were where the change left ``revision``; give the fingerprints.
 
+    It takes half of the time at most. What is not found by then counts as new.
+
     :raises InputError: when this is no git repository, there is no such revision, or a path is
         not in the repository.
     """
@@ -40,8 +42,10 @@ def fingerprints_at(revision: str, job: Job, stderr: TextIO) -> frozenset[str]:
     if not paths:
         return frozenset()
     files.read_ahead(paths)
+    half_s = None if job.max_seconds is None else job.max_seconds / 2
     outcome = check_paths(
-        replace(job, paths=paths, known=frozenset(), files=files, noticed=()), stderr
+        replace(job, paths=paths, known=frozenset(), files=files, noticed=(), max_seconds=half_s),
+        stderr,
     )
     if outcome.interrupted:
         raise KeyboardInterrupt
