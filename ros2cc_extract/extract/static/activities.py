@@ -64,12 +64,13 @@ def begin(
     daemon: bool | None = False,
     on_loop: bool = False,
     turns: object = None,
+    pool: Instance | None = None,
 ) -> None:
     """
     Start an activity.
 
     :param runner: the thread or future that stands for it.
-    :param turns: as of an ``ActivityState``.
+    :param turns: as of an ``ActivityState``, and ``pool`` too.
     """
     world = machine.world
     text = (call.place, _code_of(target, call))
@@ -78,7 +79,7 @@ def begin(
     state = known or ActivityState(
         kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
     )
-    state.is_daemon = daemon
+    state.is_daemon, state.pool = daemon, pool
     _note_start(machine, state, runner)
     note_begun(world, call.place)
     if known is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.values import Call, Path, Value
+from ros2cc_extract.extract.static.values import Call, Instance, Path, Value
 from ros2cc_extract.extract.static.wakings import Hold, Waking
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
@@ -66,6 +66,7 @@ class ActivityState:
     :param serves: it spins an executor; for ever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param turns: equal for those that have one thread between them.
+    :param pool: whose threads run it.
     :param site: equal for one start that is met again.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     """
@@ -94,3 +95,4 @@ class ActivityState:
     thread: int = 0
     on_loop: bool = False
     turns: object = None
+    pool: Instance | None = None

@@ -13,6 +13,7 @@ from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.containers import Sequence
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.pools import WORKERS
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -37,7 +38,6 @@ FUTURE = 'pool'
 LOOP = '__loop__'
 """Slot of a loop of asyncio for where it begins."""
 _HANDED_OVER = '__handed_over__'
-_WORKERS = '__workers__'
 _FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
 
 
@@ -47,7 +47,8 @@ def submit(machine: Machine, receiver: Value, call: Call) -> Value:
     if call.args:
         inner = Call(call.place, call.args[1:], call.keywords, call.more)
         turns = _one_thread(receiver)
-        begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns)
+        pool = _pool(receiver)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns, pool=pool)
     _keep(machine, receiver, future)
     return future
 
@@ -56,7 +57,8 @@ def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
     """``loop.run_in_executor(pool, function, …)``."""
     future = machine.future(call.place, FUTURE)
     if len(call.args) > 1:
-        begin(machine, ActivityKind.POOL, call.args[1], Call(call.place, call.args[2:]), future)
+        inner, pool = Call(call.place, call.args[2:]), _pool(call.args[0])
+        begin(machine, ActivityKind.POOL, call.args[1], inner, future, pool=pool)
         _keep(machine, call.args[0], future)
     return future
 
@@ -78,16 +80,20 @@ def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
     return future
 
 
+def _pool(value: Value) -> Instance | None:
+    return value if isinstance(value, Instance) and is_pool(value) else None
+
+
 def _one_thread(pool: Value) -> Value | None:
     """The pool, if it has one thread for all that is handed to it."""
-    workers = pool.slots.get(_WORKERS) if isinstance(pool, Instance) else None
+    workers = pool.slots.get(WORKERS) if isinstance(pool, Instance) else None
     return pool if workers == Const(1) else None
 
 
 def _init(machine: Machine, receiver: Value, call: Call) -> Value:
     workers = call.argument(0, 'max_workers')
     if isinstance(receiver, Instance) and workers is not None:
-        machine.store.write(receiver, _WORKERS, workers)
+        machine.store.write(receiver, WORKERS, workers)
     return NONE
 
 
@@ -105,7 +111,8 @@ def _map(machine: Machine, receiver: Value, call: Call) -> Value:
     if call.args:
         items = [loops.items_in(machine, each, call.place) for each in call.args[1:]]
         given = [choice(list(each.known)) if each.known else _item(each) for each in items]
-        begin(machine, ActivityKind.POOL, call.args[0], Call(call.place, given), results)
+        inner, pool = Call(call.place, given), _pool(receiver)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, results, pool=pool)
     _keep(machine, receiver, results)
     return results
 

@@ -10,6 +10,7 @@ from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.consumers import taken_by_itself
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
+from ros2cc_extract.extract.static.pools import why_no_thread
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
 from ros2cc_extract.extract.static.unsure_wakers import forgets, why_gone, why_lost, why_unspun
@@ -284,6 +285,7 @@ class UnitWaits:
             mine = barriers.of_its_round(raw, doer, visits, mine)
         found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
         unsure = uneven or self._why_unsure(raw, reference, mine, doer)
+        unsure = unsure or why_no_thread(mine, doer, self._name)
         if unsure is not None:
             found = list(_unsure(found))
         why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)
