@@ -77,7 +77,8 @@ if __name__ == '__main__':
 #   activity pool load (Stitcher.load) started by join_on_one @26 count=?
 #   activity pool join_on_two (Stitcher.join_on_two) started by stitch @23 count=?
 #     blocks Future.result on Future through Future#3 @29
-#       ended by load_2 @29
+#       ended by load_2 conditional @29
+#       ended by ?
 #   activity pool load_2 (Stitcher.load) started by join_on_two @29 count=?
 #   activity thread transmit (Stitcher.transmit) started by send @35 count=?
 #     blocks asyncio.sleep 0.01 s @38
