@@ -86,7 +86,7 @@ if __name__ == '__main__':
 #   timer by_test in a_default every 1
 #     reads A.state @30
 #     reads A.state @32
-#     writes A.state rests constant @31
+#     writes A.state rests constant under A.state (flag) @31
 #     writes A.state @33
 #   timer by_early_return in a_default every 1
 #     reads A.goal @36

@@ -52,5 +52,5 @@ if __name__ == '__main__':
 #     writes A.count update @24
 #   activity thread work (A.work) conditional loops
 #     reads A.state @28
-#     writes A.state rests constant @29
+#     writes A.state rests constant under A.state (flag) @29
 #     writes A.count update @30

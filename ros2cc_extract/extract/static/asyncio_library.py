@@ -15,7 +15,8 @@ from contextlib import contextmanager
 from ros2cc_extract.extract.static.futures_library import LOOP, run_in_executor
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
-from ros2cc_extract.extract.static.queues_library import QUEUE_METHODS, give_items, may_be_full
+from ros2cc_extract.extract.static.queue_items import give_items
+from ros2cc_extract.extract.static.queues_library import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.queues_library import init as init_queue
 from ros2cc_extract.extract.static.values import NONE, Call, Handler, Instance, Native, Value
 from ros2cc_extract.extract.static.values import Library as Name
@@ -143,7 +144,7 @@ def _touching(how: str, word: Word) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         _note_touch(machine, receiver, how, call)
         if word is Word.PUT:
-            give_items(machine, call)
+            give_items(machine, receiver, call)
         machine.note_wake(receiver, word, call.place)
         return machine.mystery(f'result of {how}', call.place, f'{how}()')
 

@@ -157,10 +157,17 @@ def _pop(machine: Machine, receiver: Value, call: Call) -> Value:
     position = call.argument(0) or Const(-1)
     index = loops.index_of(position, len(receiver.items))
     if index is None or receiver.rest is not None:
-        return machine.mystery('item popped from a list', call.place, 'pop()')
+        return _popleft(machine, receiver, call)
     items = receiver.items
     machine.store.write(receiver, 'items', (*items[:index], *items[index + 1 :]))
     return items[index]
+
+
+def _popleft(machine: Machine, receiver: Value, call: Call) -> Value:
+    """One of those that are in it by then, where these are things of the program."""
+    assert isinstance(receiver, Sequence)
+    one_of_all = loops.any_of(receiver)
+    return one_of_all or machine.mystery('item popped from a list', call.place, 'pop()')
 
 
 def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -270,6 +277,7 @@ _SEQUENCE: dict[str, Handler] = {
     'update': _extend,
     'insert': _insert,
     'pop': _pop,
+    'popleft': _popleft,
     'clear': _clear,
     'copy': _copy,
     'remove': _unordered,

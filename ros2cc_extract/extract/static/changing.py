@@ -23,10 +23,13 @@ from ros2cc_extract.extract.static.relevance import (
 )
 from ros2cc_extract.extract.static.values import (
     NONE,
+    Bound,
     Call,
     Class,
+    Function,
     Instance,
     Module,
+    Partial,
     Scope,
     Value,
     options_of,
@@ -226,7 +229,10 @@ def holds_objects(collection: Collection) -> bool:
         *collection.slots.get('items', ()),
         *collection.slots.get('entries', {}).values(),
     )
-    return any(isinstance(option, Instance) for item in items for option in options_of(item))
+    return any(isinstance(option, _THINGS) for item in items for option in options_of(item))
+
+
+_THINGS = (Instance, Bound, Function, Partial)
 
 
 def _handed_in(tree: ast.Module) -> frozenset[str]:

@@ -6,9 +6,9 @@ import sys
 
 from ros2cc_extract.extract.static import again, rclpy_api
 from ros2cc_extract.extract.static.activities import run_in_thread
-from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.futures_library import is_pool, note_leaving
 from ros2cc_extract.extract.static.held_locks import is_counter
+from ros2cc_extract.extract.static.inside import reached
 from ros2cc_extract.extract.static.library_table import LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clients import NODE_EXECUTOR, UNKNOWN_CLIENT, result_of
@@ -28,7 +28,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wakings import Word
-from ros2cc_extract.extract.static.world import NodeState, PlainState, ThreadState
+from ros2cc_extract.extract.static.world import NodeState, PlainState
 from ros2cc_extract.places import Place, Unknown
 
 _ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
@@ -52,7 +52,6 @@ _HARMLESS = (
 
 _HANDED_ON = 'it is handed to code that is not followed'
 # Things looked at in what is given away; a graph of objects may be large.
-_MOST_GIVEN = 200
 
 
 class Libraries(Machine):
@@ -137,23 +136,11 @@ class Libraries(Machine):
 
         It may end waits then, and so it may with what is inside of a list, a tuple or an object.
         """
-        waiting, seen = list(options_of(value)), set[int]()
-        while waiting and len(seen) < _MOST_GIVEN:
-            thing = waiting.pop()
-            thing = thing.receiver if isinstance(thing, Native) and thing.receiver else thing
-            if id(thing) in seen:
-                continue
-            seen.add(id(thing))
-            if isinstance(thing, Instance) and isinstance(thing.state, (PlainState, ThreadState)):
-                self.world.given.setdefault(id(thing), Unknown(reason, place))
-            elif isinstance(thing, Sequence):
-                waiting.extend(each for item in thing.items for each in options_of(item))
-            elif isinstance(thing, Mapping):
-                values = thing.entries.values()
-                waiting.extend(each for item in values for each in options_of(item))
-            elif isinstance(thing, Instance) and thing.state is None:
-                held = (item for item in thing.slots.values() if isinstance(item, Value))
-                waiting.extend(each for item in held for each in options_of(item))
+        for thing in reached(value):
+            known = self.world.given.get(id(thing))
+            # What a queue does with it may be seen in the end; nobody sees what others do.
+            if known is None or (known.reason != reason and 'queue' in known.reason):
+                self.world.given[id(thing)] = Unknown(reason, place)
 
     def _is_standard(self, name: str) -> bool:
         return name.partition('.')[0] in sys.stdlib_module_names

@@ -253,8 +253,8 @@ def any_of(owner: Collection) -> Value | None:
         return join(found)
     if found and owner.others is None and all(_is_own_object(value) for value in found):
         return join(found)
-    is_registry = isinstance(owner, Mapping) and all(isinstance(v, _CALLABLE) for v in found)
-    return join(found) if found and is_registry and owner.others is None else None
+    are_called = all(isinstance(value, _CALLABLE) for value in found)
+    return join(found) if found and are_called and owner.others is None else None
 
 
 _CALLABLE = (Class, Function, Bound, Partial)

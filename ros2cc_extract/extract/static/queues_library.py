@@ -5,6 +5,7 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.answers import answer
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.queue_items import give_items, taken_out
 from ros2cc_extract.extract.static.values import (
     NONE,
     Call,
@@ -44,7 +45,8 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
         machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
     machine.note_wake(receiver, Word.GET, call.place)
     _move(machine, receiver, Word.GET)
-    return machine.mystery('what was put into a queue', call.place, 'get()')
+    item = taken_out(machine, receiver, call)
+    return item or machine.mystery('what was put into a queue', call.place, 'get()')
 
 
 def _move(machine: Machine, queue: Value, word: Word) -> None:
@@ -58,16 +60,10 @@ def _move(machine: Machine, queue: Value, word: Word) -> None:
 def _put(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
-    give_items(machine, call)
+    give_items(machine, receiver, call)
     machine.note_wake(receiver, Word.PUT, call.place, is_sign=_is_sign(call))
     _move(machine, receiver, Word.PUT)
     return NONE
-
-
-def give_items(machine: Machine, call: Call) -> None:
-    """What is taken out of a queue is not known: whoever takes it may have what was put in."""
-    for item in (*call.args[:1], *call.keywords.values()):
-        machine.give_away(item, 'it is put into a queue', call.place)
 
 
 def _is_sign(call: Call) -> bool:
@@ -79,12 +75,13 @@ def _is_sign(call: Call) -> bool:
 def _without_waiting(word: Word) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         if word is Word.PUT:
-            give_items(machine, call)
+            give_items(machine, receiver, call)
         is_sign = word is Word.PUT and _is_sign(call)
         machine.note_wake(receiver, word, call.place, is_sign=is_sign)
         if word is not Word.DONE:
             _move(machine, receiver, word)
-        return machine.mystery('what was put into a queue', call.place, 'get_nowait()')
+        item = taken_out(machine, receiver, call) if word is Word.GET else None
+        return item or machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
     return handler
 

@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.outside_waits import note_unanswered
 from ros2cc_extract.extract.static.plain_data import leads_nowhere, may_make_entities
 from ros2cc_extract.extract.static.programs_of_tests import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.project import Project
+from ros2cc_extract.extract.static.queue_items import take_back
 from ros2cc_extract.extract.static.relevance import creates_entities, is_test
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.spun_twice import note_spun_twice
@@ -90,6 +91,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
+    take_back(machine.world)
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
     note_spun_twice(machine.world)

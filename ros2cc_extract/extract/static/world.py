@@ -11,7 +11,7 @@ import ast
 from collections import Counter
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
@@ -354,6 +354,7 @@ class World:
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
     :param without_caller: the objects on which those were followed that nobody in sight calls.
     :param readers: who reads the pipes of a child process, by the place where that is made.
+    :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``homes.py``.
     :param locks: the locks that were taken, by the name they are stored under.
     :param main_spins: how many spins the set-up has called in its own thread, behind which no
@@ -448,6 +449,7 @@ class World:
     open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
     still_down: frozenset[str] = frozenset()
     readers: dict[Place, list[Deeds | None]] = field(default_factory=dict)
+    queues: dict[int, Any] = field(default_factory=dict)
     homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)
