@@ -31,9 +31,10 @@ def prove_apart(
 ) -> Found | None:
     """Prove of ``queries`` that callbacks end, where each of their waits ends."""
     found: Found | None = None
+    served = _members(slicer.closed)  # threads have no slice of one wait
     limits = replace(limits, states=SLICE_STATES)
     for query in queries:
-        if query.family is Family.PROGRESS:
+        if query.family is Family.PROGRESS and query.callbacks[0] in served:
             key = key_of(query)
             proven: Found | None = None
             for part in _parts(slicer, query.callbacks[0]):
