@@ -103,9 +103,11 @@ fuzz-parsers: $(VENV)/developed
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[fuzz]'
 	$(BIN)/python scripts/fuzz-parsers --seconds $(FUZZ_SECONDS)
 
-# What strangers may do to us, in the numbers of record: hostile files, caches, repositories, users.
+# What strangers may do to us, in the numbers of record: hostile files, caches, repositories, users,
+# signals and environments; a table at the end says how many of each class, and what gave way.
+ATTACKS ?= 5000
 attack: $(VENV)/developed $(JAZZY)/installed
-	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' tests/attack $(PYTEST_FLAGS)
+	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' tests/attack --at-least $(ATTACKS) $(PYTEST_FLAGS)
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .

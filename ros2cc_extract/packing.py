@@ -12,7 +12,7 @@ from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
 from types import NoneType, UnionType
-from typing import Any, Generic, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, Generic, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from ros2cc_extract.errors import Ros2ccError
 
@@ -181,9 +181,9 @@ def _of_row(kind: Any) -> tuple[Function, Function]:
 
 
 def _as_list(data: Any) -> list[Any]:
-    if type(data) is not list:
+    if type(data) not in (list, tuple):
         raise PackingError(f'{type(data).__name__} stands where a list should')
-    return data
+    return cast(list[Any], data)
 
 
 def _of_mapping(key: Any, value: Any) -> tuple[Function, Function]:

@@ -26,7 +26,7 @@ from ros2cc_extract.packing import Packer
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.evidence import LOST, Evidence
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.results import NotKept
 from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
@@ -303,17 +303,7 @@ class _Again:
 
     def _run(self, number: int) -> Evidence:
         evidence = self._verification.results[number].evidence
-        return evidence or _LOST
-
-
-#: A slower search, with as little time as the first.
-_LOST = Evidence(
-    start={},
-    moments=(),
-    cycle_from=None,
-    ends=None,
-    closing='this run was not found again within the limits',
-)
+        return evidence or LOST
 
 
 def _load(task: Task, folder: Path | None) -> Examined | None:

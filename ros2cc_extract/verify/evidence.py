@@ -96,6 +96,16 @@ class Evidence:
         return {**self.__dict__, 'origin': None}
 
 
+LOST = Evidence(
+    start={},
+    moments=(),
+    cycle_from=None,
+    ends=None,
+    closing='this run was not found again within the limits',
+)
+"""Of a search that was slower the second time, with as little time as the first."""
+
+
 @dataclass(frozen=True)
 class Names:
     """

@@ -32,7 +32,7 @@ def run_tool(*arguments: object, cwd: Path, prefix: Sequence[str] = (), **variab
     done = subprocess.run(
         [*prefix, *TOOL, *map(str, arguments)],
         cwd=cwd,
-        env=environment(XDG_CACHE_HOME=f'{cwd}.cache', **variables),
+        env=environment(**{'XDG_CACHE_HOME': f'{cwd}.cache', **variables}),
         stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=PATIENCE_S,

@@ -20,7 +20,10 @@ from ros2cc_extract.errors import InputError, Ros2ccError
 from ros2cc_extract.extract.live import attach
 from ros2cc_extract.extract.live.attach import Injector, attach_process, private_folder
 from ros2cc_extract.trust import open_to_others, user_of_process
+from tests.attack.conftest import Tally
 from tests.attack.rename import replace_scripts
+
+CLASS = 'attach'
 
 NOBODY = 65534
 ROUNDS, ROUNDS_OF_RECORD = 10, 1_000
@@ -95,11 +98,12 @@ def attacker(temporary: Path, canary: Path) -> Iterator[None]:
     'rounds', [ROUNDS, pytest.param(ROUNDS_OF_RECORD, marks=pytest.mark.slow)]
 )
 def test_a_local_user_cannot_replace_the_script(
-    rounds: int, temporary: Path, tmp_path: Path
+    rounds: int, temporary: Path, tmp_path: Path, tally: Tally
 ) -> None:
     canary = temporary / 'canary'
     with attacker(temporary, canary):
         for _ in range(rounds):
+            tally.add()
             with contextlib.suppress(Ros2ccError):
                 attach_process(os.getpid(), tmp_path / 'attached.yaml', io.StringIO())
     assert not canary.exists()

@@ -16,8 +16,11 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract import cachefile
+from tests.attack.conftest import Tally
 from tests.attack.running import Ended
 from tests.attack.test_attach import NOBODY, as_root
+
+CLASS = 'caches'
 
 NODE = Path(__file__).parents[2] / 'launch_free_examples/service_deadlock/node.py'
 CORRUPTIONS, CORRUPTIONS_OF_RECORD = 15, 1_000
@@ -148,7 +151,9 @@ def test_a_file_that_is_not_ours_alone_is_not_read(
 @pytest.mark.parametrize(
     'rounds', [CORRUPTIONS, pytest.param(CORRUPTIONS_OF_RECORD, marks=pytest.mark.slow)]
 )
-def test_the_result_of_a_damaged_cache_is_that_without_one(rounds: int, home: Path) -> None:
+def test_the_result_of_a_damaged_cache_is_that_without_one(
+    rounds: int, home: Path, tally: Tally
+) -> None:
     chance, pristine = random.Random(rounds), home / 'pristine'
     (home / 'ros2cc-extract').rename(pristine)
     with many_runs(home) as ask:
@@ -157,6 +162,7 @@ def test_the_result_of_a_damaged_cache_is_that_without_one(rounds: int, home: Pa
             shutil.rmtree(home / 'ros2cc-extract', ignore_errors=True)
             shutil.copytree(pristine, home / 'ros2cc-extract')
             done = chance.choice(DAMAGES)(home / 'ros2cc-extract', chance)
+            tally.add()
             assert ask() == before, f'{number}: {done}'
 
 

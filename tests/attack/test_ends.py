@@ -24,6 +24,8 @@ from tests.attack.running import PATIENCE_S, TOOL, Ended, assert_orderly, run_to
 from tests.support.packages import DEADLOCK, MENDED
 from tests.support.repositories import environment
 
+CLASS = 'environments and ends'
+
 FOREIGN = DEADLOCK.replace("'map_ready'", "'karte_überall_→'")
 EXAMPLES = Path(__file__).parents[2] / 'launch_free_examples'
 UNPRIVILEGED = '+dac_read_search'

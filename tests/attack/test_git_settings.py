@@ -16,6 +16,7 @@ from tests.attack.repositories import ATTACKS, Scene
 from tests.support.packages import DEADLOCK
 from tests.support.repositories import commit, environment, git, make_repository
 
+CLASS = 'git configurations'
 CANARY = 'canary'
 
 

@@ -16,6 +16,8 @@ from ros2cc_extract.ros import origin
 from ros2cc_extract.ros.origin import pinned_source
 from tests.support.repositories import environment
 
+CLASS = 'CI jobs'
+
 ROOT = Path(__file__).parents[2]
 SNIPPETS = ROOT / 'ros2cc_extract' / 'ros' / 'snippets'
 JOBS = (ROOT / 'action.yml', SNIPPETS / 'github-workflow.yml', SNIPPETS / 'gitlab-ci.yml')

@@ -16,6 +16,8 @@ from ros2cc_extract.files import DISK, read_regular
 from tests.attack.running import assert_orderly, run_tool
 from tests.support.packages import DEADLOCK, MENDED
 
+CLASS = 'special files'
+
 WITHOUT_RIGHTS = ('setpriv', '--inh-caps=-all', '--bounding-set=-all')
 """Root that may not read everything, as any other user."""
 

@@ -28,6 +28,8 @@ from ros2cc_extract.ros.standard import standard_job
 from ros2cc_extract.shown import Shown, json_text, one_line, printable
 from ros2cc_extract.spec.yaml_io import read_specs, write_specs
 
+CLASS = 'texts of strangers'
+
 NODE = Path(__file__).parents[2] / 'launch_free_examples/service_deadlock/node.py'
 OBEYED = '\x1b[31m\x1b]0;title\x07\x9b2J\x85\u2028\u202e\u2066\u200f\x00\x7f\r\n::error::forged'
 ON_A_LINE = ''.join(c for c in OBEYED if c not in '\r\n\0')

@@ -46,21 +46,24 @@ def read_query_file(text: str, name: str) -> tuple[Query, ...]:
         raise ModelFormatError('the file is binary, not text', Place(name), 'give a .q file')
     queries: list[Query] = []
     comments: list[str] = []
-    pending, start, in_comment = '', 0, False
+    pending: list[str] = []
+    start, opened, in_comment = 0, 0, False
     for number, raw in enumerate(text.split('\n'), 1):
         line, spoken, in_comment = _without_comments(raw, in_comment)
         comments += spoken
         if not pending:
             start = number
         is_continued = line.rstrip().endswith('\\')
-        pending += line.rstrip().removesuffix('\\') + ' '
-        if is_continued or pending.count('(') > pending.count(')'):
+        pending.append(line.rstrip().removesuffix('\\') + ' ')
+        opened += line.count('(') - line.count(')')
+        if is_continued or opened > 0:
             continue
-        if pending.strip():
-            queries.append(Query(clean(pending), ' '.join(comments), Place(name, start)))
+        formula = clean(''.join(pending))
+        if formula:
+            queries.append(Query(formula, ' '.join(comments), Place(name, start)))
             comments = []
-        pending = ''
-    if in_comment or pending.strip():
+        pending, opened = [], 0
+    if in_comment or ''.join(pending).strip():
         what = 'a comment is not closed' if in_comment else 'the last query is not complete'
         raise ModelFormatError(what, Place(name, start), 'close it')
     if not queries:

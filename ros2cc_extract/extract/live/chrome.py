@@ -14,6 +14,7 @@ import itertools
 import json
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from heapq import heappop, heappush
 from typing import Any, TextIO
 
 from ros2cc_extract.extract.live.recording import Recording
@@ -126,26 +127,33 @@ class _Stretches:
         self._begun_by = begun_by
         self._openers = {name for names in begun_by.values() for name in names}
         self._opened: dict[int, list[tuple[Event, int, int]]] = defaultdict(list)
-        self._busy: dict[int, set[int]] = defaultdict(set)
+        self._free: dict[int, list[int]] = defaultdict(list)
+        self._lanes: dict[int, int] = defaultdict(int)
 
     def take(self, event: Event, track: int) -> Iterator[tuple[Event, int, Event]]:
         """Give the stretch that ``event`` ends, if it does."""
         if event.event in self._openers:
-            busy = self._busy[track]
-            lane = next(lane for lane in itertools.count() if lane not in busy)
-            busy.add(lane)
-            self._opened[event.subject].append((event, lane, track))
+            self._opened[event.subject].append((event, self._take_lane(track), track))
         elif event.event in self._begun_by:
             begun = self._opened.get(event.subject, [])
             names = self._begun_by[event.event]
-            fitting = [each for each in begun if each[0].event in names]
-            # A coroutine may end in another thread than it began in.
-            own = [each for each in fitting if each[0].thread == event.thread] or fitting
-            if own:
-                begun.remove(own[-1])
-                begin, lane, track = own[-1]
-                self._busy[track].discard(lane)
+            back = range(len(begun) - 1, -1, -1)
+            fitting = (at for at in back if begun[at][0].event in names)
+            at = next(fitting, None)
+            if at is not None:
+                # A coroutine may end in another thread than it began in.
+                both = itertools.chain((at,), fitting)
+                own = (number for number in both if begun[number][0].thread == event.thread)
+                begin, lane, track = begun.pop(next(own, at))
+                heappush(self._free[track], lane)
                 yield begin, lane, event
+
+    def _take_lane(self, track: int) -> int:
+        """The first that nobody is in."""
+        if self._free[track]:
+            return heappop(self._free[track])
+        self._lanes[track] += 1
+        return self._lanes[track] - 1
 
     def unfinished(self) -> Iterator[tuple[Event, int]]:
         """Give what was never ended."""

@@ -15,6 +15,7 @@ from typing import Any
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named, real_path
 from ros2cc_extract.jsontext import read_json
+from ros2cc_extract.packing import Packer
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Distribution, Measured
 
@@ -141,6 +142,10 @@ class Recording:
     tasks: tuple[RecordedTask, ...]
 
 
+PACKER: Packer[Recording] = Packer(Recording)
+_OF_DAMAGE = (KeyError, TypeError, ValueError, AttributeError, AssertionError)
+
+
 def read_recording(path: Path, shown_from: Path) -> Recording:
     """
     Read one file.
@@ -161,13 +166,14 @@ def read_recording(path: Path, shown_from: Path) -> Recording:
             MEND,
         )
     try:
-        return _Reader(shown_from).recording(str(path), data)
-    except (KeyError, TypeError) as error:
+        # Packed and unpacked, each value is one of the type that its field says, or refused.
+        return PACKER.unpack(PACKER.pack(_Reader(shown_from).recording(str(path), data)))
+    except _OF_DAMAGE as error:
         raise InputError(f'is a damaged recording: {error!r}', Place(str(path)), MEND) from error
 
 
 class _Reader:
-    """Turns JSON objects into values; ``KeyError`` or ``TypeError`` on a damaged one."""
+    """Turns JSON objects into values; one of ``_OF_DAMAGE`` on a damaged one."""
 
     def __init__(self, shown_from: Path) -> None:
         self._shown_from = shown_from

@@ -14,6 +14,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from heapq import heappush, heappushpop
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, TextIO, cast
 
@@ -129,12 +130,8 @@ def _ordered(steps: Iterable[Fields], reach: int) -> Iterator[Fields]:
 
 
 def _is_in_order(steps: Iterable[Fields]) -> bool:
-    before = 0
-    for clock, *_ in steps:
-        if clock < before:
-            return False
-        before = clock
-    return True
+    clocks = (clock for clock, *_ in steps)
+    return all(before <= after for before, after in pairwise(clocks))
 
 
 def write_lines(traces: Iterable[Trace], stream: TextIO) -> None:

@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static import builtin_methods, changing, subclasses
 from ros2cc_extract.extract.static.class_attributes import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.enums import Member
-from ros2cc_extract.extract.static.machine import Machine
+from ros2cc_extract.extract.static.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.relevance import MAKING, reassigned_attributes
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -153,7 +153,9 @@ class Attributes(Machine):
     def _in_order(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
-        for cls in order:
+        for number, cls in enumerate(order, start=1):
+            if not number % ENTRIES:
+                self.charge(1)
             if isinstance(cls, Class):
                 if name in cls.slots:
                     return self._bind(cls.slots[name], receiver, place)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter, defaultdict
 from collections.abc import Sequence
+from heapq import heappop, heappush
 from typing import TypeVar
 
 from ros2cc_extract.extract.static.relevance import creates_entities, noted_on, walk
@@ -19,19 +21,32 @@ def callers_first(
 
     The given order decides where the text does not, and where items mention each other.
     """
-    waiting = list(range(len(items)))
+    known = frozenset(names)
+    said = [mentions(node) & known for node in nodes]
+    wanting = Counter(name for each in said for name in each)
+    named = defaultdict[str, list[int]](list)
+    for number, name in enumerate(names):
+        named[name].append(number)
+
+    def is_free(number: int) -> bool:
+        return wanting[names[number]] == (names[number] in said[number])
+
+    free = list(filter(is_free, range(len(items))))
+    waiting = dict.fromkeys(range(len(items)))
     ordered: list[Item] = []
     while waiting:
-        first = next((i for i in waiting if not _wanted(i, waiting, names, nodes)), waiting[0])
-        waiting.remove(first)
+        first = heappop(free) if free else next(iter(waiting))
+        if first not in waiting:
+            continue
+        del waiting[first]
         ordered.append(items[first])
+        for name in said[first]:
+            wanting[name] -= 1
+            if wanting[name] < 2:
+                for number in filter(waiting.__contains__, named[name]):
+                    if is_free(number):
+                        heappush(free, number)
     return ordered
-
-
-def _wanted(
-    item: int, others: Sequence[int], names: Sequence[str], nodes: Sequence[ast.AST]
-) -> bool:
-    return any(names[item] in mentions(nodes[other]) for other in others if other != item)
 
 
 def leading_to_entities(
@@ -48,15 +63,16 @@ def leading_to_entities(
         for name, node in methods
         if creates_entities(node) or not makers.isdisjoint(mentions(node))
     }
-    while True:
-        more = {
-            name
-            for name, node in methods
-            if name not in found and not found.isdisjoint(mentions(node))
-        }
-        if not more:
-            return frozenset(found)
-        found |= more
+    users = defaultdict[str, list[str]](list)
+    for name, node in methods:
+        for mentioned in mentions(node):
+            users[mentioned].append(name)
+    left = list(found)
+    while left:
+        more = [user for user in users[left.pop()] if user not in found]
+        found.update(more)
+        left += more
+    return frozenset(found)
 
 
 def mentions(node: ast.AST) -> frozenset[str]:

@@ -10,9 +10,17 @@ from ros2cc_extract.extract.static import enums, flags, memo, plain_data, subcla
 from ros2cc_extract.extract.static.answers import of_all
 from ros2cc_extract.extract.static.arguments import fits, sources_of
 from ros2cc_extract.extract.static.class_attributes import bind_by_name, of_metaclass
+from ros2cc_extract.extract.static.class_order import cost_of_order, resolution_order
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.cuts import note_cut
 from ros2cc_extract.extract.static.flow import DEAD, NEXT, RETURN
-from ros2cc_extract.extract.static.machine import BudgetError, CannotCallError, Frame, Machine
+from ros2cc_extract.extract.static.machine import (
+    ENTRIES,
+    BudgetError,
+    CannotCallError,
+    Frame,
+    Machine,
+)
 from ros2cc_extract.extract.static.relevance import is_test, mangled
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -40,6 +48,7 @@ from ros2cc_extract.extract.static.world import Cut, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
 
 _CALL_DEPTH = 40
+_TOO_DEEP = f'what is called here, {_CALL_DEPTH} calls deep, is not followed'
 _SAME_FUNCTION = 2
 
 
@@ -86,6 +95,8 @@ class Calls(Machine):
         """Run the body of a scanned function with the arguments of ``call``."""
         self.world.called[id(function.node)] = function
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
+            if len({*self.stack, function}) > len(self.stack):  # nobody calls itself
+                note_cut(self.world, call.place, _TOO_DEEP)
             return self.mystery(f'recursion in {function.name}', call.place)
         trying = self.world.trying
         if trying == (len(self.stack), self.store.depth) and self._surely_fails(function, call):
@@ -287,6 +298,7 @@ class Calls(Machine):
         cls.bases = tuple(
             choice(list(options_of(base))) if isinstance(base, Choice) else base for base in bases
         )
+        self.charge(cost_of_order(cls) // ENTRIES)
         cls.mro = resolution_order(cls)
         self._give_metaclass(cls, node, frame)
         subclasses.register(self.world, cls)
@@ -344,27 +356,6 @@ def _last_name(node: ast.expr) -> str:
     if isinstance(node, ast.Name):
         return node.id
     return node.attr if isinstance(node, ast.Attribute) else ''
-
-
-def resolution_order(cls: Class) -> tuple[Value, ...]:
-    """C3 order of ``cls``; depth first where the classes do not allow it."""
-    sequences = [list(base.mro) if isinstance(base, Class) else [base] for base in cls.bases]
-    sequences.append(list(cls.bases))
-    order: list[Value] = [cls]
-    while any(sequences):
-        sequences = [sequence for sequence in sequences if sequence]
-        head = _next_head(sequences)
-        if head not in order:
-            order.append(head)
-        sequences = [[entry for entry in sequence if entry != head] for sequence in sequences]
-    return tuple(order)
-
-
-def _next_head(sequences: list[list[Value]]) -> Value:
-    for sequence in sequences:
-        if not any(sequence[0] in other[1:] for other in sequences):
-            return sequence[0]
-    return sequences[0][0]
 
 
 def _call_bound(machine: Calls, function: Bound, call: Call) -> Value:

@@ -372,8 +372,9 @@ def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
 
 def _repeated(machine: Expressions, left: Sequence, right: Value, place: Place) -> Value:
     if isinstance(right, Const) and isinstance(right.value, int) and right.value <= 1000:
-        machine.charge(len(left.items) * max(right.value, 0))
-        return Sequence(left.items * right.value, left.kind, left.others, left.many)
+        times = max(right.value, 0)
+        machine.charge(len(left.items) * times)
+        return Sequence(left.items * times, left.kind, left.others, left.many)
     return Sequence(left.items, left.kind, Unknown('unknown length', place))
 
 

@@ -67,6 +67,8 @@ def run_library(
         _use_without_caller(machine, value)
         run_callbacks(machine)
         run_rest_of_instances(machine)
+        if not machine.steps_left:  # and that was told
+            break
     note_kept_locks(machine.world)
     return machine
 

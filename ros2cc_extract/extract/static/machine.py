@@ -38,7 +38,12 @@ from ros2cc_extract.extract.static.world import AccessKind, EntityState, World
 from ros2cc_extract.places import Place, Unknown
 
 THING_STEPS = 1_000
-"""What an entity or a thread costs all who come later, in steps: a program may make some 800."""
+"""What an entity or a thread costs all who come later, in steps."""
+PAIR_STEPS = 6
+"""What an entity costs with each earlier one, as there are claims about both: some 300 of them."""
+
+ENTRIES = 10
+"""So many of an order of classes are gone through, or kept, in a step."""
 
 
 class CannotCallError(Exception):

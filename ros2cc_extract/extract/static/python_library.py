@@ -54,7 +54,7 @@ def _range(machine: Machine, receiver: Value, call: Call) -> Value:
         numbers = range(*bounds)
     except (TypeError, ValueError):
         return Sequence((), 'range', Unknown('bad range', call.place))
-    if len(numbers) > _RANGE_LIMIT:
+    if numbers[_RANGE_LIMIT:]:  # its length may be more than Python counts
         return Sequence((), 'range', Unknown('a very long range', call.place))
     return Sequence(tuple(Const(number) for number in numbers), 'range')
 

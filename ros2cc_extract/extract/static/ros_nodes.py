@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.ending import (
 )
 from ros2cc_extract.extract.static.heard import note_begun, note_made
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.machine import THING_STEPS, Machine
+from ros2cc_extract.extract.static.machine import PAIR_STEPS, THING_STEPS, Machine
 from ros2cc_extract.extract.static.ros_builtins import (
     add_builtins_of_node,
     add_events_of,
@@ -128,8 +128,8 @@ def add_entity(
     machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
 ) -> EntityState:
     """Record an entity of ``node`` made here and now."""
-    machine.charge(THING_STEPS)
     world = machine.world
+    machine.charge(THING_STEPS + PAIR_STEPS * len(world.entities))
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.assumed = world.assumed
     entity.when = world.when

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static import activities, flags
 from ros2cc_extract.extract.static.again import both
 from ros2cc_extract.extract.static.alternatives import IN_A_CALLBACK
@@ -15,6 +14,7 @@ from ros2cc_extract.extract.static.call_order import (
 )
 from ros2cc_extract.extract.static.changing import holds_objects
 from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.cuts import note_cut
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
@@ -162,7 +162,7 @@ def guarded(
         world.activity, world.again, world.retelling = None, False, False
         machine.store.reset()
     if why:
-        _complain(world, place, why)
+        note_cut(world, place, why)
     return why
 
 
@@ -180,19 +180,6 @@ def _is_late(machine: Interpreter) -> bool:
 def _why_cut(machine: Interpreter) -> str:
     is_late = _is_late(machine) and machine.steps_left and machine.steps <= machine.step_limit
     return machine.deadline.reason if machine.deadline and is_late else TOO_LONG
-
-
-def _complain(world: World, place: Place, message: str) -> None:
-    world.diagnostics.append(
-        Diagnostic(
-            severity=Severity.WARNING,
-            slug='not-followed',
-            place=place,
-            message=message,
-            help='what it would make is missing from the units',
-        )
-    )
-    world.cut.append(Cut(message, place))
 
 
 @dataclass(frozen=True)

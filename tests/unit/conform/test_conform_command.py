@@ -45,6 +45,16 @@ def conform(
     events: str, folder: Path, *options: str, spec: str = SPEC, spacing_ns: int = SPACING_NS
 ) -> tuple[int, str, str]:
     """Write the trace and the specification, and give status, output and messages."""
+    trace, unit = folder / 'run.jsonl', folder / 'arm.yaml'
+    trace.write_text(''.join(f'{line}\n' for line in trace_lines(events, spacing_ns)))
+    unit.write_text(spec)
+    stdout, stderr = io.StringIO(), io.StringIO()
+    status = main(['conform', str(trace), str(unit), *options], stdout, stderr)
+    return status, stdout.getvalue(), stderr.getvalue()
+
+
+def trace_lines(events: str = GOOD, spacing_ns: int = SPACING_NS) -> list[str]:
+    """What a recorder would write of these events."""
     lines: list[dict[str, object]] = [
         {
             'format': 'ros2cc trace',
@@ -63,12 +73,7 @@ def conform(
         thread, name, entity = event.split()
         at = {'clock_ns': number * spacing_ns, 'thread': THREADS[thread]}
         lines.append({'process': 7, **at, 'event': name, 'entity': int(entity)})
-    trace, unit = folder / 'run.jsonl', folder / 'arm.yaml'
-    trace.write_text(''.join(json.dumps(line) + '\n' for line in lines))
-    unit.write_text(spec)
-    stdout, stderr = io.StringIO(), io.StringIO()
-    status = main(['conform', str(trace), str(unit), *options], stdout, stderr)
-    return status, stdout.getvalue(), stderr.getvalue()
+    return list(map(json.dumps, lines))
 
 
 def test_an_execution_of_the_model_conforms(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -186,3 +187,36 @@ def test_order_is_found_however_far_apart_events_stand(tmp_path: Path) -> None:
     read = trace(recording(tmp_path), *late, event(5, 12, 'end', 4))
     clocks = [each.clock_ns for each in read.events()]
     assert (read.count, clocks) == (3001, sorted(clocks))
+
+
+def test_steps_before_the_clock_began_are_put_in_order(tmp_path: Path) -> None:
+    """Nobody's clock is negative; such a trace must end all the same."""
+    read = trace(recording(tmp_path), event(-5, 7, 'begin', 4), event(-9, 7, 'end', 4))
+    assert [each.clock_ns for each in read.events()] == [-9, -5]
+
+
+def test_runs_that_never_end_have_a_lane_each(tmp_path: Path) -> None:
+    recorded = recording(tmp_path, nodes=[node(2, 'arm')])
+    many = 20_000
+    begun = time.process_time()
+    events = drawn(trace(recorded, *(event(n, 7, 'begin', 4) for n in range(many))))
+    assert sum(e['ph'] == 'B' for e in events) >= many
+    assert time.process_time() - begun < 10
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {'number': 'four'},
+        {'created': ['arm.py', 12]},
+        {'created': ['arm.py', '12', 9]},
+        {'function': {'name': 7, 'defined': None, 'coroutine': False}},
+        {'function': []},
+        {'measured': None},
+        {'group': None},
+        {'period_s': '0.5'},
+    ],
+)
+def test_a_value_of_another_type_is_damage(changes: dict[str, object], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match='is a damaged recording'):
+        recording(tmp_path, entities=[{**timer(4, 2, 3, 'arm.Arm.tick'), **changes}])
