@@ -28,7 +28,7 @@ from release.targets import UNPACKED, interpreters
 
 WORK = ROOT / 'build' / 'trial'
 TESTS = ('tests/unit/checker', 'tests/unit/live', 'tests/unit/cli')
-# An emulated processor takes some thirty times as long: the core, the journal and their twins.
+# An emulated processor takes some eight times as long: the core, the journal and their twins.
 EMULATED_TESTS = (
     'tests/unit/checker/test_chains.py',
     'tests/unit/checker/test_counts.py',

@@ -6,11 +6,13 @@ import pytest
 from generator_units import closed_unit, every_text
 
 from ros2cc_extract.checker.api import read_model
+from ros2cc_extract.generator import build
 from ros2cc_extract.generator.build import Text, render
 from ros2cc_extract.generator.events import FieldText, read_annotation
 from ros2cc_extract.verify.events import WORDS, Event
 
-PROFILES = Path(__file__).parents[3] / 'generator' / 'profiles'
+# Of what is installed: the sources may not be here.
+PROFILES = Path(build.__file__).parent / 'profiles'
 ARM = closed_unit('tick:TMR:a scan:SUB:b', 'a:EXCLUSIVE b:REENTRANT', 2)
 #: What a template writes in one case, and else.
 CHOICE = re.compile(r"\{\{ '([^']*)' if [^}]*?(?: else '([^']*)')? \}\}")
