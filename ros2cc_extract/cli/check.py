@@ -88,9 +88,15 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     job = _job(args, config)
     with termination_as_interrupt() as termination:
         begun = time.monotonic()
-        known = _known(args, config, job, stderr)
-        job = replace(job, known=known, spent_s=time.monotonic() - begun)
-        outcome = check_paths(job, stderr)
+        try:
+            known = _known(args, config, job, stderr)
+            job = replace(job, known=known, spent_s=time.monotonic() - begun)
+            outcome = check_paths(job, stderr)
+        except KeyboardInterrupt:  # before there was anything to tell
+            if not termination.is_asked:
+                raise
+            print('interrupted', file=stderr)
+            return termination.status
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
     if args.output is not None:
