@@ -69,9 +69,13 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
     yield Loosened(_with(closed, _questions), is_exact)
 
 
-def is_loose(query: Query) -> bool:
-    """Tell whether a loosened unit may decide it."""
-    return query.family in _NEVER
+def is_loose(query: Query, max_cycle: int) -> bool:
+    """
+    Tell whether a loosened unit may decide it.
+
+    Whom several ask may overlap itself though data arrives once: unasked, that takes two arrivals.
+    """
+    return query.family in _NEVER and (query.family is not Family.SELF_OVERLAP or max_cycle > 1)
 
 
 def _with(closed: ClosedSpec, kept: Callable[[Callback, Spec], Iterable[Blocking]]) -> ClosedSpec:

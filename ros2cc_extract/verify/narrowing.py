@@ -110,7 +110,7 @@ class _Ways:
     def _loosened(self, loose: Loosened, left: Sequence[Query]) -> Found | None:
         slicer = Slicer(loose.closed, self.slicer.max_cycle)
         slicing = Slicing(slicer, self.search, self.limits, self.shelf)
-        part = slicing.decide(query for query in left if is_loose(query))
+        part = slicing.decide(query for query in left if is_loose(query, slicer.max_cycle))
         if part is None:
             return None
         results = loose.decided(part.results)

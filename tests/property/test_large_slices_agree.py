@@ -38,7 +38,7 @@ def by_loosening(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
         return
     for loose in loosened(unit):
         slicing = Slicing(Slicer(loose.closed, 1), search, Limits(), Shelf())
-        found = slicing.decide(query for query in queries if is_loose(query))
+        found = slicing.decide(query for query in queries if is_loose(query, 1))
         if found is not None:
             yield loose.decided(found.results)
 
@@ -56,7 +56,7 @@ def apart(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
 
 
 def compared(units: Iterator[tuple[int, ClosedSpec]], way: Way) -> int:
-    """Compare what one way decides with the whole unit; who needs two arrivals is left out."""
+    """Compare what one way decides with the whole unit."""
     decided: Counter[str] = Counter()
     for number, unit in units:
         queries = list(queries_of(unit, profile=Profile.RCLPY))
@@ -126,6 +126,11 @@ def _signalled(names: list[str], drawn: random.Random) -> Blocking:
 WAYS = pytest.mark.parametrize(
     'way', (by_loosening, by_hunts, apart), ids=lambda way: way.__name__
 )
+
+
+def test_whom_two_ask_may_overlap_itself() -> None:
+    """Unasked it would run once."""
+    compared(alone(range(154, 155)), by_loosening)
 
 
 @WAYS
