@@ -133,7 +133,7 @@ def may_be_used_up(block: Blocking, spec: Spec) -> bool:
     The model lets data arrive too seldom for that. Whoever gives back what it takes itself uses
     up nothing.
     """
-    if block.initial <= 0:
+    if block.initial <= 0 or block.counted:
         return False
     waiting = {actor.name for actor in all_actors(spec) if block in actor.blocking}
     return waiting.isdisjoint(waker.by for waker in block.wakers)
@@ -235,7 +235,8 @@ def _resources_of(
         if block.wakers:
             return
     is_each = block.needs is Needs.EACH
-    has_some = is_each and not may_be_used_up(block, spec)
+    # Of what is left after other runs nothing is known, but that it is no more.
+    has_some = is_each and block.escapes is None and not may_be_used_up(block, spec)
     initial = block.initial if has_some else 0
     yield Resource(name, is_each, initial, forgets=is_each and block.forgets), block.wakers
 

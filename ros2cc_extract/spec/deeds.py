@@ -78,7 +78,8 @@ class Blocking:
     :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
         waited on without asking first).
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
-        room in a queue.
+        room in a queue. With ``escapes`` runs before may have used them up.
+    :param counted: a model has runs enough to use up ``initial``; no specification says so.
     :param escapes: why somebody else might end it too, or who ends it is not known.
     :param conditional: true where a branch may skip the wait.
     :param only_if: what leads there, where a parameter decides and its default does not.
@@ -105,6 +106,7 @@ class Blocking:
     needs: Needs = Needs.ONCE
     forgets: bool = False
     initial: int = 0
+    counted: bool = False
     escapes: Unknown | None = None
     conditional: bool = False
     only_if: str | None = None

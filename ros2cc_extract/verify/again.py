@@ -17,7 +17,7 @@ from ros2cc_extract.verify.asking import SLICE_STATES, Found, key_of, total, wei
 from ros2cc_extract.verify.results import QueryResult
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
-_OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
+OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
 
 
 def ask_again(
@@ -29,9 +29,7 @@ def ask_again(
     The search has its own bound on states: who waits may overlap itself in many a unit.
     """
     arrivals = crowding(closed.spec)
-    asked = [
-        query for query in queries if query.family in _OF_ENDS and _may_be_of(query, arrivals)
-    ]
+    asked = [query for query in queries if query.family in OF_ENDS and _may_be_of(query, arrivals)]
     left = [query for query in asked if _may_be_refuted(found.results[key_of(query)])]
     if not arrivals or not left:
         return found

@@ -23,6 +23,23 @@ from ros2cc_extract.verify.loosened import Loosened, is_loose, loosened
 from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.slices import Names, Slicer
 
+
+
+@dataclass(frozen=True)
+class Refuters:
+    """
+    Searches that refute and prove nothing.
+
+    :param over_waypoints: asks parts, where no slice shows that a free thread comes.
+    :param by_chance: asks the whole unit, whose runs may end too far from the start for others.
+    """
+
+    over_waypoints: Refute
+    by_chance: Search
+
+
+#: What a run refutes by its end.
+SHOWN_BY_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
 #: A unit of up to so many callbacks is explored as a whole if it has no more states than that.
 SMALL = 8
 FIRST_LOOK_STATES = 20_000
@@ -37,13 +54,13 @@ def narrow(
     search: Search,
     limits: Limits,
     shelf: Shelf | None = None,
-    refute: Refute | None = None,
+    refuters: Refuters | None = None,
 ) -> Found:
     """
     Decide ``queries`` of the unit, whose callbacks get at most ``max_cycle`` arrivals each.
 
     :param shelf: answers that hold for slices of other units too.
-    :param refute: asks parts over waypoints, where no slice shows that a free thread comes.
+    :param refuters: look for runs that slices do not show.
     """
     limits = limits.begun()
     found: Found | None = None
@@ -54,7 +71,7 @@ def narrow(
             return found
     slicer = Slicer(closed, max_cycle)
     found = found and _derive(found, queries, slicer)
-    ways = _Ways(slicer, search, refute, limits, Shelf() if shelf is None else shelf)
+    ways = _Ways(slicer, search, refuters, limits, Shelf() if shelf is None else shelf)
     for way in ways.in_order():
         left = _left(queries, found)
         part = way(left) if left else None
@@ -85,7 +102,7 @@ class _Ways:
 
     slicer: Slicer
     search: Search
-    refute: Refute | None
+    refuters: Refuters | None
     limits: Limits
     shelf: Shelf
 
@@ -97,11 +114,14 @@ class _Ways:
         if not self.slicer.spins:
             for loose in loosened(self.slicer.closed):
                 yield partial(self._loosened, loose)
-        if self.refute is not None and not self.slicer.has_threads_to_spare:
-            yield partial(self._refuted, self.refute, refute_by_crowds)
-        if self.refute is not None:
-            yield partial(self._refuted, self.refute, refute_by_hunts)
+        if self.refuters is not None:
+            over_waypoints = self.refuters.over_waypoints
+            if not self.slicer.has_threads_to_spare:
+                yield partial(self._refuted, over_waypoints, refute_by_crowds)
+            yield partial(self._refuted, over_waypoints, refute_by_hunts)
         yield self._apart
+        if self.refuters is not None:
+            yield partial(self._by_chance, self.refuters.by_chance)
 
     def _by_slices(self, left: Sequence[Query], *, last: bool) -> Found | None:
         slicing = Slicing(self.slicer, self.search, self.limits, self.shelf)
@@ -118,6 +138,10 @@ class _Ways:
 
     def _refuted(self, refute: Refute, way: _Refuting, left: Sequence[Query]) -> Found | None:
         return way(self.slicer, left, refute, self.limits)
+
+    def _by_chance(self, dive: Search, left: Sequence[Query]) -> Found | None:
+        keys = [key_of(query) for query in left if query.family in SHOWN_BY_ENDS]
+        return dive(self.slicer.closed, keys, self.limits) if keys else None
 
     def _apart(self, left: Sequence[Query]) -> Found | None:
         return prove_apart(self.slicer, left, self.search, self.limits)

@@ -29,10 +29,12 @@ from ros2cc_extract.checker.api import (
     read_queries,
 )
 from ros2cc_extract.checker.api import Verdict as Verdict
+from ros2cc_extract.checker.dives import dive
 from ros2cc_extract.checker.waypoints import refute
 from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
+from ros2cc_extract.once import known_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
@@ -44,7 +46,7 @@ from ros2cc_extract.verify.doubts import doubts_in
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.load import demands_of, load_of
-from ros2cc_extract.verify.narrowing import joined, narrow
+from ros2cc_extract.verify.narrowing import Refuters, joined, narrow
 from ros2cc_extract.verify.reading import limited_reading
 from ros2cc_extract.verify.results import QueryResult as QueryResult
 from ros2cc_extract.verify.results import Verification as Verification
@@ -53,6 +55,7 @@ from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta
 from ros2cc_extract.verify.uppaal.verifyta import Runs as Runs
 from ros2cc_extract.verify.uppaal.verifyta_check import check_by_verifyta
+from ros2cc_extract.verify.used_up import refute_by_using_up
 
 OnProgress = Callable[[Progress], None]
 
@@ -72,6 +75,7 @@ class Options:
     :param verifyta: the program, where it is not to be looked for.
     :param jobs: threads that explore one model together; no answer depends on them.
     :param structural: profile rclpy also asks who starves under unlimited arrivals.
+    :param families: what alone is asked; all that there is where it is left out.
     """
 
     checker: Checker = Checker.EMBEDDED
@@ -81,6 +85,7 @@ class Options:
     text: build.Text = build.Text.COMPACT
     max_cycle: int | None = 1
     structural: bool = True
+    families: frozenset[build.Family] | None = None
     engine: EngineKind = EngineKind.AUTO
     fairness: Fairness = Fairness.NONE
     reduction: bool = True
@@ -102,6 +107,8 @@ def verify_unit(
     options = replace(options, limits=options.limits.begun())
     shelf = Shelf() if shelf is None else shelf
     queries = build.queries_of(closed, profile=options.profile, max_cycle=options.max_cycle)
+    if options.families is not None:
+        queries = tuple(query for query in queries if query.family in options.families)
     if options.text is build.Text.COMPACT:
         # It resets its variables itself: looking for dead ones costs time and finds no state less.
         options = replace(options, reduction=False)
@@ -122,6 +129,9 @@ def verify_unit(
             lambda left, more, limits: _ask(left, more, options, progress, shelf, limits),
             options.limits,
         )
+        if _may_be_sliced(options):
+            by_chance = partial(_dive, options=options)
+            found = refute_by_using_up(found, queries, closed, by_chance, options.limits)
     left_out = left_out_of_deadlocks(closed.spec, options.profile)
     results = tuple(
         _as_far_as_modelled(_as_asked(found.results[key_of(query)], query, left_out), query)
@@ -152,8 +162,8 @@ def _ask(
     limits = limits or options.limits
     search = partial(_search, options=options, progress=progress)
     if options.max_cycle is not None and _may_be_sliced(options):
-        refute = partial(_refute, options=options)
-        return narrow(closed, queries, options.max_cycle, search, limits, shelf, refute)
+        refuters = Refuters(partial(_refute, options=options), partial(_dive, options=options))
+        return narrow(closed, queries, options.max_cycle, search, limits, shelf, refuters)
     return search(closed, [key_of(query) for query in queries], limits)
 
 
@@ -169,6 +179,17 @@ def _render(closed: ClosedSpec, options: Options) -> build.RenderedModel:
     return build.render(
         closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
     )
+
+
+def _read(closed: ClosedSpec, options: Options) -> tuple[build.RenderedModel, Model]:
+    """Render and read; the last one is kept, as several searches ask the same in turn."""
+    last = known_of(options)
+    if last.get('closed') is not closed:
+        rendered = _render(closed, options)
+        model = read_model(rendered.xml, f'{rendered.name}.xml')
+        last |= {'closed': closed, 'read': (rendered, model)}
+    read: tuple[build.RenderedModel, Model] = last['read']
+    return read
 
 
 def _may_be_sliced(options: Options) -> bool:
@@ -191,10 +212,9 @@ def _search(
     progress: OnProgress | None,
 ) -> Found:
     """Ask some of the queries of a unit, or of a slice of one."""
-    rendered = _render(closed, options)
+    rendered, model = _read(closed, options)
     wanted = set(keys)
     asked = [query for query in rendered.queries if key_of(query) in wanted]
-    model = read_model(rendered.xml, f'{rendered.name}.xml')
     xml = rendered.xml.encode()
     claims = [Query(query.formula, query.words, None) for query in asked]
     whatever = [Query(q.whatever, q.words, None) for q in asked if q.whatever is not None]
@@ -222,19 +242,47 @@ def _refute(
     options: Options,
 ) -> Found:
     """Look over waypoints for runs that refute some of the queries of a part."""
-    rendered = _render(closed, options)
+    search = partial(refute, waypoints=waypoints, limits=limits, engine=options.engine)
+    return _refuted(closed, keys, search, options)
+
+
+def _dive(closed: ClosedSpec, keys: Sequence[Key], limits: Limits, *, options: Options) -> Found:
+    """
+    Look by chance for runs that refute some of the queries.
+
+    What was refuted only with something that is not known is in doubt, and stays so.
+    """
+    return _refuted(closed, keys, partial(dive, limits=limits), options)
+
+
+def _refuted(
+    closed: ClosedSpec, keys: Sequence[Key], search: Callable[..., CheckResult], options: Options
+) -> Found:
+    """What of some queries a search that proves nothing refutes, or leaves in doubt."""
+    rendered, model = _read(closed, options)
     wanted = set(keys)
     asked = [query for query in rendered.queries if key_of(query) in wanted]
-    model = read_model(rendered.xml, f'{rendered.name}.xml')
-    claims = [Query(query.formula, query.words, None) for query in asked]
-    result = refute(model, waypoints, claims, limits=limits, engine=options.engine)
+    doubted = [query for query in asked if query.whatever is not None]
+    formulas = [*(q.formula for q in asked), *(q.whatever or '' for q in doubted)]
+    claims = [Query(f, q.words, None) for f, q in zip(formulas, asked + doubted, strict=True)]
+    result = search(model, queries=claims)
     if any(answer.is_interrupted for answer in result.answers):
         raise KeyboardInterrupt
     teller = _Teller(model, rendered.xml.encode(), Names.of(closed.spec))
-    refuted = {
+    found = {
         key_of(query): _result(answer, teller, query.family.value, query.words, query.callbacks)
-        for answer, query in zip(result.answers, asked, strict=True)
-        if answer.verdict is Verdict.NOT_SATISFIED
+        for answer, query in zip(result.answers, asked, strict=False)
+    }
+    for query, answer in zip(doubted, result.answers[len(asked) :], strict=True):
+        known = found[key_of(query)]
+        is_refuted = known.verdict is Verdict.NOT_SATISFIED
+        if answer.verdict is Verdict.NOT_SATISFIED and not is_refuted:
+            reason = doubts_in(teller.tell(answer), closed.spec)
+            found[key_of(query)] = replace(known, reason=reason, in_doubt=True)
+    refuted = {
+        key: each
+        for key, each in found.items()
+        if each.verdict is Verdict.NOT_SATISFIED or each.in_doubt
     }
     return Found(refuted, replace(result, answers=()))
 

@@ -11,27 +11,34 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
+import multiprocessing
+import os
 import subprocess
 import sys
 import tempfile
+import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits
+from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
 from tests.conformance.suite import own_environment
+from tests.random_waits.alone import alone
 from tests.random_waits.programs import program
 from tests.random_waits.recorded import Ran, add, load, unfinished
 
 WATCH = Path(__file__).with_name('watch.py')
 CHUNK = 20
-OPTIONS = Options(profile=Profile.RCLPY, structural=False, limits=Limits(seconds=20.0))
+OPTIONS = Options(profile=Profile.RCLPY, structural=False, families=frozenset({Family.PROGRESS}))
+MOST_S = 10.0
 ENDS, FOUND, UNDECIDED = 'always ends', 'found', 'undecided'
 _OF_VERDICT = {
     Verdict.SATISFIED: ENDS,
@@ -43,9 +50,10 @@ _OF_VERDICT = {
 def judge(text: str) -> dict[str, str]:
     """For each function of a program whether the model lets it wait for ever."""
     judged: dict[str, str] = {}
-    for unit in scan_text(text).units:
+    options = replace(OPTIONS, limits=_limits())
+    for unit in (alone(unit, text) for unit in scan_text(text).units):
         names = _functions(unit)
-        for result in verify_unit(close(unit), OPTIONS).results:
+        for result in verify_unit(close(unit), options).results:
             if result.family == Family.PROGRESS.value:
                 function = names.get(result.callbacks[0], result.callbacks[0])
                 judged[function] = _worse(judged.get(function), _OF_VERDICT[result.verdict])
@@ -59,6 +67,26 @@ def _functions(unit: Spec) -> dict[str, str]:
 
 def _worse(one: str | None, other: str) -> str:
     return max(one or ENDS, other, key=(ENDS, UNDECIDED, FOUND).index)
+
+
+@dataclass(frozen=True)
+class _OfWork(Deadline):
+    """
+    Counts what this process works, as a busy machine is to change no verdict.
+
+    :param until: by ``time.process_time``.
+    """
+
+    until: float
+
+    @property
+    def is_over(self) -> bool:
+        return time.process_time() > self.until
+
+
+def _limits() -> Limits:
+    until = time.process_time() + MOST_S
+    return Limits(deadline=_OfWork(math.inf, f'{MOST_S:g} s of work are over', until))
 
 
 @dataclass
@@ -134,12 +162,17 @@ def run(record: Path, python: str, seeds: Sequence[int]) -> None:
         print(f'{min(start + CHUNK, len(left))} of {len(left)} run', flush=True)
 
 
-def judge_all(record: Path, seeds: Sequence[int]) -> None:
+def judge_all(record: Path, seeds: Sequence[int], jobs: int = 1) -> None:
     """Ask the model of each program that was run, and write down what it says."""
     known = load(record)
-    for seed in seeds:
-        if seed in known and known[seed].judged is None:
-            add(record, [replace(known[seed], judged=judge(program(seed)))])
+    left = [seed for seed in seeds if seed in known and known[seed].judged is None]
+    with multiprocessing.Pool(jobs) as pool:
+        for seed, judged in pool.imap_unordered(_judge_seed, left):
+            add(record, [replace(known[seed], judged=judged)])
+
+
+def _judge_seed(seed: int) -> tuple[int, dict[str, str]]:
+    return seed, judge(program(seed))
 
 
 def disturb(record: Path, python: str, seeds: Sequence[int]) -> None:
@@ -169,6 +202,7 @@ def main() -> int:
     parser.add_argument('--programs', type=int, default=1000)
     parser.add_argument('--record', type=Path, help='what was run; it goes on where it was cut')
     parser.add_argument('--judge', type=Path, help='run nothing, judge what this record has')
+    parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='who judge at once')
     args = parser.parse_args()
     seeds = range(args.first, args.first + args.programs)
     if args.python is None and args.judge is None:
@@ -178,7 +212,7 @@ def main() -> int:
         if args.judge is None:
             run(record, args.python, seeds)
         if args.record is None or args.judge is not None:
-            judge_all(record, seeds)
+            judge_all(record, seeds, args.jobs)
         if args.python is not None:
             disturb(record, args.python, seeds)
         tally = Tally()

@@ -83,6 +83,7 @@ class FunctionCompiler:
         self._constant_calls: dict[tuple[object, ...], Expr] = {}
         self._open: list[FunctionSymbol] = []
         self._too_large: set[FunctionSymbol] = set()
+        self._are_expressions: dict[FunctionSymbol, bool] = {}
 
     def call(self, node: syntax.Call, scope: Scope) -> Expr:
         """Elaborate a call."""
@@ -154,7 +155,9 @@ class FunctionCompiler:
     def _inlined(self, symbol: FunctionSymbol, arguments: Arguments) -> Expr | None:
         """Return the call as one expression, where the function is one."""
         body, returns = symbol.function.body, self._return_type(symbol)
-        if returns is None or arguments.copies or not is_expression(body):
+        if symbol not in self._are_expressions:
+            self._are_expressions[symbol] = is_expression(body)
+        if returns is None or arguments.copies or not self._are_expressions[symbol]:
             return None
         if not all(is_atomic(value) for _, value in arguments.values.values()):
             return None

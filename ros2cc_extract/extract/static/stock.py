@@ -24,10 +24,13 @@ def counted(
     raw: Blocking, initial: int | None, doers: Sequence[Doer], given: Sequence[Waking]
 ) -> int:
     """How many waits like ``raw`` end by themselves in every run; 0 where that is not known."""
-    if initial is None or not 0 < initial <= _COUNTED:
-        return 0
     takers = [doer for doer in doers if any(_takes(raw, doer))]
-    return initial if all(_gives_back(raw, doer, given) for doer in takers) else 0
+    return few(initial) if all(_gives_back(raw, doer, given) for doer in takers) else 0
+
+
+def few(initial: int | None) -> int:
+    """So many waits end by themselves, where a model may use them up; 0 if there are too many."""
+    return initial if initial is not None and 0 < initial <= _COUNTED else 0
 
 
 def is_plain_lock(

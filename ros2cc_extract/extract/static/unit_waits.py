@@ -260,6 +260,7 @@ class UnitWaits:
                 many = 'some' if initial is None else f'the first {initial}'
                 reason = f'{many} {BY_ITSELF}'
                 escapes = escapes or Unknown(reason, raw.source)
+                named = replace(named, initial=stock.few(initial))
         elif row.ended_by and isinstance(raw.on, EntityRef):
             is_here = isinstance(named.on, str) and named.on in self._names.values()
             wakers.append(Waker(by=str(named.on) if is_here else OUTSIDE))
