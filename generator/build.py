@@ -16,6 +16,7 @@ from types import MappingProxyType
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from ros2cc_extract.generator.queries import (
+    IN_DOUBT,
     Family,
     Query,
     paper_queries,
@@ -34,7 +35,16 @@ from ros2cc_extract.generator.sources import PUBLISHED, Profile, Text, choose_so
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 
-__all__ = ['Family', 'Freedom', 'Profile', 'Query', 'RenderedModel', 'Text', 'render']
+__all__ = [
+    'IN_DOUBT',
+    'Family',
+    'Freedom',
+    'Profile',
+    'Query',
+    'RenderedModel',
+    'Text',
+    'render',
+]
 
 #: What compact texts let move; docs/model.md shows that more would change no verdict.
 CALLBACKS_IN_PLAY = 2

@@ -113,9 +113,9 @@ def _without_doubt(query: Query) -> Query:
     if query.family not in _OF_ENDS:
         return query
     if query.family is Family.STARVATION:
-        formula = f'{query.formula} or in_doubt'
+        formula = f'{query.formula} or {IN_DOUBT}'
     else:
-        formula = query.formula.replace('deadlock', 'deadlock and !in_doubt', 1)
+        formula = query.formula.replace('deadlock', f'deadlock and !{IN_DOUBT}', 1)
     return replace(query, formula=formula, whatever=query.formula)
 
 
@@ -124,6 +124,8 @@ def waits(callback: UnitCallback) -> bool:
     return bool(callback.needs or callback.left_out)
 
 
+#: Whether it counts in a run that something is not known; of models that have doubts.
+IN_DOUBT = 'in_doubt'
 #: Families whose claims rest on every callback coming to its end.
 _OF_ENDS = (Family.DEADLOCK, Family.STARVATION, Family.PROGRESS, Family.POOL_EXHAUSTION)
 #: Families about a callback in the midst of which others may run, in a nested spin.

@@ -9,7 +9,7 @@ none refutes is open. Chance is drawn from a fixed seed: equal models get equal 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, islice
 from typing import Any
@@ -40,10 +40,17 @@ _NOT_REFUTED = 'no run that was tried refutes it'
 _UNNAMED = Place('query', 1)
 
 
-def dive(model: Model, queries: Sequence[Query], *, limits: Limits) -> CheckResult:
-    """Refute what runs to an end refute of ``queries``; all else is left undecided."""
+def dive(
+    model: Model, queries: Sequence[Query], *, limits: Limits, avoided: str | None = None
+) -> CheckResult:
+    """
+    Refute what runs to an end refute of ``queries``; all else is left undecided.
+
+    :param avoided: what half of the runs come to only where nothing else can happen.
+    """
     properties = [model.elaboration.query(q.formula, q.place or _UNNAMED) for q in queries]
-    divers = _Divers(model.network, properties, limits)
+    asked = None if avoided is None else model.elaboration.query(f'E<> {avoided}', _UNNAMED)
+    divers = _Divers(model.network, properties, limits, asked.formula if asked else None)
     paths = divers.run()
     replayer = Replayer(model.elaboration, model.network, Fairness.NONE)
     answers = []
@@ -113,7 +120,13 @@ _OFTEN = 0.9
 
 
 class _Divers:
-    def __init__(self, network: Network, properties: Sequence[Property], limits: Limits) -> None:
+    def __init__(
+        self,
+        network: Network,
+        properties: Sequence[Property],
+        limits: Limits,
+        avoided: Expr | None,
+    ) -> None:
         self._layout = Layout(network)
         self._moving = Moving(network, self._layout)
         self._start = self._layout.pack(Semantics(network).initial())
@@ -125,6 +138,7 @@ class _Divers:
         self._open = {i for i, kind in enumerate(self._kinds) if kind in self._ends}
         self._refuted = self._moving.predicate([*map(_refutation, properties)])
         self._begun = self._moving.predicate([p.premise or _refutation(p) for p in properties])
+        self._avoided = None if avoided is None else self._moving.predicate([avoided])
         self.watch = Watch(limits, None)
         self.states = 0
 
@@ -135,7 +149,9 @@ class _Divers:
         for number in range(MOST_DIVES):
             if not self._open or idle >= PATIENCE or self.watch.exhausted():
                 break
-            path = self._dive(_Habits(self._chance, is_even=number % 2 == 0))
+            path = self._dive(
+                _Habits(self._chance, is_even=number % 2 == 0), avoids=number % 4 < 2
+            )
             bits = self._refuted(path[-1], True) & self._begun(path[-1], True) if path else 0
             refuted = {i for i in self._open if bits >> i & 1}
             idle = 0 if refuted else idle + 1
@@ -146,11 +162,11 @@ class _Divers:
                     found[i] = StatePath(states, None, self._ends[self._kinds[i]])
         return found
 
-    def _dive(self, habits: _Habits) -> list[int]:
+    def _dive(self, habits: _Habits, *, avoids: bool) -> list[int]:
         """One run to its end; nothing where it has none within so many steps."""
         path = [self._start]
         while len(path) < LONGEST_DIVE:
-            following = self._next(path[-1], habits)
+            following = self._next(path[-1], habits, avoids=avoids)
             if following < 0:
                 self.states += len(path)
                 return path
@@ -158,7 +174,17 @@ class _Divers:
         self.states += len(path)
         return []
 
-    def _next(self, packed: int, habits: _Habits) -> int:
+    def _next(self, packed: int, habits: _Habits, *, avoids: bool) -> int:
+        """The state after this one; -1 where nothing moves."""
+        avoided = self._avoided if avoids else None
+        otherwise = -1
+        for target in self._targets(packed, habits):
+            if avoided is None or not avoided(target, False):
+                return target
+            otherwise = target
+        return otherwise
+
+    def _targets(self, packed: int, habits: _Habits) -> Iterator[int]:
         vector = packed & self._layout.location_mask
         plan = self._plans.get(vector)
         if plan is None:
@@ -167,13 +193,11 @@ class _Divers:
             if label >= 0:
                 target: int = move(packed)
                 if target >= 0:
-                    return target
+                    yield target
                 continue
             targets = move(packed)
             if targets:
-                following: int = self._chance.choice(targets)[0]
-                return following
-        return -1
+                yield self._chance.choice(targets)[0]
 
 
 def _refutation(prop: Property) -> Expr:

@@ -252,7 +252,9 @@ def _dive(closed: ClosedSpec, keys: Sequence[Key], limits: Limits, *, options: O
 
     What was refuted only with something that is not known is in doubt, and stays so.
     """
-    return _refuted(closed, keys, partial(dive, limits=limits), options)
+    rendered, _ = _read(closed, options)
+    avoided = build.IN_DOUBT if any(query.whatever for query in rendered.queries) else None
+    return _refuted(closed, keys, partial(dive, limits=limits, avoided=avoided), options)
 
 
 def _refuted(

@@ -17,6 +17,7 @@ from ros2cc_extract.spec.deeds import Blocking, Waker
 from ros2cc_extract.spec.model import Activity, Callback, Spec
 
 _ASKS = re.compile(r'self\.client_(\d+)\.call')
+_SET_OFF = re.compile(r'(serve|work)_\d+|on_message')
 _STARTS = re.compile(r'self\.(work_\d+)')
 
 
@@ -53,9 +54,9 @@ def _function(doer: Callback | Activity) -> str:
 
 
 def _running(bodies: dict[str, str]) -> set[str]:
-    """Timers, and what these set off, one by the other."""
+    """What runs by itself, and what this sets off, one by the other."""
     runs: set[str] = set()
-    new = {name for name in bodies if name.startswith('tick')}
+    new = {name for name in bodies if not _SET_OFF.fullmatch(name)}
     while new:
         runs |= new
         new = {name for body in new for name in _sets_off(bodies[body])} & bodies.keys() - runs

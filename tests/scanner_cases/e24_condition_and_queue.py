@@ -52,7 +52,7 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer look in a_default every 1
 #   subscription on_in in a_default key=in
-#     blocks Queue.put on narrow through narrow (room) each @27
+#     blocks Queue.put on narrow through narrow (room) each initial=1 @27
 #       ended by look @39
 #       ended by ?
 #     locks filled @23

@@ -57,7 +57,7 @@ if __name__ == '__main__':
 #       ended by on_in after 1 @27
 #     blocks Barrier.wait on gate all 5.0 s @33
 #       ended by on_in @26
-#     blocks Queue.get on orders each @35
+#     blocks Queue.get on orders each initial=1 @35
 #       ended by ?
 #     locks places @32
 #   timer listen in a_default every 1

@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static import barriers, pipes, stock
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.consumers import taken_by_itself
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
+from ros2cc_extract.extract.static.one_by_one import keeps_to_itself
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.pools import why_no_thread
 from ros2cc_extract.extract.static.setters import the_setter
@@ -88,7 +89,7 @@ class UnitWaits:
         """Waits for one of several that have no name here are alike."""
         kept = _Kept()
         for raw in (doer.deeds or Deeds()).blocking:
-            if not self._is_none(raw) and not self._gives_back(raw, doer):
+            if not self._is_none(raw, doer) and not self._gives_back(raw, doer):
                 named = self._named(raw)
                 if named not in kept.named:
                     kept.raw.append(raw)
@@ -98,7 +99,7 @@ class UnitWaits:
                 kept.places[way_of(raw)] = len(kept.named)
         return kept
 
-    def _is_none(self, raw: Blocking) -> bool:
+    def _is_none(self, raw: Blocking, doer: Doer) -> bool:
         """Whether it never waits: it was asked before, and nobody else changes the answer."""
         reference = raw.resource
         if not isinstance(reference, ResourceRef) or not reference.asked:
@@ -107,7 +108,8 @@ class UnitWaits:
         if rival is None:
             return True
         wakings = wakings_of(self._world, reference)
-        return len({id(waking.by) for waking in wakings if waking.word is rival}) < 2
+        takers = {id(waking.by): waking.by for waking in wakings if waking.word is rival}
+        return len(takers) < 2 or keeps_to_itself(doer, takers.values())
 
     def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
         """Whether who takes a semaphore gives it back too, so that it is a lock."""

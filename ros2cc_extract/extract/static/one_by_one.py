@@ -1,0 +1,48 @@
+"""Who is kept from running at the same time: an answer of one is not changed by another."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from ros2cc_extract.extract.static.doing import Deeds
+from ros2cc_extract.extract.static.ending import executor_of
+from ros2cc_extract.extract.static.world import EntityState, ExecutorState, GroupState
+from ros2cc_extract.spec.model import GroupType
+
+_SINGLE = 'SingleThreadedExecutor'
+
+
+def keeps_to_itself(doer: object, others: Collection[object]) -> bool:
+    """
+    Whether none of ``others`` runs between what a callback asks and what it does then.
+
+    All are callbacks of one executor with one thread, or members of one exclusive group; and the
+    callback itself never lets others run, as an ``await`` and a nested spin do.
+    """
+    everybody = [each for each in (doer, *others) if isinstance(each, EntityState)]
+    if len(everybody) != 1 + len(others) or _lets_others_run(everybody[0]):
+        return False
+    executors = [executor_of(each.node) for each in everybody]
+    first = executors[0]
+    if first is None or any(each is not first for each in executors):
+        return False
+    return _has_one_thread(first.state) or _is_one_group(everybody)
+
+
+def _lets_others_run(doer: EntityState) -> bool:
+    blocks = (doer.deeds or Deeds()).blocking
+    return any(block.call == 'await' or 'spin' in block.call for block in blocks)
+
+
+def _has_one_thread(state: object) -> bool:
+    if not isinstance(state, ExecutorState) or state.unresolved is not None:
+        return False
+    return state.kind == _SINGLE
+
+
+def _is_one_group(everybody: Collection[EntityState]) -> bool:
+    groups = [each.group for each in everybody]
+    state = groups[0].state
+    if not isinstance(state, GroupState) or state.unresolved is not None:
+        return False
+    return state.type is GroupType.EXCLUSIVE and all(each is groups[0] for each in groups)
