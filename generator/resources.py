@@ -23,7 +23,7 @@ Actor = Callback | Activity
 _BY_ITSELF = (OUTSIDE, TIME)
 # Waits for the end of a run, which nobody can wait for before it has been started: a thread that
 # was not refuses to be joined, and a future of a job is made with the job.
-_FOR_RUNS = ('Thread.join', 'Process.join', 'Future.result', 'Future.exception', 'futures.wait')
+FOR_RUNS = ('Thread.join', 'Process.join', 'Future.result', 'Future.exception', 'futures.wait')
 
 
 def all_actors(spec: Spec) -> tuple[Actor, ...]:
@@ -97,7 +97,7 @@ def _ends_by_itself(block: Blocking) -> bool:
 
 def _begun(block: Blocking, wakers: tuple[Waker, ...], spec: Spec) -> tuple[Resource, ...]:
     """Give the starts of what ends a wait by its own end; none where it may be there before."""
-    if block.call not in _FOR_RUNS or any(waker.after is not None for waker in wakers):
+    if block.call not in FOR_RUNS or any(waker.after is not None for waker in wakers):
         return ()
     ended = {waker.by for waker in wakers}
     runs = [activity for activity in spec.activities if activity.name in ended]

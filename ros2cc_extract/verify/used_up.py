@@ -14,13 +14,16 @@ from dataclasses import replace
 
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Query
-from ros2cc_extract.generator.resources import Actor, all_actors
+from ros2cc_extract.generator.resources import FOR_RUNS, Actor, all_actors
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking
+from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Spec
 from ros2cc_extract.verify.again import OF_ENDS
+from ros2cc_extract.verify.arrivals import crowding
 from ros2cc_extract.verify.asking import Found, Key, key_of, total
 
+#: Loops that go round more often are not counted.
+MOST_ROUNDS = 8
 Refute = Callable[[ClosedSpec, Sequence[Key], Limits], Found]
 
 
@@ -47,41 +50,73 @@ def refute_by_using_up(
 
 def _counted(spec: Spec) -> Mapping[str, int]:
     """What is there at first of each resource of which nothing else is in doubt."""
-    waits: dict[str, list[Blocking]] = {}
+    waits: dict[str, list[tuple[Blocking, Actor]]] = {}
     for actor in all_actors(spec):
         for block in actor.blocking:
             if block.resource is not None and block.initial and block.seconds is None:
-                waits.setdefault(block.resource, []).append(block)
-    return {name: own[0].initial for name, own in waits.items() if all(map(_is_counted, own))}
+                waits.setdefault(block.resource, []).append((block, actor))
+    return {
+        name: own[0][0].initial
+        for name, own in waits.items()
+        if all(_is_counted(block, actor, spec) for block, actor in own)
+    }
 
 
-def _is_counted(block: Blocking) -> bool:
-    """How often a loop goes round a model does not have."""
+def _is_counted(block: Blocking, actor: Actor, spec: Spec) -> bool:
+    """Of a loop only where nothing else that others see happens in its rounds."""
     why = block.escapes
-    return why is not None and why.reason.endswith(BY_ITSELF) and block.times == 1
+    if why is None or not why.reason.endswith(BY_ITSELF) or block.times > MOST_ROUNDS:
+        return False
+    if block.times == 1:
+        return True
+    in_loops = [each for each in actor.blocking if each.times > 1]
+    return in_loops == [block] and not block.repeats and not _does_for_others(actor, spec)
+
+
+def _does_for_others(actor: Actor, spec: Spec) -> bool:
+    """Whether it ends a wait or starts a thread."""
+    blocks = (block for each in all_actors(spec) for block in each.blocking)
+    wakers = [waker for block in blocks for waker in block.wakers]
+    starts = [start for activity in spec.activities for start in activity.starts]
+    return any(each.by == actor.name for each in (*wakers, *starts))
 
 
 def _with_counts(spec: Spec, most: Mapping[str, int]) -> Spec:
     return replace(
         spec,
-        callbacks=tuple(replace(c, blocking=_blocks(c, most)) for c in spec.callbacks),
-        activities=tuple(replace(a, blocking=_blocks(a, most)) for a in spec.activities),
+        callbacks=tuple(replace(c, blocking=_blocks(c, spec, most)) for c in spec.callbacks),
+        activities=tuple(replace(a, blocking=_blocks(a, spec, most)) for a in spec.activities),
     )
 
 
-def _blocks(actor: Actor, most: Mapping[str, int]) -> tuple[Blocking, ...]:
-    return tuple(
-        replace(block, counted=True, escapes=None)
-        if block.resource in most and block.initial > 0
-        else block
-        for block in actor.blocking
-    )
+def _blocks(actor: Actor, spec: Spec, most: Mapping[str, int]) -> tuple[Blocking, ...]:
+    blocks: list[Blocking] = []
+    for block in actor.blocking:
+        if block.resource in most and block.initial > 0:
+            blocks += [replace(block, counted=True, escapes=None)] * block.times
+        elif _is_of_each_run(block, actor, spec):
+            blocks.append(replace(block, needs=Needs.EACH))
+        else:
+            blocks.append(block)
+    return tuple(blocks)
+
+
+def _is_of_each_run(block: Blocking, actor: Actor, spec: Spec) -> bool:
+    """Whether each run of ``actor`` starts what it waits for the end of, and nobody else does."""
+    if block.call not in FOR_RUNS or block.needs is not Needs.ONCE or not block.wakers:
+        return False
+    waiting = [b for a in all_actors(spec) for b in a.blocking if b.resource == block.resource]
+    started = {activity.name: activity.starts for activity in spec.activities}
+    starts = [start for waker in block.wakers for start in started.get(waker.by, ())]
+    by_itself = bool(starts) and all(start.by == actor.name for start in starts)
+    return by_itself and waiting == [block] and len(block.wakers) == 1
 
 
 def _arrivals(closed: ClosedSpec, runs: int) -> dict[str, int]:
-    """So many for each, also for who asks or starts those who take."""
+    """So many for each, also for who asks or starts those who take, and then those of a crowd."""
     arrivals = {}
+    crowds = crowding(closed.spec)
     for actor in all_actors(closed.spec):
         if isinstance(actor, Activity) or not actor.one_shot:
-            arrivals[actor.name] = max(runs, closed.arrivals.get(actor.name, 1))
+            arrivals[actor.name] = runs - 1 + crowds.get(actor.name, 1)
     return arrivals

@@ -14,7 +14,7 @@ PROGRAM = """\
 import queue
 import threading
 import rclpy
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 
@@ -70,9 +70,45 @@ def test_more_than_models_count_stays_undecided() -> None:
     assert ends(text)['take'][0] is Verdict.UNDECIDED
 
 
-def test_runs_of_a_loop_are_not_counted() -> None:
-    """How often it goes round no model has."""
+LOOP = """for _ in range(2):
+            self.stock.acquire()"""
+
+
+def test_rounds_of_a_loop_are_counted() -> None:
+    text = PROGRAM.format(group='one', **{**SEMAPHORE, 'take': 'acquire()'})
+    assert ends(text.replace('self.stock.acquire()', LOOP))['take'][0] is Verdict.NOT_SATISFIED
+
+
+def test_rounds_in_which_more_happens_are_not_counted() -> None:
+    """In which order the rounds take and give no model has."""
     text = PROGRAM.format(group='one', **SEMAPHORE)
-    body = '        for _ in range(2):\n            self.stock.acquire()'
-    text = text.replace('        self.stock.acquire()', body)
-    assert ends(text)['take'][0] is Verdict.UNDECIDED
+    body = f'{LOOP}\n            self.stock.release()'
+    assert ends(text.replace('self.stock.acquire()', body))['take'][0] is Verdict.UNDECIDED
+
+
+JOINED = """def take(self):
+        worker = threading.Thread(target=self.work)
+        worker.start()
+        worker.join()
+
+    def work(self):
+        self.stock.acquire()"""
+
+
+def test_each_run_waits_for_the_thread_that_it_starts() -> None:
+    text = PROGRAM.format(group='one', **SEMAPHORE)
+    text = text.replace('def take(self):\n        self.stock.acquire()', JOINED)
+    assert ends(text)['take'][0] is Verdict.NOT_SATISFIED
+
+
+def test_runs_that_wait_for_one_lock_come_beside_those_that_use_it_up() -> None:
+    """One waits under the lock, two fill the threads; the first run has used up the permit."""
+    text = PROGRAM.format(group='other', **{**SEMAPHORE, 'made': 'threading.Semaphore(1)'})
+    text = text.replace(
+        'self.one = Mutually', 'self.lock = threading.Lock()\n        self.one = Re'
+    )
+    text = text.replace('ReExclusive', 'Reentrant')
+    text = text.replace(
+        'self.stock.acquire()', 'with self.lock:\n            self.stock.acquire()'
+    )
+    assert ends(text)['take'][0] is Verdict.NOT_SATISFIED
