@@ -24,7 +24,6 @@ from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.slices import Names, Slicer
 
 
-
 @dataclass(frozen=True)
 class Refuters:
     """

@@ -243,7 +243,9 @@ def _refute(
 ) -> Found:
     """Look over waypoints for runs that refute some of the queries of a part."""
     search = partial(refute, waypoints=waypoints, limits=limits, engine=options.engine)
-    return _refuted(closed, keys, search, options)
+    found = _refuted(closed, keys, search, options)
+    refuted = {key: each for key, each in found.results.items() if not each.in_doubt}
+    return replace(found, results=refuted)
 
 
 def _dive(closed: ClosedSpec, keys: Sequence[Key], limits: Limits, *, options: Options) -> Found:
