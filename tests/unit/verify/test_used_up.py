@@ -8,6 +8,7 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
+from ros2cc_extract.verify import narrowing
 from ros2cc_extract.verify.unit import Options, verify_unit
 
 PROGRAM = """\
@@ -112,3 +113,11 @@ def test_runs_that_wait_for_one_lock_come_beside_those_that_use_it_up() -> None:
         'self.stock.acquire()', 'with self.lock:\n            self.stock.acquire()'
     )
     assert ends(text)['take'][0] is Verdict.NOT_SATISFIED
+
+
+def test_a_large_unit_in_which_a_thread_waits_is_decided(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Slices are of callbacks: what runs beside the executor has none."""
+    monkeypatch.setattr(narrowing, 'SMALL', 0)
+    text = PROGRAM.format(group='one', **{**SEMAPHORE, 'made': 'threading.Semaphore(0)'})
+    text = text.replace('def take(self):\n        self.stock.acquire()', JOINED)
+    assert {verdict for verdict, _ in ends(text).values()} == {Verdict.NOT_SATISFIED}
