@@ -52,12 +52,12 @@ def test_a_model_without_ends_keeps_its_limit() -> None:
 
 
 def test_half_of_the_runs_come_to_what_is_avoided_only_where_they_must() -> None:
-    """Each of forty steps has a way that spoils the run: chance alone leaves none unspoilt."""
+    """Each of many steps has a way that spoils the run: chance alone leaves none unspoilt."""
     drawing = """go done
-    go -> go; guard: n < 40; do: n++
-    go -> go; guard: n < 40; do: n++, spoilt = true
-    go -> done; guard: n == 40"""
-    declaration = 'bool spoilt; int[0, 40] n;'
+    go -> go; guard: n < 400; do: n++
+    go -> go; guard: n < 400; do: n++, spoilt = true
+    go -> done; guard: n == 400"""
+    declaration = 'bool spoilt; int[0, 400] n;'
     asked = [Query('A[] not (deadlock and !spoilt)', '', None)]
     model = network(automaton('P', drawing), declaration=declaration)
     alone = dive(model, asked, limits=Limits()).answers[0].verdict
