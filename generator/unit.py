@@ -385,7 +385,8 @@ def _number_wait(
         spin=wait.spin,
         node=nodes.get(spun_node, 0),
         lock=locks.index(wait.lock) if wait.lock else None,
-        held=frozenset(map(locks.index, wait.held)),
+        # A lock that nobody waits for keeps nobody out.
+        held=frozenset(locks.index(lock) for lock in wait.held if lock in locks),
         resource=resource,
         begun=frozenset(resources.index(each) for each in wait.begun if each in resources),
         is_signal=wait.is_signal,

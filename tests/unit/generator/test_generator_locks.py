@@ -16,8 +16,8 @@ from ros2cc_extract.generator.build import Profile, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking, Waker
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 
 CALLBACKS = 'ask:TMR:g reply:CLT:h take:TMR:'
 GROUPS = 'g:EXCLUSIVE h:EXCLUSIVE i:EXCLUSIVE r:REENTRANT'
@@ -133,3 +133,21 @@ def test_a_unit_whose_locks_nobody_else_takes_has_the_text_of_one_without() -> N
     )
     texts = [render(unit, profile=Profile.RCLPY).xml for unit in (with_locks, without)]
     assert texts[0] == texts[1]
+
+
+def test_a_lock_that_only_a_thread_holds_while_it_signals_keeps_nobody_out() -> None:
+    unit = closed_unit(CALLBACKS + 'i', GROUPS, 2, MULTI)
+    signal = Waker(by='thread', held=('lock',))
+    wait = Blocking(call='Event.wait', resource='done', wakers=(signal,))
+    thread = Activity(
+        name='thread',
+        kind=ActivityKind.THREAD,
+        node='arm',
+        blocking=(Blocking(call='Event.wait', resource='begun', wakers=(Waker(by='take'),)),),
+    )
+    callbacks = tuple(
+        replace(each, node='arm', blocking=(wait,) if each.name == 'ask' else ())
+        for each in unit.spec.callbacks
+    )
+    spec = replace(unit.spec, callbacks=callbacks, activities=(thread,))
+    assert stuck(replace(unit, spec=spec)) == []
