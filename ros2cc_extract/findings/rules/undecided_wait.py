@@ -197,7 +197,7 @@ def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
     named = f' for {what}' if what else ''
     verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
     start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
-    ends = f'and {verb} for ever if {_nobody_else(wait)} outside this program ends it'
+    ends = f'and {verb} for ever if {_nobody_else(wait)} ends it'
     if wait.block.answer_to is not None and is_outside:
         topic = wait.block.answer_to
         ends = (
@@ -230,9 +230,14 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
 
 
 def _nobody_else(wait: AnyWait) -> str:
-    """``nobody``, or with those of the unit that end it too."""
+    """
+    Whom the unit does not show, with those of the unit that end it too.
+
+    That may be another executor of the same program: units are judged one by one.
+    """
     inside = [waker.by for waker in wait.block.wakers if waker.by not in (OUTSIDE, TIME)]
-    return f'neither {listing(inside)} nor anybody' if inside else 'nobody'
+    others = 'else' if isinstance(wait.caller, Activity) else 'outside its executor'
+    return f'neither {listing(inside)} nor anybody {others}' if inside else f'nobody {others}'
 
 
 UNDECIDED = Rule(
@@ -273,12 +278,12 @@ OUTSIDE_WAIT = Rule(
     code='CC121',
     slug='outside-wait',
     severity=Severity.NOTE,
-    title='Wait that only another program ends',
+    title='Wait that nobody on its executor ends',
     what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
-    'serial line or a person, or for the message by which another program answers one that was '
-    'published before. The verdicts assume that it ends. If it does not, a callback keeps '
+    'serial line or a person, for what another executor or program does, or for the message by '
+    'which another program answers one that was published before. The verdicts assume that it ends. If it does not, a callback keeps '
     'its thread and its mutually exclusive group for ever, and a thread keeps the process.',
-    why='Nothing in this program ends such a wait: without a time-out it lasts until the other '
+    why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
     'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '
     'returns.',

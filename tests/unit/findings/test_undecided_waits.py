@@ -49,7 +49,7 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
     assert found(spec) == ['CC121:40 note']
     assert only(spec, 'CC121').message == (
         'feed waits in subprocess.run without a time-out, and waits for ever if nobody outside '
-        'this program ends it'
+        'its executor ends it'
     )
 
 
@@ -58,7 +58,7 @@ def test_those_of_the_unit_that_end_it_too_are_named() -> None:
     wait = replace(wait, wakers=(Waker(by='drain', after=0), Waker(by=OUTSIDE)))
     spec = unit(threads(2), timer('feed', blocking=(wait,)), timer('drain'))
     assert only(spec, 'CC121').message.endswith(
-        'and waits for ever if neither drain nor anybody outside this program ends it'
+        'and waits for ever if neither drain nor anybody outside its executor ends it'
     )
 
 
