@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.steps import NamedWait, WaitKind
-from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.spec.partners import is_client
+from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
+from ros2cc_extract.spec.partners import is_client, server_of
 from ros2cc_extract.verify.asking import Key
 from ros2cc_extract.verify.results import QueryResult
 
@@ -69,13 +69,37 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
     yield Loosened(_with(closed, _questions), is_exact)
 
 
-def is_loose(query: Query, max_cycle: int) -> bool:
+def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
     """
-    Tell whether a loosened unit may decide it.
+    Tell whether a loosened unit may decide it of ``closed``.
 
-    Whom several ask may overlap itself though data arrives once: unasked, that takes two arrivals.
+    Whom several ask runs as often and may overlap itself, if its group lets it; unasked that takes
+    two arrivals.
     """
-    return query.family in _NEVER and (query.family is not Family.SELF_OVERLAP or max_cycle > 1)
+    if query.family is Family.SELF_OVERLAP and max_cycle == 1:
+        spec = closed.spec
+        overlapping = {
+            c.name for c in spec.callbacks if spec.group_of(c).type is not GroupType.EXCLUSIVE
+        }
+        return not any(_is_asked_again(name, closed) for name in overlapping & {*query.callbacks})
+    return query.family in _NEVER
+
+
+def _is_asked_again(name: str, closed: ClosedSpec) -> bool:
+    """Whether questions may let it run more often than it does where nobody asks."""
+    asked, spec = 0, closed.spec
+    by_name = {callback.name: callback for callback in spec.callbacks}
+    for actor in actors_of(spec):
+        runs = closed.arrivals.get(actor.name, 1)
+        loops = isinstance(actor, Activity) and actor.loops
+        for step in waits_of(actor, spec):
+            needed = by_name.get(step.needed)
+            if step.needed == name:
+                asked += 2 if loops else runs
+            elif needed is not None and (server := server_of(needed, spec.callbacks)):
+                # A server has arrivals of its own beside those that the unit asks for.
+                asked += 2 if server.name == name else 0
+    return asked > 1
 
 
 def _with(closed: ClosedSpec, kept: Callable[[Callback, Spec], Iterable[Blocking]]) -> ClosedSpec:

@@ -129,7 +129,9 @@ class _Ways:
     def _loosened(self, loose: Loosened, left: Sequence[Query]) -> Found | None:
         slicer = Slicer(loose.closed, self.slicer.max_cycle)
         slicing = Slicing(slicer, self.search, self.limits, self.shelf)
-        part = slicing.decide(query for query in left if is_loose(query, slicer.max_cycle))
+        part = slicing.decide(
+            query for query in left if is_loose(query, self.slicer.closed, slicer.max_cycle)
+        )
         if part is None:
             return None
         results = loose.decided(part.results)
@@ -222,8 +224,11 @@ def _all_end(found: Found, names: Names) -> QueryResult | None:
     return doubted or _satisfied(found)
 
 
-def _satisfied(found: Found) -> QueryResult:
-    some = next(iter(found.results.values()))
+def _satisfied(found: Found) -> QueryResult | None:
+    """Give what follows from verdicts, with the words of any; ``None`` where there is none yet."""
+    some = next(iter(found.results.values()), None)
+    if some is None:
+        return None
     return replace(some, verdict=Verdict.SATISFIED, reason=None, run=None, in_doubt=False)
 
 

@@ -38,7 +38,7 @@ def by_loosening(unit: ClosedSpec, queries: list[Query]) -> Iterator[Said]:
         return
     for loose in loosened(unit):
         slicing = Slicing(Slicer(loose.closed, 1), search, Limits(), Shelf())
-        found = slicing.decide(query for query in queries if is_loose(query, 1))
+        found = slicing.decide(query for query in queries if is_loose(query, unit, 1))
         if found is not None:
             yield loose.decided(found.results)
 

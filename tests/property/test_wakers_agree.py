@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from closed_specs import random_waking_unit
 
-from ros2cc_extract.checker.api import Limits, check, read_model
+from ros2cc_extract.checker.api import Limits, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
@@ -59,8 +59,12 @@ def by_slices(unit: ClosedSpec) -> tuple[Said, Said]:
     return verified(unit, SLICED), verified(unit, WHOLE)
 
 
+_REFUTED = {Verdict.UNDECIDED.value, Verdict.NOT_SATISFIED.value}
+"""One way shows a run that rests on what is not known, the other one that does not."""
+
+
 def differences(drawn: Iterator[tuple[int, ClosedSpec]], ways: Ways) -> list[object]:
-    """What was said both ways, and not alike; what is in doubt is compared too."""
+    """What was said both ways, and not alike; what is in doubt was refuted as well."""
     found: list[object] = []
     compared = 0
     for number, unit in drawn:
@@ -71,7 +75,7 @@ def differences(drawn: Iterator[tuple[int, ClosedSpec]], ways: Ways) -> list[obj
         found += [
             (number, asked, one[asked], other[asked])
             for asked in both
-            if one[asked] != other[asked]
+            if one[asked] != other[asked] and {one[asked], other[asked]} != _REFUTED
         ]
     print(f'{compared} units compared')
     assert compared

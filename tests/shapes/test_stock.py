@@ -49,7 +49,7 @@ NODES = {
     'another one puts too': (
         _QUEUE.format(size=2) + _OTHER,
         _TICK + _PUT * 2 + _GET * 2 + _TOCK + _PUT,
-        'undecided',
+        'CC109',
     ),
     'two taken of one': (_ONE, _TICK + _TAKE * 2 + _GIVE * 2, 'CC109'),
     'two taken of two': (_TWO, _TICK + _TAKE * 2 + _GIVE * 2, 'clean'),
@@ -62,11 +62,11 @@ NODES = {
     'less is given than taken': (
         _ONE + _OTHER,
         _TICK + _TAKE * 2 + _GIVE + _TOCK + _TAKE + _GIVE,
-        'undecided',
+        'CC109',
     ),
     'the only one kept over a call': (_ONE + _SERVICE, _OVER_A_CALL + _ANSWERS, 'CC109'),
     'it is given back at last': (_ONE + _SERVICE, _IN_FULL + _ANSWERS, 'CC109'),
-    'it is kept at times': (_ONE + _SERVICE, _AT_TIMES + _ANSWERS, 'undecided'),
+    'it is kept at times': (_ONE + _SERVICE, _AT_TIMES + _ANSWERS, 'CC109'),
     'one of two kept over a call': (_TWO + _SERVICE, _OVER_A_CALL + _ANSWERS, 'clean'),
     'nobody else takes one': (_ONE + _SERVICE, _OVER_A_CALL + _ANSWERS_AT_ONCE, 'clean'),
 }

@@ -281,8 +281,9 @@ OUTSIDE_WAIT = Rule(
     title='Wait that nobody on its executor ends',
     what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
     'serial line or a person, for what another executor or program does, or for the message by '
-    'which another program answers one that was published before. The verdicts assume that it ends. If it does not, a callback keeps '
-    'its thread and its mutually exclusive group for ever, and a thread keeps the process.',
+    'which another program answers one that was published before. The verdicts assume that it '
+    'ends. If it does not, a callback keeps its thread and its mutually exclusive group for ever, '
+    'and a thread keeps the process.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
     'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '
