@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.defaults import items_by_default
+from ros2cc_extract.extract.static.inside import note_kept
 from ros2cc_extract.extract.static.items_meant import note_item
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.values import (
@@ -104,6 +105,7 @@ class Assignments(Machine):
         note_item(self, target.value, target.slice, frame)
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
+        note_kept(self.world, value, frame.place(target))
         direct = isinstance(target.value, (ast.Attribute, ast.Name))
         self.world.refilling = direct and _has_key(owner, key)
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)

@@ -6,6 +6,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static import folding, loops
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.inside import note_kept
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.values import (
     NONE,
@@ -124,6 +125,7 @@ def _append(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Sequence)
     if call.args:
         item = call.args[-1]
+        note_kept(machine.world, item, call.place)
         machine.charge(len(receiver.items) // _COPIED_A_STEP)
         machine.store.write(receiver, 'items', (*receiver.items, item))
         if isinstance(machine.world.count, Unknown):
@@ -216,6 +218,7 @@ def _setdefault(machine: Machine, receiver: Value, call: Call) -> Value:
     found = _get(machine, receiver, call)
     if found is NONE or isinstance(found, Mystery) or found is call.argument(1, 'default'):
         value = call.argument(1, 'default') or NONE
+        note_kept(machine.world, value, call.place)
         if loops.is_key(call.args[0]):
             machine.store.write(receiver, 'entries', {**receiver.entries, call.args[0]: value})
             return value

@@ -6,9 +6,26 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.values import Instance, Native, Value, options_of
-from ros2cc_extract.extract.static.world import PlainState, ThreadState
+from ros2cc_extract.extract.static.world import PlainState, ThreadState, World
+from ros2cc_extract.places import Place
 
 _MOST_GIVEN = 200
+
+
+def note_kept(world: World, item: Value, place: Place) -> None:
+    """
+    A run puts something into a collection, out of which others take it.
+
+    Who takes items under keys that are not known, or at other times, is not followed to an end.
+    What is an attribute of an object of the program is known by its name.
+    """
+    if world.deeds is None:
+        return
+    for option in options_of(item):
+        is_own = isinstance(option, Instance) and option.state is None
+        if isinstance(option, (Instance, Sequence, Mapping)) and not is_own:
+            for thing in reached(option):
+                world.kept_inside.setdefault(id(thing), place)
 
 
 def reached(value: Value) -> Iterator[Instance]:

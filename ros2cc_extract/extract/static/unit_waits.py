@@ -43,6 +43,7 @@ from ros2cc_extract.spec.model import ActivityKind
 
 # What is waited for of one object may be several things.
 _COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
+_KEPT = 'it is kept in a collection, and who takes it out could not be followed'
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
 
@@ -291,7 +292,7 @@ class UnitWaits:
         unsure = unsure or why_no_thread(mine, doer, self._name)
         if unsure is not None:
             found = list(_unsure(found))
-        why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer)
+        why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer, self._world)
         return found, why
 
     def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
@@ -432,7 +433,7 @@ def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
     return tuple(replace(waker, conditional=True) for waker in wakers)
 
 
-def _why_none(raw: Blocking, mine: list[Waking], doer: Doer) -> Unknown | None:
+def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: World) -> Unknown | None:
     """Why it is not known whether anybody ends a wait that nobody in sight ends."""
     if mine or not isinstance(raw.resource, ResourceRef):
         return None
@@ -443,7 +444,8 @@ def _why_none(raw: Blocking, mine: list[Waking], doer: Doer) -> Unknown | None:
         is_join = raw.call.endswith('.join')
         reason = 'nobody in sight starts it' if is_join else 'its end is not in sight'
         return Unknown(reason, raw.source)
-    return None
+    kept = world.kept_inside.get(raw.resource.number)
+    return Unknown(_KEPT, kept) if kept is not None else None
 
 
 def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:

@@ -435,6 +435,7 @@ class World:
     awaited_of_loops: list[Value] = field(default_factory=list)
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
     given: dict[int, Unknown] = field(default_factory=dict)
+    kept_inside: dict[int, Place] = field(default_factory=dict)
     activity: ActivityState | None = None
     activities: list[ActivityState] = field(default_factory=list)
     told: int = 0

@@ -66,3 +66,19 @@ def test_an_event_of_an_object_that_is_not_followed_leaves_the_wait_open() -> No
 def test_an_event_of_another_name_does_not() -> None:
     of_job = wait('Job()', 'made.finished.wait()', 'self.waiting[int(msg.data)].begun.set()')
     assert of_job.escapes is None
+
+
+def test_what_lies_in_a_list_of_a_dictionary_is_not_followed_to_an_end() -> None:
+    kept = 'made; self.waiting.setdefault(self.number, []).append(made)'
+    text = PROGRAM.replace('self.waiting[self.number] = made', kept)
+    ends = '[self.end(each) for each in self.waiting.pop(msg.data, [])]'
+    more = '    def end(self, each):\n        each.set()\n\nrclpy.init()'
+    (unit,) = scan_text(
+        text.replace('MADE', 'threading.Event()')
+        .replace('WAITS', 'made.wait()')
+        .replace('ENDS', ends)
+        .replace('rclpy.init()', more)
+    ).units
+    (work,) = (each for each in unit.callbacks if each.name == 'work')
+    (blocking,) = work.blocking
+    assert blocking.wakers or blocking.escapes
