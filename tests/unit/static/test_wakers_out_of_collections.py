@@ -68,17 +68,49 @@ def test_an_event_of_another_name_does_not() -> None:
     assert of_job.escapes is None
 
 
-def test_what_lies_in_a_list_of_a_dictionary_is_not_followed_to_an_end() -> None:
-    kept = 'made; self.waiting.setdefault(self.number, []).append(made)'
-    text = PROGRAM.replace('self.waiting[self.number] = made', kept)
-    ends = '[self.end(each) for each in self.waiting.pop(msg.data, [])]'
-    more = '    def end(self, each):\n        each.set()\n\nrclpy.init()'
-    (unit,) = scan_text(
-        text.replace('MADE', 'threading.Event()')
-        .replace('WAITS', 'made.wait()')
-        .replace('ENDS', ends)
-        .replace('rclpy.init()', more)
-    ).units
-    (work,) = (each for each in unit.callbacks if each.name == 'work')
-    (blocking,) = work.blocking
-    assert blocking.wakers or blocking.escapes
+OF_A_LOOP = """\
+import asyncio
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+class Hub(Node):
+    def __init__(self, loop):
+        super().__init__('hub')
+        self.loop = loop
+        self.waiting = {}
+        self.create_subscription(String, 'events', self.on_event, 20)
+
+    def next_event(self, robot):
+        future = self.loop.create_future()
+        self.waiting.setdefault(robot, []).append(future)
+        return future
+
+    def on_event(self, msg):
+        for future in self.waiting.pop(msg.data, []):
+            self.loop.call_soon_threadsafe(self.deliver, future)
+
+    @staticmethod
+    def deliver(future):
+        future.set_result(None)
+
+async def serve():
+    hub = Hub(asyncio.get_running_loop())
+    executor = SingleThreadedExecutor()
+    executor.add_node(hub)
+    threading.Thread(target=executor.spin, daemon=True).start()
+    await hub.next_event('mule')
+
+rclpy.init()
+asyncio.run(serve())
+"""
+
+
+def test_what_a_run_keeps_in_a_list_of_a_dictionary_is_not_followed_to_an_end() -> None:
+    (unit,) = scan_text(OF_A_LOOP).units
+    ((blocking,),) = (activity.blocking for activity in unit.activities)
+    assert not blocking.wakers
+    assert blocking.escapes is not None
+    assert 'kept in a collection' in blocking.escapes.reason
