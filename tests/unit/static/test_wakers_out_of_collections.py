@@ -103,8 +103,12 @@ async def serve():
     threading.Thread(target=executor.spin, daemon=True).start()
     await hub.next_event('mule')
 
-rclpy.init()
-asyncio.run(serve())
+def main():
+    rclpy.init()
+    asyncio.run(serve())
+
+if __name__ == '__main__':
+    main()
 """
 
 
