@@ -59,7 +59,7 @@ MULTI = 'rclpy.executors.MultiThreadedExecutor'
 EVENTS = 'rclpy.experimental.EventsExecutor'
 
 Awaited = tuple[Value | None, Value | None]
-_MANY_THREADS = 256
+_MANY_THREADS = 128
 """A pool starts threads as it needs them: what lies above this is meant as "enough"."""
 _MOST_ALIKE = 4
 """So many done-callbacks of one text are followed, each with the variables of its own."""

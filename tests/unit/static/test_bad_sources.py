@@ -322,5 +322,5 @@ def test_a_pool_has_as_many_threads_as_can_matter(tmp_path: Path) -> None:
         + 'e = MultiThreadedExecutor(10**9)\ne.add_node(n)\ne.spin()\n'
     )
     [unit] = scan([path], root=tmp_path).units
-    assert len(unit.executor.threads) == 256
-    assert unit.executor.assumed == '256 threads behave as 1000000000 do'
+    assert len(unit.executor.threads) == 128
+    assert unit.executor.assumed == '128 threads behave as 1000000000 do'
