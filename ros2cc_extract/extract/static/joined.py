@@ -73,11 +73,43 @@ def never_joined(
             # A loop that does nothing but sleep is one that polls.
             goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
             goes_round = goes_round or comes_back(block, state, world)
+            goes_round = goes_round and not has_told_of_it(block, state, wait, world)
             if goes_round or not wait.is_late:
                 why = why_for_ever(block, state, wait, world, spun)
                 if why is not None:
                     yield _told(wait, block, why)
                     return
+
+
+def has_told_of_it(
+    block: Blocking, state: ActivityState, wait: OutsideWait, world: World
+) -> bool:
+    """
+    Whether the thread was behind the wait ``block`` by then, for good.
+
+    So it is where the program has waited before for what nobody but this thread ends, outside
+    its loops and behind ``block``, as for a future that it makes done at its end.
+    """
+    behind = [way_of(each) for each in state.deeds.blocking]
+    at = behind.index(way_of(block))
+
+    def comes_later(waking: Waking) -> bool:
+        is_once = waking.by is state and not (waking.in_loop or waking.repeats or state.loops)
+        return is_once and waking.behind in behind and behind.index(waking.behind) >= at
+
+    known = (world.wakings.get(id(thing), ()) for thing in _awaited_before(wait, world))
+    ends = ([w for w in wakings if w.word in (Word.SET, Word.DONE)] for wakings in known)
+    return any(wakings and all(map(comes_later, wakings)) for wakings in ends)
+
+
+def _awaited_before(wait: OutsideWait, world: World) -> Iterator[Instance]:
+    """What the program has waited for on its way to ``wait`` whatever branches it took."""
+    for each in world.outside[: world.outside.index(wait)]:
+        is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
+        thing = each.client
+        if is_before and isinstance(thing, Instance) and id(thing) not in world.given:
+            if wait.path[: len(each.path)] == each.path:
+                yield thing
 
 
 def comes_back(block: Blocking, state: ActivityState, world: World) -> bool:

@@ -165,7 +165,8 @@ def _remember(
 ) -> None:
     # Threads are followed where they are started; what a thread waits for has no place among them.
     begun = None if world.in_thread or world.open_loops else len(world.spins)
-    world.outside.append(OutsideWait(name, on, place, world.in_thread, spun, begun=begun))
+    wait = OutsideWait(name, on, place, world.in_thread, spun, begun=begun, path=world.path)
+    world.outside.append(wait)
 
 
 def forget_awaits(world: World, told: int) -> None:

@@ -229,3 +229,63 @@ def _joins(text: str) -> list[Severity]:
     """How grave what is told of joins is."""
     found = scan_text(text).diagnostics
     return [each.severity for each in found if 'Thread.join' in each.message]
+
+
+FINISHED = """
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Empty
+from std_srvs.srv import Trigger
+
+class Tour(Node):
+    def __init__(self):
+        super().__init__('tour')
+        self.stop = threading.Event()
+        self.finished = rclpy.Future()
+        self.drive = self.create_client(Trigger, 'drive')
+        self.create_subscription(Empty, 'stop', self.on_stop, 10)
+        self.guide = threading.Thread(target=self.walk)
+        self.guide.start()
+
+    def on_stop(self, msg):
+        self.stop.set()
+        {heard}
+
+    def walk(self):
+        {first}
+        while not self.stop.is_set():
+            self.drive.call(Trigger.Request())
+            {each}
+        {last}
+
+rclpy.init()
+node = Tour()
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+executor.spin_once()
+{spin}
+node.guide.join()
+"""
+TELL = 'self.finished.set_result(True)'
+UNTIL_FINISHED = 'executor.spin_until_future_complete(node.finished)'
+
+
+@pytest.mark.parametrize(
+    ('places', 'spin', 'told'),
+    [
+        ({'last': TELL}, UNTIL_FINISHED, []),
+        # Who makes it done before may stand in its loop still.
+        ({'first': TELL}, UNTIL_FINISHED, MAY),
+        ({'each': TELL}, UNTIL_FINISHED, MAY),
+        ({'last': TELL, 'heard': TELL}, UNTIL_FINISHED, MAY),
+        ({'last': TELL}, 'executor.spin_until_future_complete(node.finished, 1.0)', MAY),
+        ({'last': TELL}, f'if node.stop.is_set():\n    {UNTIL_FINISHED}', MAY),
+    ],
+)
+def test_a_thread_that_has_told_of_its_end_is_joined_at_once(
+    places: dict[str, str], spin: str, told: list[Severity]
+) -> None:
+    lines = dict.fromkeys(('first', 'each', 'last', 'heard'), 'print()') | places
+    assert _joins(FINISHED.format(**lines, spin=spin)) == told
