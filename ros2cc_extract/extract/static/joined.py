@@ -106,10 +106,10 @@ def _awaited_before(wait: OutsideWait, world: World) -> Iterator[Instance]:
     """What the program has waited for on its way to ``wait`` whatever branches it took."""
     for each in world.outside[: world.outside.index(wait)]:
         is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
+        is_sure = wait.path[: len(each.path)] == each.path
         thing = each.client
-        if is_before and isinstance(thing, Instance) and id(thing) not in world.given:
-            if wait.path[: len(each.path)] == each.path:
-                yield thing
+        if is_before and is_sure and isinstance(thing, Instance) and id(thing) not in world.given:
+            yield thing
 
 
 def comes_back(block: Blocking, state: ActivityState, world: World) -> bool:
