@@ -81,9 +81,7 @@ def never_joined(
                     return
 
 
-def has_told_of_it(
-    block: Blocking, state: ActivityState, wait: OutsideWait, world: World
-) -> bool:
+def has_told_of_it(block: Blocking, state: ActivityState, wait: OutsideWait, world: World) -> bool:
     """
     Whether the thread was behind the wait ``block`` by then, for good.
 
