@@ -35,10 +35,10 @@ from tests.unit.live.stand_ins import (
     wrap,
 )
 
-CALLS = 5_000
+CALLS = 2_000
 PAGE_KB = resource.getpagesize() // 1024
 # Of what only the system's allocator knows; the interpreter's own comes and goes.
-LARGEST_GROWTH_KB = 1000
+LARGEST_GROWTH_KB = 400
 
 
 class Failing:
