@@ -386,7 +386,7 @@ def growth_section(growth: Sequence[Series]) -> str:
     lines = [
         GROWTH_TITLE,
         '',
-        'CPU seconds for n callbacks in one reentrant group on n threads. Q1 asks for dead-locks;',
+        'CPU seconds for n callbacks in one reentrant group on n threads. Q1 asks for deadlocks;',
         'every search of the plain text without reduction stores the same states. An empty cell',
         'did not finish, or was not tried as it would need more memory than a desktop has.',
         '',

@@ -9,7 +9,7 @@ Needs ``spin`` (Debian package of that name) and ``gcc``. The Promela text is ma
 
 * ``-a -o2`` keeps variables that are only written; without it the states are fewer than the
   model's, as no query reads which callback a thread was given.
-* ``-O2 -DSAFETY`` is customary for a search for dead-locks; ``-DNOREDUCE -DNOBOUNDCHECK
+* ``-O2 -DSAFETY`` is customary for a search for deadlocks; ``-DNOREDUCE -DNOBOUNDCHECK
   -DNOFAIR`` leave out what cannot help here. ``-w`` is the size of the hash table, ``-m`` the
   depth of the search.
 """
@@ -79,7 +79,7 @@ def promela(callbacks: int, threads: int, *, exclusive: bool) -> str:
 
 
 def run_spin(text: str, hash_bits: int = 24) -> SpinRun:
-    """Generate, compile and run the search for dead-locks, one core."""
+    """Generate, compile and run the search for deadlocks, one core."""
     with tempfile.TemporaryDirectory(prefix='spin-') as folder:
         Path(folder, 'model.pml').write_text(text, encoding='utf-8')
         for command in (GENERATE, (*COMPILE, '-o', 'pan', 'pan.c')):

@@ -70,7 +70,7 @@ def paper_queries(unit: Unit) -> tuple[Query, ...]:
         Query(
             family=Family.DEADLOCK,
             formula='A[] not deadlock',
-            words='there is no dead-lock: some step is always possible',
+            words='there is no deadlock: some step is always possible',
         ),
         *_occupation_queries(unit),
         *(_starvation_in_rounds(callback, unit.executor) for callback in unit.callbacks),
@@ -84,13 +84,13 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
     """
     List the queries of profile rclpy: the same families, then those the published lack.
 
-    A spinning executor that has nothing to do is no dead-lock, so the first asks what is left.
+    A spinning executor that has nothing to do is no deadlock, so the first asks what is left.
     """
     asked = (
         Query(
             family=Family.DEADLOCK,
             formula=f'A[] (deadlock imply cb_all_served(){_none_blocked(unit)})',
-            words='there is no dead-lock: whatever arrives can be served',
+            words='there is no deadlock: whatever arrives can be served',
         ),
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),

@@ -45,9 +45,9 @@ def _conclusion(sweep: Sweep, *, with_bound: bool) -> Iterator[str]:
     """What to do first, then which rows turn: one line per thread count and direction."""
     least = sweep.least_threads()
     if least is not None:
-        yield f'smallest number of threads without a dead-lock: {least}'
+        yield f'smallest number of threads without a deadlock: {least}'
     elif sweep.asks_for_progress:
-        yield 'none of these numbers of threads is shown to be free of a dead-lock'
+        yield 'none of these numbers of threads is shown to be free of a deadlock'
     families = [result.family or 'query' for result in sweep.verifications[0].results]
     by_count = groupby(sweep.turns(), key=lambda turn: (turn.threads, turn.max_cycle))
     for (threads, max_cycle), turns in by_count:

@@ -49,7 +49,7 @@ Search = Callable[[ClosedSpec, Sequence[Key], Limits], Found]
 
 
 def weighs_more(new: QueryResult, old: QueryResult) -> bool:
-    """Of slices asked for a dead-lock one that has one decides, then one that may have one."""
+    """Of slices asked for a deadlock one that has one decides, then one that may have one."""
     return _WEIGHTS[new.verdict] > _WEIGHTS[old.verdict]
 
 

@@ -24,9 +24,9 @@ def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
 
 def left_out_of_deadlocks(unit: Spec, profile: Profile) -> str:
     """
-    Begin the words on dead-locks where the model leaves waits out; empty where it does not.
+    Begin the words on deadlocks where the model leaves waits out; empty where it does not.
 
-    Nobody shall read that there is no dead-lock beside a finding that shows one.
+    Nobody shall read that there is no deadlock beside a finding that shows one.
     """
     waits = any(any(waits_of(callback, unit)) for callback in unit.callbacks)
     return 'blocking calls left out, ' if profile is Profile.PAPER and waits else ''

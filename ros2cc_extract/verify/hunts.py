@@ -96,7 +96,7 @@ def _hunts(slicer: Slicer, queries: Iterable[Query]) -> Iterator[_Hunt]:
 
 def _asked(hunt: _Hunt, left: Iterable[Key]) -> list[Key]:
     """
-    What is open of the callbacks of the part; the unit's dead-lock follows from its own.
+    What is open of the callbacks of the part; the unit's deadlock follows from its own.
 
     Whoever stays does not end; who starves does not run.
     """

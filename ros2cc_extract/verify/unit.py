@@ -168,7 +168,7 @@ def _ask(
 
 
 def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryResult:
-    """A slice has numbers and names of its own; ``left_out`` is said of dead-locks."""
+    """A slice has numbers and names of its own; ``left_out`` is said of deadlocks."""
     words = f'{left_out}{query.words}' if query.family is build.Family.DEADLOCK else query.words
     if (result.formula, result.words, result.callbacks) == (query.formula, words, query.callbacks):
         return result

@@ -20,7 +20,7 @@ NODE = 'arm/node.py'
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A package whose node dead-locks; the test stands in it."""
+    """A package whose node deadlocks; the test stands in it."""
     monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / '.cache'))
     make_package(tmp_path, 'arm', DEADLOCK)
     monkeypatch.chdir(tmp_path)

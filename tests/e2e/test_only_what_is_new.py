@@ -17,7 +17,7 @@ LINE = '        self.client.call(Trigger.Request())\n'
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Holds one node that dead-locks."""
+    """Holds one node that deadlocks."""
     (tmp_path / 'node.py').write_text(DEADLOCK)
     return tmp_path
 
@@ -217,7 +217,7 @@ def test_a_baseline_that_cannot_be_used(
 
 @pytest.fixture
 def repository(tmp_path: Path) -> Path:
-    """Committed: a node that dead-locks."""
+    """Committed: a node that deadlocks."""
     make_repository(tmp_path)
     (tmp_path / 'node.py').write_text(DEADLOCK)
     assert commit(tmp_path, 'start').returncode == 0

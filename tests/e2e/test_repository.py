@@ -59,7 +59,7 @@ def test_a_dead_lock_is_not_committed(run: Run, repository: Path, tmp_path: Path
     installed = pre_commit(repository, 'install', PRE_COMMIT_HOME=home)
     assert installed.returncode == 0, installed.stdout
     (repository / NODE).write_text(DEADLOCK)
-    refused = commit(repository, 'plant a dead-lock', PRE_COMMIT_HOME=home)
+    refused = commit(repository, 'plant a deadlock', PRE_COMMIT_HOME=home)
     assert refused.returncode == 1
     assert f'{NODE}:44:9: CC101' in refused.stdout
     (repository / NODE).write_text(MENDED)
@@ -134,7 +134,7 @@ def test_published_hooks_install_themselves(
     settings = {'PRE_COMMIT_HOME': str(tmp_path / 'pre-commit'), **WITHOUT_COMPILER}
     pre_commit(repository, 'install', **settings)
     (repository / NODE).write_text(DEADLOCK)
-    refused = commit(repository, 'plant a dead-lock', **settings)
+    refused = commit(repository, 'plant a deadlock', **settings)
     assert refused.returncode == 1
     assert f'{NODE}:44:9: CC101' in refused.stdout
     (repository / NODE).write_text(MENDED)
@@ -186,7 +186,7 @@ def test_action_passes_a_clean_repository(repository: Path, tmp_path: Path) -> N
 
 def test_action_blames_a_change_only_for_what_it_adds(repository: Path, tmp_path: Path) -> None:
     (repository / NODE).write_text(DEADLOCK)
-    commit(repository, 'plant a dead-lock')
+    commit(repository, 'plant a deadlock')
     (repository / NODE).write_text('# moved\n' + DEADLOCK)
     inputs = {'diff-base': 'HEAD', 'sarif-file': str(tmp_path / 'all.sarif')}
     done, output = check_step(repository, tmp_path, **inputs)
@@ -206,9 +206,9 @@ def test_action_hands_an_undecided_verdict_on(repository: Path, tmp_path: Path) 
 
 @pytest.fixture
 def shallow(repository: Path, tmp_path: Path) -> Path:
-    """As actions/checkout leaves it: one commit of a branch, on a main with a dead-lock."""
+    """As actions/checkout leaves it: one commit of a branch, on a main with a deadlock."""
     (repository / NODE).write_text(DEADLOCK)
-    commit(repository, 'plant a dead-lock')
+    commit(repository, 'plant a deadlock')
     git(repository, 'switch', '--quiet', '--create', 'feature')
     (repository / 'README.md').write_text('An arm.')
     commit(repository, 'say what it is')

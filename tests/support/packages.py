@@ -1,4 +1,4 @@
-"""ROS 2 packages for tests: a node that dead-locks, its mended twin, and a manifest."""
+"""ROS 2 packages for tests: a node that deadlocks, its mended twin, and a manifest."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """
-Dead-locks by locks that are held over a wait; ``ask`` holds one, ``take`` takes it.
+Deadlocks by locks that are held over a wait; ``ask`` holds one, ``take`` takes it.
 
 Those of the client's group, and of a spin, run on rclpy 7.1.6 and 9.1.2 (``tests/live``).
 """

@@ -43,7 +43,7 @@ def test_a_query_names_its_callbacks_and_groups():
 def test_query_file_pairs_each_formula_with_its_words():
     one = closed_unit('tick:TMR:g', 'g:REENTRANT', 1)
     assert render(one).q == (
-        '/*\nthere is no dead-lock: some step is always possible\n*/\nA[] not deadlock\n\n'
+        '/*\nthere is no deadlock: some step is always possible\n*/\nA[] not deadlock\n\n'
         '/*\ntick can run\n*/\nE<> cb_running(0)\n\n'
         '/*\ngroup g is closed while tick runs\n*/\n'
         'A[] cb_running(0) imply group_closed[cb_group_table[0]]\n\n'

@@ -1,5 +1,5 @@
 """
-Dead-locks by waiting inside a callback, as they were seen on rclpy 7.1.6 and 9.1.2.
+Deadlocks by waiting inside a callback, as they were seen on rclpy 7.1.6 and 9.1.2.
 
 ``ask`` calls the service ``plan`` synchronously by the client ``reply``.
 """
@@ -19,7 +19,7 @@ SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'Even
 
 
 def stuck(unit: ClosedSpec) -> list[str]:
-    """The callbacks that may never end; none where the model has no dead-lock."""
+    """The callbacks that may never end; none where the model has no deadlock."""
     model = render(unit, profile=Profile.RCLPY)
     read = read_model(model.xml, 'arm.xml')
     queries = [q for q in model.queries if q.family in (Family.PROGRESS, Family.DEADLOCK)]

@@ -50,10 +50,10 @@ node:
 
 
 def said(closed: ClosedSpec) -> list[str]:
-    """Who may not come to its end, or why that is not known; with ``dead-lock`` for the unit."""
+    """Who may not come to its end, or why that is not known; with ``deadlock`` for the unit."""
     found = []
     for result in verify_unit(closed, OPTIONS).results:
-        name = ' '.join(result.callbacks) if result.family == 'progress' else 'dead-lock'
+        name = ' '.join(result.callbacks) if result.family == 'progress' else 'deadlock'
         if result.family not in ('progress', 'deadlock') or result.verdict is Verdict.SATISFIED:
             continue
         undecided = result.verdict is Verdict.UNDECIDED
@@ -75,10 +75,10 @@ DONE = blocking(wait('done', 'by: tick'))
 
 @pytest.mark.parametrize('kind', [SINGLE, EVENTS])
 def test_on_one_thread_nobody_sets_an_event_that_is_waited_for(kind: str):
-    assert said(unit(f'drive a: {DONE}\ntick b', kind=kind, threads=1)) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {DONE}\ntick b', kind=kind, threads=1)) == ['deadlock', 'drive']
 
 
-@pytest.mark.parametrize(('group', 'stuck'), [('a', ['dead-lock', 'drive']), ('b', [])])
+@pytest.mark.parametrize(('group', 'stuck'), [('a', ['deadlock', 'drive']), ('b', [])])
 def test_an_event_set_by_a_member_of_the_own_group_never_comes(group: str, stuck: list[str]):
     assert said(unit(f'drive a: {DONE}\ntick {group}')) == stuck
 
@@ -90,7 +90,7 @@ def test_one_of_several_wakers_is_enough_for_an_event():
 
 def test_where_all_are_needed_one_that_cannot_run_is_missed():
     both = blocking(wait('met', 'by: tick', 'by: scan', needs='all'))
-    assert said(unit(f'drive a: {both}\ntick a\nscan b')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {both}\ntick a\nscan b')) == ['deadlock', 'drive']
     assert said(unit(f'drive a: {both}\ntick c\nscan b')) == []
 
 
@@ -106,7 +106,7 @@ def test_each_wait_uses_up_a_signal_and_whoever_gives_it_comes_again():
 def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
     item = blocking(wait('queue', 'by: tick', needs='each'))
     assert said(unit(f'drive a: {item}\nturn b: {item}\ntick c: one_shot: true')) == [
-        'dead-lock',
+        'deadlock',
         'drive',
         'turn',
     ]
@@ -115,7 +115,7 @@ def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
 @pytest.mark.parametrize(
     ('forgets', 'once', 'stuck'),
     [
-        ('true', 'true', ['dead-lock', 'drive']),
+        ('true', 'true', ['deadlock', 'drive']),
         ('true', 'false', []),
         ('false', 'true', []),
     ],
@@ -130,13 +130,13 @@ def test_what_is_forgotten_while_nobody_waits_must_come_again(
 def test_a_thread_that_tells_once_may_come_before_the_wait():
     told = blocking(wait('cond', 'by: work, after: 0', needs='each', more=', forgets: true'))
     thread = 'activities: [{name: work, kind: thread}]'
-    assert said(unit(f'drive a: {told}', activities=thread)) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {told}', activities=thread)) == ['deadlock', 'drive']
 
 
 def test_a_semaphore_that_nobody_gives_back_may_have_been_used_up_by_earlier_runs():
     one = blocking(wait('room', needs='each', more=', initial: 1'))
     reason = 'it is not known whether Event.wait ends'
-    assert said(unit(f'drive a: {one}')) == [f'dead-lock: {reason}', f'drive: {reason}']
+    assert said(unit(f'drive a: {one}')) == [f'deadlock: {reason}', f'drive: {reason}']
 
 
 def test_a_semaphore_that_is_given_back_lets_everybody_through():
@@ -163,7 +163,7 @@ def crossing(order_of_a: str, order_of_b: str) -> ClosedSpec:
         ('sets, waits', 'waits, sets', []),
         ('waits, sets', 'sets, waits', []),
         ('sets, waits', 'sets, waits', []),
-        ('waits, sets', 'waits, sets', ['dead-lock', 'a', 'b']),
+        ('waits, sets', 'waits, sets', ['deadlock', 'a', 'b']),
     ],
 )
 def test_two_waits_that_cross(of_a: str, of_b: str, stuck: list[str]):
@@ -171,7 +171,7 @@ def test_two_waits_that_cross(of_a: str, of_b: str, stuck: list[str]):
 
 
 def test_a_wait_that_nobody_ends_is_for_ever():
-    assert said(unit(f'drive a: {blocking(wait("done"))}')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {blocking(wait("done"))}')) == ['deadlock', 'drive']
 
 
 @pytest.mark.parametrize(
@@ -193,7 +193,7 @@ NOT_KNOWN = 'it is not known whether Event.wait at arm.py:7 ends (given to a lib
 
 def test_a_wait_that_somebody_unknown_may_end_leaves_open_who_hangs_by_it():
     assert said(unit(f'drive a: {blocking(ESCAPES)}\ntick a')) == [
-        f'dead-lock: {NOT_KNOWN}',
+        f'deadlock: {NOT_KNOWN}',
         f'drive: {NOT_KNOWN}',
     ]
 
@@ -205,14 +205,14 @@ def test_it_leaves_nothing_open_where_a_known_waker_ends_it_in_any_case():
 def test_who_hangs_however_that_wait_ends_is_told():
     """The second wait is for a member of the own group."""
     waits = blocking(ESCAPES, wait('other', 'by: tick'))
-    assert said(unit(f'drive a: {waits}\ntick a')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {waits}\ntick a')) == ['deadlock', 'drive']
 
 
 def test_who_ends_whatever_is_not_known_is_decided():
     """Somebody else's unknown wait is no reason to leave this one open."""
     waits = blocking(wait('other', 'by: scan'))
     assert said(unit(f'drive a: {blocking(ESCAPES)}\nturn b: {waits}\ntick a\nscan c')) == [
-        f'dead-lock: {NOT_KNOWN}',
+        f'deadlock: {NOT_KNOWN}',
         f'drive: {NOT_KNOWN}',
     ]
 
@@ -220,7 +220,7 @@ def test_who_ends_whatever_is_not_known_is_decided():
 def test_a_waker_that_is_not_in_the_unit_is_not_known():
     (dead, drive) = said(unit(f'drive a: {blocking(wait("done", "by: stranger"))}'))
     assert (dead, drive) == (
-        'dead-lock: it is not known whether Event.wait ends',
+        'deadlock: it is not known whether Event.wait ends',
         'drive: it is not known whether Event.wait ends',
     )
 
@@ -230,17 +230,17 @@ SILENT = 'it is not known whether tick always signals done at arm.py:9'
 
 def test_a_signal_in_a_branch_leaves_open_what_needs_it():
     maybe = blocking(wait('done', 'by: tick, conditional: true, source: arm.py:9'))
-    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'dead-lock: {SILENT}', f'drive: {SILENT}']
+    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'deadlock: {SILENT}', f'drive: {SILENT}']
 
 
 def test_a_hang_that_needs_no_skipped_branch_is_proven():
     maybe = blocking(wait('done', 'by: tick, conditional: true'))
-    assert said(unit(f'drive a: {maybe}\ntick a')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {maybe}\ntick a')) == ['deadlock', 'drive']
 
 
 def test_a_token_in_a_branch_that_is_once_not_taken_may_never_come():
     maybe = blocking(wait('done', 'by: tick, conditional: true, source: arm.py:9', needs='each'))
-    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'dead-lock: {SILENT}', f'drive: {SILENT}']
+    assert said(unit(f'drive a: {maybe}\ntick b')) == [f'deadlock: {SILENT}', f'drive: {SILENT}']
 
 
 LOCKED = ', held: [lock]'
@@ -248,14 +248,14 @@ LOCKED = ', held: [lock]'
 
 def test_a_signal_that_needs_a_lock_held_over_the_wait_never_comes():
     held = blocking(wait('done', 'by: tick, held: [lock]', more=LOCKED))
-    assert said(unit(f'drive a: {held}\ntick b')) == ['dead-lock', 'drive', 'tick']
+    assert said(unit(f'drive a: {held}\ntick b')) == ['deadlock', 'drive', 'tick']
 
 
 def test_a_lock_that_is_taken_at_an_unknown_place_leaves_it_open():
     held = blocking(wait('done', 'by: tick', more=LOCKED))
     reason = 'it is not known whether the wait for the lock lock ends'
     assert said(unit(f'drive a: {held}\ntick b: locks: [{{name: lock}}]')) == [
-        f'dead-lock: {reason}',
+        f'deadlock: {reason}',
         f'drive: {reason}',
         f'tick: {reason}',
     ]
@@ -266,13 +266,13 @@ def test_a_branch_may_skip_a_wait():
     waits = blocking(
         wait('first', 'by: tick', more=', conditional: true'), wait('second', 'by: scan')
     )
-    assert said(unit(f'drive a: {waits}\ntick b\nscan a')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {waits}\ntick b\nscan a')) == ['deadlock', 'drive']
 
 
 def test_an_awaited_future_that_another_callback_makes_done():
     awaits = DONE.replace('Event.wait', 'await')
     assert said(unit(f'drive a: {awaits}\ntick b', threads=1)) == []
-    assert said(unit(f'drive a: {awaits}\ntick a')) == ['dead-lock', 'drive']
+    assert said(unit(f'drive a: {awaits}\ntick a')) == ['deadlock', 'drive']
     assert said(unit(f'drive a: {awaits}\ntick b', threads=1, kind=SINGLE)) == []
 
 
@@ -303,7 +303,7 @@ def test_a_thread_feeds_a_queue_as_often_as_it_is_asked_for():
     rows = f'drive a: {blocking(item, item)}\nturn b: {blocking(item)}'
     assert said(unit(rows, activities=beside(FEEDER))) == []
     once = 'name: feeder, kind: thread'
-    assert said(unit(rows, activities=beside(once))) == ['dead-lock', 'drive', 'turn']
+    assert said(unit(rows, activities=beside(once))) == ['deadlock', 'drive', 'turn']
 
 
 def test_a_thread_that_a_callback_starts_cannot_end_a_wait_before_it_is_started():
@@ -311,7 +311,7 @@ def test_a_thread_that_a_callback_starts_cannot_end_a_wait_before_it_is_started(
     waits = blocking(wait('done', 'by: feeder'))
     assert said(unit(f'drive a: {waits}\nturn b', activities=beside(feeder))) == []
     assert said(unit(f'drive a: {waits}\nturn a', activities=beside(feeder))) == [
-        'dead-lock',
+        'deadlock',
         'drive',
     ]
 
@@ -324,7 +324,7 @@ def test_a_join_on_a_thread_that_waits_for_a_callback(group: str, stuck: bool):
     )
     joins = blocking(wait('worker', 'by: worker').replace('Event.wait', 'Thread.join'))
     closed = unit(f'drive a: {joins}\ntick {group}', activities=beside(worker))
-    assert said(closed) == (['dead-lock', 'drive', 'worker'] if stuck else [])
+    assert said(closed) == (['deadlock', 'drive', 'worker'] if stuck else [])
 
 
 @pytest.mark.parametrize(('call', 'stuck'), [('Thread.join', False), ('Event.wait', True)])
@@ -333,7 +333,7 @@ def test_what_nobody_has_started_cannot_be_joined(call: str, stuck: bool):
     worker = 'name: worker, kind: thread, starts: [{by: tick, after: 0}]'
     joins = blocking(wait('worker', 'by: worker').replace('Event.wait', call))
     closed = unit(f'drive a: {joins}\ntick a', activities=beside(worker))
-    assert said(closed) == (['dead-lock', 'drive'] if stuck else [])
+    assert said(closed) == (['deadlock', 'drive'] if stuck else [])
 
 
 def test_a_started_thread_that_never_ends_is_joined_in_vain():
@@ -342,7 +342,7 @@ def test_a_started_thread_that_never_ends_is_joined_in_vain():
     )
     joins = blocking(wait('worker', 'by: worker').replace('Event.wait', 'Thread.join'))
     closed = unit(f'drive a: {joins}\ntick a\nscan a', activities=beside(worker))
-    assert said(closed) == ['dead-lock', 'drive', 'worker']
+    assert said(closed) == ['deadlock', 'drive', 'worker']
 
 
 def test_a_thread_that_needs_a_lock_that_is_held_while_it_is_waited_for():
@@ -350,7 +350,7 @@ def test_a_thread_that_needs_a_lock_that_is_held_while_it_is_waited_for():
     held = 'by: worker, after: 0, held: [lock]'
     waits = blocking(wait('done', held, more=LOCKED))
     assert said(unit(f'drive a: {waits}', activities=beside(worker))) == [
-        'dead-lock',
+        'deadlock',
         'drive',
         'worker',
     ]
@@ -363,7 +363,7 @@ def test_a_thread_takes_its_locks_before_its_end(held: str, stuck: bool):
     worker = f'name: worker, kind: thread, node: arm, locks: [{{name: lock}}], {blocking(stops)}'
     joins = wait('worker', 'by: worker', more=held).replace('Event.wait', 'Thread.join')
     closed = unit(f'drive a: {blocking(joins)}', activities=beside(worker))
-    assert said(closed) == (['dead-lock', 'drive', 'worker'] if stuck else [])
+    assert said(closed) == (['deadlock', 'drive', 'worker'] if stuck else [])
 
 
 def test_a_thread_calls_a_service_of_a_group_that_is_held():
@@ -371,7 +371,7 @@ def test_a_thread_calls_a_service_of_a_group_that_is_held():
     worker = f'name: worker, kind: thread, {blocking(calls)}'
     rows = 'drive a: ' + blocking(wait('done', 'by: worker')) + '\nclient a'
     closed = unit(rows, activities=beside(worker))
-    assert said(closed) == ['dead-lock', 'drive', 'worker']
+    assert said(closed) == ['deadlock', 'drive', 'worker']
     assert said(unit(rows.replace('client a', 'client b'), activities=beside(worker))) == []
 
 
@@ -383,7 +383,7 @@ def test_a_loop_that_waits_first_is_at_rest_there():
 
 def test_a_loop_for_which_nobody_works_waits_for_ever():
     worker = f'name: worker, kind: thread, loops: true, {blocking(wait("queue", needs="each"))}'
-    assert said(unit('tick a', activities=beside(worker))) == ['dead-lock', 'worker']
+    assert said(unit('tick a', activities=beside(worker))) == ['deadlock', 'worker']
 
 
 def test_of_a_thread_of_which_nothing_is_known_only_what_needs_it_is_open():
@@ -391,7 +391,7 @@ def test_of_a_thread_of_which_nothing_is_known_only_what_needs_it_is_open():
     waits = blocking(wait('fed', 'by: worker'))
     reason = 'it is not known whether input at arm.py:5 ends'
     closed = unit(f'drive a: {waits}\nturn b: {DONE}\ntick c', activities=beside(worker))
-    assert said(closed) == [f'dead-lock: {reason}', f'drive: {reason}']
+    assert said(closed) == [f'deadlock: {reason}', f'drive: {reason}']
     assert said(unit(f'turn b: {DONE}\ntick c', activities=beside(worker))) == []
 
 

@@ -64,7 +64,7 @@ def test_a_column_is_headed_by_its_threads_and_where_they_differ_by_its_bound(
 def test_the_smallest_number_of_threads_leads_and_rows_that_turn_are_grouped() -> None:
     said = below_the_table('pool_exhaustion', range(1, 5), (1,), RCLPY)
     assert said == (
-        '  smallest number of threads without a dead-lock: 3\n'
+        '  smallest number of threads without a deadlock: 3\n'
         '  from 2 threads on:\n'
         '    not satisfied -> satisfied: executable 5-6; can overlap 22-23, 26-27, 30; '
         'starvation 38-39\n'
@@ -82,7 +82,7 @@ def test_the_smallest_number_of_threads_leads_and_rows_that_turn_are_grouped() -
 
 def test_where_no_number_of_threads_helps_that_is_said() -> None:
     said = below_the_table('service_deadlock', range(2, 4), (1,), RCLPY)
-    assert said == '  none of these numbers of threads is shown to be free of a dead-lock\n'
+    assert said == '  none of these numbers of threads is shown to be free of a deadlock\n'
 
 
 def test_nothing_is_concluded_where_nobody_waits() -> None:

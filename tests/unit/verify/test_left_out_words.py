@@ -20,14 +20,14 @@ EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
         (
             'service_deadlock',
             Profile.PAPER,
-            'blocking calls left out, there is no dead-lock: some step is always possible',
+            'blocking calls left out, there is no deadlock: some step is always possible',
         ),
         (
             'service_deadlock',
             Profile.RCLPY,
-            'there is no dead-lock: whatever arrives can be served',
+            'there is no deadlock: whatever arrives can be served',
         ),
-        ('two_groups', Profile.PAPER, 'there is no dead-lock: some step is always possible'),
+        ('two_groups', Profile.PAPER, 'there is no deadlock: some step is always possible'),
     ],
 )
 def test_dead_locks_are_not_denied_by_a_model_that_knows_no_blocking(

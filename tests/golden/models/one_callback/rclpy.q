@@ -1,5 +1,5 @@
 /*
-there is no dead-lock: whatever arrives can be served
+there is no deadlock: whatever arrives can be served
 */
 A[] (deadlock imply cb_all_served())
 

@@ -1,5 +1,5 @@
 /*
-there is no dead-lock: some step is always possible
+there is no deadlock: some step is always possible
 */
 A[] not deadlock
 
