@@ -26,6 +26,7 @@ from ros2cc_extract.spec.model import (
 )
 
 DEFAULT_COUNT = 'default_cpu_count'
+_FLOAT_ERROR_NS = 1e-3
 Fact = TypeVar('Fact')
 
 
@@ -343,6 +344,9 @@ def _diff_facts(unit: str, mine: Callback, theirs: Callback) -> Iterator[Differe
 
 
 def _plain(fact: object) -> object:
+    if isinstance(fact, float):
+        # rclpy cuts a period to whole nanoseconds (node.py of 7.1.6, create_timer).
+        return int(fact * 1e9 + _FLOAT_ERROR_NS)
     return fact.lstrip('/') if isinstance(fact, str) else fact
 
 

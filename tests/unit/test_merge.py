@@ -109,6 +109,15 @@ def test_known_facts_that_differ_are_told(
     assert not difference.marked
 
 
+@pytest.mark.parametrize('hertz', [3.0, 15.0, 30.0, 60.0, 120.0])
+def test_a_period_that_rclpy_cuts_to_nanoseconds_is_the_same(hertz: float) -> None:
+    static, live = (
+        replace(STATIC, callbacks=(replace(TICK, period_s=period),))
+        for period in (1.0 / hertz, int(1e9 / hertz) / 1e9)
+    )
+    assert diff([static], [live]) == ()
+
+
 def test_two_groups_in_place_of_one_are_a_difference() -> None:
     one = replace(STATIC, callbacks=(replace(TICK, group='g'), ON_JOINT), groups=STATIC.groups[1:])
     two = replace(
