@@ -1,35 +1,48 @@
 """
-Threads that empty a bounded queue round by round, and wait for nobody else meanwhile.
+Threads that empty a queue round by round, and wait for nobody else meanwhile.
 
 Whoever waits for room in it goes on when such a thread has taken the next item, however large the
-queue is and however often somebody puts: no number of runs uses it up.
+queue is and however often somebody puts: no number of runs uses it up. Whoever joins it goes on
+when such a thread has done the last one, and at once where there is none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.stock import Doer
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
-from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef, Word
+from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef, Waking, Word
 from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
+_ENDED_BY = {'Queue.put': Word.GET, 'Queue.join': Word.DONE}
+
+
+def may_find_it_done(raw: Blocking, wakings: Iterable[Waking], doer: Doer) -> bool:
+    """Whether who joins a queue has put nothing in itself: it may be empty, and all be done."""
+    puts = (waking.by for waking in wakings if waking.word is Word.PUT)
+    return raw.call == 'Queue.join' and not any(by is doer for by in puts)
+
 
 def taken_by_itself(raw: Blocking, world: World, doers: Sequence[Doer]) -> Place | None:
-    """Where a thread takes out of the queue, if nothing but its own work keeps it from that."""
-    queue = raw.resource
-    if raw.call != 'Queue.put' or not isinstance(queue, ResourceRef):
+    """
+    Where a thread takes out of the queue, or is done, for sure.
+
+    Nothing but its own work keeps it from that.
+    """
+    queue, word = raw.resource, _ENDED_BY.get(raw.call)
+    if word is None or not isinstance(queue, ResourceRef):
         return None
     wakings = world.wakings.get(queue.number, ())
     if any(w.word is Word.PUT and w.is_sign and isinstance(w.by, EntityState) for w in wakings):
         return None  # that may be the last one
     for waking in wakings:
         by = waking.by
-        if waking.word is not Word.GET or not isinstance(by, ActivityState):
+        if waking.word is not word or not isinstance(by, ActivityState):
             continue
         is_sure = waking.in_loop and not waking.conditional and _is_begun(by)
         if is_sure and _goes_on(by, queue, world, doers):

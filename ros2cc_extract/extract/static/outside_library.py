@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static import pipes
+from ros2cc_extract.extract.static.exit_hooks import on_exit
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass, Property
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.relevance import noted_on, walk
@@ -290,6 +291,7 @@ TABLE = Library(
             name: _waiting(name.removeprefix('builtins.'), row) for name, row in _FUNCTIONS.items()
         },
         _WAIT_KEY: _wait_key,
+        'atexit.register': on_exit,
         'signal.signal': on_signal,
     },
 )

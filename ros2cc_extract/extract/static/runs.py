@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.cuts import note_cut
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
+from ros2cc_extract.extract.static.exit_hooks import run_exit_hooks
 from ros2cc_extract.extract.static.foreign_loops import note_foreign_loops
 from ros2cc_extract.extract.static.handed_on import next_round
 from ros2cc_extract.extract.static.interpreter import Interpreter
@@ -86,6 +87,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
             if isinstance(function, Value):
                 result = machine.call(function, Call(place))
                 machine.run_if_coroutine(result, place)
+        run_exit_hooks(machine)
 
     guarded(machine, follow, place, entry.source.tree)
     _run_escaped(machine)

@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static import (
     ending,
     flags,
     heard,
+    iterators,
     loops,
     memo,
     polls,
@@ -342,6 +343,8 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     place = frame.place(node.iter)
     values = changing.evaluate_iterated(machine, node, frame)
     machine.note_iteration(node.iter, frame)
+    values = iterators.iterated(machine, values, place)
+    step = iterators.next_of(machine, values, place)
     items = loops.items_to_run(machine, values, place)
 
     with _loop(machine, frame), heard.in_loop(machine.world, heard.NOTHING_ASKED):
@@ -349,7 +352,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
 
             def once(item: Value) -> int:
                 begin(item)
-                machine.assign(node.target, item, frame)
+                machine.assign(node.target, step() if step is not None else item, frame)
                 answers.assume_picked(machine.world, values, item)
                 return _round(machine, node.body, frame)
 

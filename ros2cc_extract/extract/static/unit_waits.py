@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static import barriers, pipes, stock
 from ros2cc_extract.extract.static.activities import is_activity
-from ros2cc_extract.extract.static.consumers import taken_by_itself
+from ros2cc_extract.extract.static.consumers import may_find_it_done, taken_by_itself
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
 from ros2cc_extract.extract.static.one_by_one import keeps_to_itself
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
@@ -250,10 +250,13 @@ class UnitWaits:
             named = replace(named, answer_to=self._answer_to(raw, raw.resource, doer))
             if is_activity(doer):
                 named = replace(named, at_end=self._ended_last(raw.resource))
-            initial = self._initial(raw.resource, wakings)
             given = [w for w in wakings if w.word in raw.resource.ended_by]
+            initial = self._initial(raw.resource, wakings)
+            if given and may_find_it_done(raw, wakings, doer):
+                initial = None
             number = stock.counted(raw, initial, self._doers, given)
-            taken = taken_by_itself(raw, self._world, self._doers) if initial != 0 else None
+            is_sure = initial != 0 and escapes is None
+            taken = taken_by_itself(raw, self._world, self._doers) if is_sure else None
             if taken is not None:
                 wakers = [Waker(by=TIME, source=taken)]
             elif number:

@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.values import Instance
 from ros2cc_extract.extract.static.wakings import ResourceRef, Waking
 from ros2cc_extract.extract.static.world import End, EntityState, World
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP
 from ros2cc_extract.spec.model import EntityKind, When
 
 Doer = EntityState | ActivityState
@@ -67,6 +68,8 @@ def why_gone(
 def _why_one_is_gone(
     world: World, waker: object, is_harmless: Callable[[End], bool], name: Names
 ) -> Unknown | None:
+    if isinstance(waker, ActivityState):
+        return _why_thread_ends(world, waker, is_harmless, name)
     if not isinstance(waker, EntityState):
         return None
     its_name = name(waker) or 'a callback'
@@ -77,6 +80,20 @@ def _why_one_is_gone(
             doer = 'a thread' if isinstance(end.doer, ActivityState) else 'a callback'
             does = _DOES[end.kind].format(its_name)
             return Unknown(f'{name(end.doer) or doer} {does}', end.place)
+    return None
+
+
+def _why_thread_ends(
+    world: World, thread: ActivityState, is_harmless: Callable[[End], bool], name: Names
+) -> Unknown | None:
+    """An error that nothing catches ends a thread whose loop others wait for."""
+    calls = {block.call for block in thread.deeds.blocking}
+    if not thread.loops and calls.isdisjoint((WORKING_LOOP, POLLING_LOOP)):
+        return None
+    for end in world.ends:
+        if end.kind == RAISES and end.doer is thread and not is_harmless(end):
+            its_name = name(thread) or 'a thread'
+            return Unknown(f'{its_name}, which ends it, may end by {end.text}', end.place)
     return None
 
 

@@ -479,6 +479,7 @@ class World:
     decorated: list[Function] = field(default_factory=list)
     decorated_classes: list[Class] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
+    exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
     instances: list[Instance] = field(default_factory=list)
     subclasses: dict[Class, list[Class]] = field(default_factory=dict)
     made_of: Counter[Class] = field(default_factory=Counter)
