@@ -367,6 +367,8 @@ class Spec:
 
     :param name: UPPAAL identifier; with several nodes the name of the unit.
     :param activities: threads of the program's own, and ``main``, that run beside the executor.
+    :param set_up: waits of the code that sets the unit up or ends it: ``main``, constructors, what
+        nobody in sight calls. They hold nobody up but that code, and no model has them.
     :param nodes: the ROS nodes served, in the order of ``add_node``.
     :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
         file are alternatives of each other.
@@ -379,6 +381,7 @@ class Spec:
     groups: tuple[CallbackGroup, ...]
     executor: Executor
     activities: tuple[Activity, ...] = ()
+    set_up: tuple[Blocking, ...] = ()
     origin: Origin = Origin.MANUAL
     nodes: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()

@@ -19,6 +19,7 @@ from ros2cc_extract.files import read_named
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.codecs import COUNT, TEXT, Codec, JsonSchema, listing, member, optional
 from ros2cc_extract.spec.cursor import Cursor, compose
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.fields import Flow, Plain, record
 from ros2cc_extract.spec.model import (
     Activity,
@@ -31,6 +32,7 @@ from ros2cc_extract.spec.model import (
 )
 from ros2cc_extract.spec.tables import (
     ACTIVITY,
+    BLOCKING,
     CALLBACK,
     EXECUTOR,
     GROUP,
@@ -62,6 +64,7 @@ class _Node:
     groups: tuple[CallbackGroup, ...]
     executor: Executor
     activities: tuple[Activity, ...] = ()
+    set_up: tuple[Blocking, ...] = ()
 
 
 def _always(_owner: Any) -> bool:
@@ -89,6 +92,7 @@ _NODE = record(
         Plain('callback_groups', 'groups', listing(GROUP, at_least=1)),
         Plain('executor', 'executor', EXECUTOR),
         Plain('activities', 'activities', listing(ACTIVITY), ()),
+        Plain('set_up', 'set_up', listing(BLOCKING), ()),
     ),
     required=('name', 'callbacks', 'callback_groups', 'executor'),
 )
@@ -110,6 +114,7 @@ def _decode(cursor: Cursor) -> Spec:
         groups=node.groups,
         executor=node.executor,
         activities=node.activities,
+        set_up=node.set_up,
         origin=header.origin,
         nodes=header.nodes,
         sources=header.sources,
@@ -134,6 +139,7 @@ def _encode(spec: Spec) -> dict[str, Any]:
         groups=spec.groups,
         executor=spec.executor,
         activities=spec.activities,
+        set_up=spec.set_up,
     )
     written: dict[str, Any] = {} if header == _Header() else {'ros2cc': _HEADER.encode(header)}
     return {**written, 'node': _NODE.encode(node)}

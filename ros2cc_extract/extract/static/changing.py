@@ -3,15 +3,16 @@ What a test in a callback reads may have changed since the set-up.
 
 Callbacks are followed one after the other from the state that the set-up leaves behind, but run
 in any order: a test on what some other function changes is open, whatever is stored there now.
+So it is in the set-up itself once anything has been spun.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Sequence as Several
 
 from ros2cc_extract.extract.static import flags, heard, loops
-from ros2cc_extract.extract.static.containers import Collection
+from ros2cc_extract.extract.static.containers import Collection, Sequence
 from ros2cc_extract.extract.static.handed_on import note_met
 from ros2cc_extract.extract.static.machine import Frame, Machine
 from ros2cc_extract.extract.static.reading import Asked, computed_from, names_in
@@ -34,6 +35,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import When
 
@@ -84,7 +86,7 @@ def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool |
 
 
 def evaluate_copied(
-    machine: Machine, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
+    machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
 ) -> Value:
     """The value of an assignment; a name that gets it is as open as what was read for it."""
     before = machine.world.changing
@@ -97,7 +99,7 @@ def evaluate_copied(
 
 
 def _evaluate_for(
-    machine: Machine, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
+    machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
 ) -> Value:
     if machine.world.deeds is None:
         return machine.evaluate(value, frame)
@@ -139,13 +141,18 @@ def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Fra
     return values
 
 
+def _others_have_run(world: World) -> bool:
+    """Whether callbacks may have run since the set-up has stored something: it has spun, too."""
+    return world.when is When.CALLBACK or (world.when is When.START and bool(world.spins))
+
+
 def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:
     """``owner.name`` is read and gives ``held``."""
-    if machine.world.when is not When.CALLBACK:
+    if not _others_have_run(machine.world):
         return
     if isinstance(held, Collection) and _may_be_filled(machine, held):
         machine.world.changing += 1
-        if not holds_objects(held):
+        if not holds_objects(held) and machine.world.when is When.CALLBACK:
             machine.world.lacking.append((held, None))
     elif is_assigned_later(machine, owner, name):
         machine.world.changing += 1
@@ -180,7 +187,7 @@ def ever_held(machine: Machine, owner: Instance, name: str) -> list[Value] | Non
 
 def note_global(machine: Machine, module: Module, name: str, held: Value) -> None:
     """``module.name`` is read and gives ``held``."""
-    if machine.world.when is not When.CALLBACK:
+    if not _others_have_run(machine.world):
         return
     if _may_be_filled(machine, held):
         machine.world.changing += 1
@@ -191,16 +198,27 @@ def note_global(machine: Machine, module: Module, name: str, held: Value) -> Non
 
 def note_name(machine: Machine, name: str, held: Value, frame: Frame) -> None:
     """A name is read and gives ``held``."""
-    if machine.world.when is not When.CALLBACK:
+    if not _others_have_run(machine.world):
         return
     if name in frame.scope.slots:
-        machine.world.changing += name in frame.copies
+        is_open = name in frame.copies
+        if machine.world.when is When.START:
+            is_open = is_open or _may_be_filled(machine, held)
+            is_open = is_open or _is_rebound_inside(machine, name, frame)
+        machine.world.changing += is_open
         return
     if _may_be_filled(machine, held):
         machine.world.changing += 1
     elif _is_rebound(machine, name, frame):
         machine.world.changing += 1
         note_met(machine.world, _owner_of(name, frame), name, held)
+
+
+def _is_rebound_inside(machine: Machine, name: str, frame: Frame) -> bool:
+    """Whether a function inside of what is followed may rebind its ``name``."""
+    if frame.function is None:
+        return name in machine.changed_globals(frame.module)
+    return name in noted_on(frame.function.node, 'nonlocals', _nonlocal_names)
 
 
 def _owner_of(name: str, frame: Frame) -> Scope | Module:
@@ -220,7 +238,12 @@ def _is_rebound(machine: Machine, name: str, frame: Frame) -> bool:
 
 
 def _may_be_filled(machine: Machine, held: Value | None) -> bool:
-    return isinstance(held, Collection) and loops.may_be_filled(machine, held)
+    if not isinstance(held, Collection):
+        return False
+    if machine.world.when is When.START:
+        is_fixed = isinstance(held, Sequence) and held.kind in ('tuple', 'range')
+        return not is_fixed and not held.slots.get('items') and not held.slots.get('entries')
+    return loops.may_be_filled(machine, held)
 
 
 def holds_objects(collection: Collection) -> bool:
@@ -254,7 +277,7 @@ def _nonlocals(tree: ast.Module) -> frozenset[str]:
     return noted_on(tree, 'nonlocals', _nonlocal_names)
 
 
-def _nonlocal_names(tree: ast.Module) -> frozenset[str]:
+def _nonlocal_names(tree: ast.AST) -> frozenset[str]:
     return frozenset(
         name for part in walk(tree) if isinstance(part, ast.Nonlocal) for name in part.names
     )

@@ -73,7 +73,7 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
         if unit.callbacks and all(_is_told(c, owned, named) for c in unit.callbacks):
             continue
         is_known = any(not isinstance(callback.node, Unknown) for callback in unit.callbacks)
-        key = id(unit) if is_known else replace(unit, entry=None, sources=())
+        key = id(unit) if is_known else replace(unit, entry=None, sources=(), set_up=())
         kept.setdefault(key, unit)
     return tuple(kept.values())
 

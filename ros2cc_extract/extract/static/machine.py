@@ -362,7 +362,12 @@ class Machine(ABC):
 
     @abstractmethod
     def note_loop_on_data(
-        self, name: str, on: DataRef | ClockRef | Unknown, seconds: Unknown | None, place: Place
+        self,
+        name: str,
+        on: DataRef | ClockRef | Unknown,
+        seconds: Unknown | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
 

@@ -47,6 +47,7 @@ _PLAIN = {
     'spin_until_future_complete': ('future',),
 }
 _PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+_WAITING = _PASTIMES | {'spin_once', 'time', 'monotonic', 'now', 'get_clock', 'warning_once'}
 _HARMLESS = _PASTIMES | {'error', 'append', 'len', 'str', 'time', 'monotonic', 'put', 'set'}
 
 
@@ -89,6 +90,14 @@ def is_idle(loop: ast.While) -> bool:
         for part in ast.walk(statement)
         if isinstance(part, (ast.Call, ast.Await))
     )
+
+
+def only_waits(loop: ast.While) -> bool:
+    """True for a loop that only sleeps, logs and spins while it waits."""
+    parts = [part for each in loop.body for part in ast.walk(each)]
+    called = {_called_name(part) for part in parts if isinstance(part, ast.Call)}
+    stores = (part for part in parts if isinstance(part, (ast.Attribute, ast.Subscript)))
+    return called <= _WAITING and not any(isinstance(part.ctx, ast.Store) for part in stores)
 
 
 def minds_nothing(loop: ast.While) -> bool:
@@ -196,7 +205,7 @@ def note_unanswered(world: World) -> None:
     world.diagnostics.extend(
         each for each in told if each.severity is Severity.ERROR or each.place not in worst
     )
-    world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(_spun_beside(wait, world))))
+    world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(spun_beside(wait, world))))
 
 
 def _told(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
@@ -207,7 +216,7 @@ def _told(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
         yield from _unwritten(wait, world)
         return
     for node, what in _needed(wait, wait.client, world):
-        if not any(node is spun for spun in (*wait.spun, *_spun_beside(wait, world))):
+        if not any(node is spun for spun in (*wait.spun, *spun_beside(wait, world))):
             yield _unanswered(wait, wait.client, what)
             return
 
@@ -219,7 +228,7 @@ def _may_be_spun_elsewhere(node: Instance) -> bool:
 
 def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagnostic]:
     """Nobody makes a future done, or only callbacks that nobody serves meanwhile end the wait."""
-    spun = (*wait.spun, *_spun_beside(wait, world))
+    spun = (*wait.spun, *spun_beside(wait, world))
     if wait.call == JOIN:
         yield from never_joined(wait, world, spun)
         return
@@ -267,7 +276,7 @@ def _unwritten(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
         return
     served = (*world.entities, *world.builtins)
     nodes = [each.node for each in served if _writes(each.deeds, wait.names)]
-    is_spun = any(node is each for node in nodes for each in _spun_beside(wait, world))
+    is_spun = any(node is each for node in nodes for each in spun_beside(wait, world))
     if not nodes or is_spun or data_is_written_elsewhere(world, wait.names) is not None:
         return
     yield _waits_for_ever(wait, min(wait.names), has_node=True, is_meant=False)
@@ -295,7 +304,7 @@ def _is_same(one: Value | None, other: Value | None) -> bool:
     return isinstance(one, Const) and isinstance(other, Const) and one.value == other.value
 
 
-def _spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
+def spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
     """What other threads spin; which thread is which is not told apart."""
     for number, spin in enumerate(world.spins.values()):
         is_later = wait.begun is not None and number >= wait.begun

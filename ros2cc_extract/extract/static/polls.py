@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.outside_waits import (
     is_endless,
     is_idle,
     note_loop,
+    only_waits,
     spins,
 )
 from ros2cc_extract.extract.static.reading import Asked
@@ -187,6 +188,7 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     deeds = machine.world.deeds
     if before is None or deeds is None:
         _note_set_up(machine, loop, frame)
+        _note_spinning(machine, loop, frame)
         return
     _note_asked(machine, loop, deeds, before, frame)
     asked = machine.world.reading.asked.get(frame.place(loop))
@@ -218,6 +220,35 @@ def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:
     names = _read(machine, [loop.test], frame)
     if names and _holds(machine, loop.test, frame):
         note_loop(machine.world, names, frame.place(loop.test))
+
+
+def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
+    """Code that no callback runs only spins or sleeps until something has changed."""
+    if is_endless(loop) or not (only_waits(loop) or spins(loop)):
+        return
+    end = getattr(loop, 'end_lineno', None) or loop.lineno
+    place = frame.place(loop)
+    spun = tuple(
+        node
+        for spin in machine.world.spins.values()
+        if spin.place.file == place.file and loop.lineno <= spin.place.line <= end
+        for node in spin.nodes
+    )
+    told = _told_now(machine, loop.test, frame)
+    things = _things(told.fails | told.breaks) if told is not None else []
+    if things:
+        is_timed = _ends_otherwise(machine, loop.test, loop, frame)
+        why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None
+        for thing in things if spun else ():
+            machine.note_outside_wait('busy wait', thing, why, place, spun)
+        return
+    is_foreign = _is_foreign(machine, loop.test, loop, frame)
+    names = _read(machine, [loop.test], frame)
+    if names and only_waits(loop):
+        reason = Unknown('the loop also ends otherwise', place)
+        reference = DataRef(sorted(names)[0])
+        reference.names = frozenset(names)
+        machine.note_loop_on_data(POLL, reference, reason if is_foreign else None, place, spun)
 
 
 def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:

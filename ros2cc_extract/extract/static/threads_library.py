@@ -278,7 +278,7 @@ def _is_set(machine: Machine, receiver: Value, call: Call) -> Value:
     """Known in the set-up alone, before anything else of the program runs."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
-    is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
+    is_set_up = world.when is When.START and not world.spins and not world.in_thread
     if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
         return flag
     return answer(receiver, Word.SET, call)

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.naming import (
     describe,
     snake_case,
 )
+from ros2cc_extract.extract.static.set_up_waits import told
 from ros2cc_extract.extract.static.unit_activities import activities_of, activity, facts_of
 from ros2cc_extract.extract.static.unit_executor import Unit, executor_of
 from ros2cc_extract.extract.static.unit_waits import UnitWaits
@@ -28,6 +29,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.world import EntityState, World
 from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
     Activity,
@@ -95,11 +97,12 @@ class UnitBuilder:
         self._note_open_ends()
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry)
-        with_waits, activities = self._with_waits(callbacks, entities, executor)
+        with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
         return Spec(
             name=name,
             callbacks=with_waits,
             activities=activities,
+            set_up=set_up,
             groups=tuple(groups),
             executor=executor,
             origin=Origin.STATIC,
@@ -303,8 +306,8 @@ class UnitBuilder:
 
     def _with_waits(
         self, callbacks: list[Callback], entities: Sequence[EntityState], executor: Executor
-    ) -> tuple[tuple[Callback, ...], tuple[Activity, ...]]:
-        """What is waited for, by the name it has in this unit; and the activities beside."""
+    ) -> tuple[tuple[Callback, ...], tuple[Activity, ...], tuple[Blocking, ...]]:
+        """What is waited for, by its name in this unit; the activities beside; the set-up."""
         names = {id(e): c.name for e, c in zip(entities, callbacks, strict=True)}
         names |= {number: names[id(first)] for number, first in self._same.items()}
         names |= self._node_names
@@ -313,12 +316,14 @@ class UnitBuilder:
         states = activities_of(self._world, self._nodes, entities, is_only=self._unit.is_only)
         names |= {id(state): self._taken.take(facts_of(state).label) for state in states}
         waits = UnitWaits(self._world, names, (*entities, *states))
+        doers = {names[id(doer)]: doer for doer in (*entities, *states)}
         return (
             tuple(
                 replace(callback, blocking=waits.of(entity))
                 for callback, entity in zip(callbacks, entities, strict=True)
             ),
             tuple(activity(state, names[id(state)], names, waits) for state in states),
+            told(self._unit.set_up, self._world, waits, doers),
         )
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.alternatives import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.values import Class, Instance
-from ros2cc_extract.extract.static.world import ExecutorState, Spin
+from ros2cc_extract.extract.static.world import ExecutorState, SetUpWait, Spin
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
 
@@ -21,6 +21,7 @@ class Unit:
     :param spin: the call that spins it, ``None`` when there is none in sight.
     :param mark: tells units apart of which a program only ever runs one.
     :param is_only: the program has no other.
+    :param set_up: waits of the code that sets it up or ends it.
     """
 
     executor: Instance | None
@@ -28,6 +29,7 @@ class Unit:
     spin: Spin | None
     mark: Mark = NO_MARK
     is_only: bool = False
+    set_up: list[SetUpWait] = field(default_factory=list)
 
     @property
     def state(self) -> ExecutorState | None:

@@ -44,6 +44,7 @@ from ros2cc_extract.spec.model import ActivityKind
 # What is waited for of one object may be several things.
 _COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
 _KEPT = 'it is kept in a collection, and who takes it out could not be followed'
+NOWHERE = Place('')
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
 
@@ -85,6 +86,14 @@ class UnitWaits:
         kept = self._kept[id(doer)]
         pairs = zip(kept.raw, kept.named, strict=True)
         return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
+
+    def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
+        """Waits of code that no callback runs, each as it was met and as the unit tells it."""
+        doer = ActivityState(ActivityKind.MAIN, NOWHERE, deeds=Deeds(blocking=raws))
+        kept = self._kept[id(doer)] = self._keep(doer)
+        named = self.of(doer)
+        del self._kept[id(doer)]
+        return tuple(zip(kept.raw, named, strict=True))
 
     def _keep(self, doer: Doer) -> _Kept:
         """Waits for one of several that have no name here are alike."""

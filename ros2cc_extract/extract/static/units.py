@@ -9,6 +9,7 @@ from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.alternatives import Branches, exclusive
 from ros2cc_extract.extract.static.askers import with_askers
 from ros2cc_extract.extract.static.ros_executors import nodes_of
+from ros2cc_extract.extract.static.set_up_waits import share_out
 from ros2cc_extract.extract.static.spun_twice import are_concurrent
 from ros2cc_extract.extract.static.unit_callbacks import UnitBuilder
 from ros2cc_extract.extract.static.unit_executor import Unit, is_handed_over
@@ -23,6 +24,7 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
     """The specifications of one run."""
     found = []
     units = units_of(world)
+    share_out(world, units)
     for unit in units:
         unit.is_only = len(units) == 1
         is_lost = unit.spin is None and not any(node.state.nested for node in unit.nodes)

@@ -20,6 +20,10 @@ AWAITED = '__awaited__'
 """Slot of a coroutine of a library: what happens when it is awaited."""
 
 
+SPIN_UNTIL = 'spin_until_future_complete'
+"""How code that no callback runs waits for a future, and spins meanwhile."""
+
+
 @dataclass(frozen=True)
 class WaitRow:
     """
@@ -78,6 +82,7 @@ WAITS: dict[str, WaitRow] = {
     'unknown wait': _row(Word.END),
     'await': _FUTURE,
     'busy wait': _FUTURE,
+    SPIN_UNTIL: _FUTURE,
     WORKING_LOOP: _FUTURE,
     'time.sleep': _SLEEP,
     'asyncio.sleep': _SLEEP,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import heard, outside_waits
+from ros2cc_extract.extract.static import heard, outside_waits, set_up_waits
 from ros2cc_extract.extract.static.answers import is_ready as is_ready_for
 from ros2cc_extract.extract.static.clock_times import slept
 from ros2cc_extract.extract.static.defaults import assumption, default_of
@@ -31,7 +31,7 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.wait_table import INITIAL, NO_ROW, WAITS, WaitRow
+from ros2cc_extract.extract.static.wait_table import INITIAL, NO_ROW, SPIN_UNTIL, WAITS, WaitRow
 from ros2cc_extract.extract.static.waited_on import SETTABLE, is_of_loop
 from ros2cc_extract.extract.static.wakings import (
     ClockRef,
@@ -81,9 +81,25 @@ class Waits(Machine):
         if is_ready and row.rival is None:
             return
         if deeds is None or _is_main(world.activity):
-            self.note_outside_wait(name, on, seconds, place)
+            self._note_outside(name, on, seconds, place)
+        block, thing = self._block(name, on, seconds, place)
         if deeds is None:
+            self._note_in_set_up(block, thing, place)
             return
+        touch(world.activity, thing)
+        if thing is not None:
+            self.store.show(thing)
+        deeds.behind = way_of(block)
+        if world.open_loops:
+            deeds.looped.add(way_of(block))
+        _note_round(deeds, block, world.round)
+
+    def _block(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> tuple[Blocking, Instance | None]:
+        """The wait, with references to what it waits on, and the one object that this is."""
+        world, row = self.world, WAITS.get(name, NO_ROW)
+        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
         thing, why = _one_object(on, place)
         block = Blocking(
             call=name,
@@ -101,21 +117,18 @@ class Waits(Machine):
             repeats=_is_in_a_loop_of_a_hold(world),
             times=world.times,
         )
-        touch(world.activity, thing)
-        if thing is not None:
-            self.store.show(thing)
-        deeds.behind = way_of(block)
-        if world.open_loops:
-            deeds.looped.add(way_of(block))
-        _note_round(deeds, block, world.round)
+        return block, thing
 
     def note_loop_on_data(
-        self, name: str, on: DataRef | ClockRef | Unknown, seconds: Unknown | None, place: Place
+        self,
+        name: str,
+        on: DataRef | ClockRef | Unknown,
+        seconds: Unknown | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
         world, deeds = self.world, self.world.deeds
-        if deeds is None:
-            return
         block = Blocking(
             call=name,
             source=place,
@@ -127,6 +140,9 @@ class Waits(Machine):
             escapes=on if isinstance(on, Unknown) else None,
             conditional=world.path != world.callback_path,
         )
+        if deeds is None:
+            self._note_in_set_up(block, None, place, spun)
+            return
         deeds.behind = way_of(block)
         if block not in deeds.blocking[-RECENT:]:
             deeds.blocking.append(block)
@@ -145,8 +161,6 @@ class Waits(Machine):
             places = self.world.lost_wakes.setdefault(waking, [])
             if call.place not in places:
                 places.append(call.place)
-        if self.world.deeds is None:
-            return
         clock = CLOCKS.get(called_name(call))
         if clock is not None:
             self.note_blocking(clock, None, slept(call), call.place)
@@ -195,6 +209,30 @@ class Waits(Machine):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+        self._note_outside(name, on, seconds, place, spun)
+        if on is not None and (self.world.deeds is None or _is_main(self.world.activity)):
+            call = name if name in WAITS else SPIN_UNTIL
+            block, thing = self._block(call, on, seconds, place)
+            self._note_in_set_up(block, thing, place, spun)
+
+    def _note_in_set_up(
+        self,
+        block: Blocking,
+        thing: Instance | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        caller = self.stack[0].name if self.stack else ''
+        set_up_waits.note(self.world, block, thing, place, spun, caller)
+
+    def _note_outside(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
         if isinstance(on, Instance) and seconds in (None, NONE):
             outside_waits.note(self.world, name, on, place, spun)
 

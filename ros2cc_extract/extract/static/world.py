@@ -28,7 +28,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.wakings import LoopRun, LoopTouch, Waking, Word
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import ActivityKind, EntityKind, GroupType, When
 
 
@@ -267,6 +267,24 @@ class OutsideWait:
     names: frozenset[str] = frozenset()
 
 
+@dataclass(frozen=True, eq=False)
+class SetUpWait:
+    """
+    A wait of code that no callback runs, as ``outside`` tells it too.
+
+    :param block: with references to what it waits on.
+    :param uncalled: the function, which nobody in sight calls, that leads there.
+    :param by: the thread that waits; one that only spins has no waits of its own.
+    :param is_late: the spin is over.
+    """
+
+    block: Blocking
+    outside: OutsideWait
+    uncalled: str | None = None
+    by: ActivityState | None = None
+    is_late: bool = False
+
+
 @dataclass(eq=False)
 class ThreadState:
     """A ``threading.Thread`` or timer: what it runs when started."""
@@ -371,6 +389,7 @@ class World:
     :param open_to: those that were down when a goal was accepted, by the same.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
+    :param set_up: its waits as the specification tells them, each once.
     :param over: what it has ended.
     :param looking: the properties that are running, by owner and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
@@ -458,6 +477,7 @@ class World:
     holds: dict[str, int] = field(default_factory=dict)
     begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
+    set_up: dict[object, SetUpWait] = field(default_factory=dict)
     over: list[Over] = field(default_factory=list)
     after_spin: bool = False
     on_loop: bool = False

@@ -23,7 +23,7 @@ from ros2cc_extract.findings.waits import (
 from ros2cc_extract.findings.words import listing
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
-from ros2cc_extract.spec.model import Activity
+from ros2cc_extract.spec.model import Activity, ActivityKind
 from ros2cc_extract.verify.caveats import open_ends
 from ros2cc_extract.verify.unit import Verdict
 
@@ -70,6 +70,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
+        for wait in _of_set_up(context):
+            waits.append(wait)
+            reasons[id(wait)] = _reason(wait.block)
     else:
         for wait in _for_answers(context):
             waits.append(wait)
@@ -131,12 +134,15 @@ def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
     signals, or for a lock that it holds meanwhile needs it.
     """
     block = wait.block
-    is_foreign = isinstance(block.on, Unknown) and block.call in _FOREIGN
-    if not is_foreign or not isinstance(wait.caller, Activity) or block.held:
+    if not _is_foreign(block) or not isinstance(wait.caller, Activity) or block.held:
         return False
     name = wait.caller.name
     others = (each for doer in context.doers if doer.name != name for each in doer.blocking)
     return not any(waker.by == name for each in others for waker in each.wakers)
+
+
+def _is_foreign(block: Blocking) -> bool:
+    return isinstance(block.on, Unknown) and block.call in _FOREIGN
 
 
 def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
@@ -184,6 +190,26 @@ def _not_proven(context: Context) -> Iterator[AnyWait]:
     """Waits that last for ever in the model of a unit of which not all facts are known."""
     if open_facts(context):
         yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
+
+
+def _of_set_up(context: Context) -> Iterator[AnyWait]:
+    """
+    Waits of code that no callback runs; what others outside end there is taken to end.
+
+    An await of a library's coroutine holds up nobody but its own coroutine, whatever it is called.
+    """
+    name = 'main' if context.unit.entry is not None else 'the set-up'
+    caller = Activity(name=name, kind=ActivityKind.MAIN)
+    foreign = [block for block in context.unit.set_up if _is_foreign(block)]
+    awaits = {_line_of(block) for block in foreign if block.call == 'await'}
+    for block in context.unit.set_up:
+        is_awaited = _is_foreign(block) and _line_of(block) in awaits
+        if block.escapes is not None and block.seconds is None and not is_awaited:
+            yield AnyWait(caller, block, kind_of(block))
+
+
+def _line_of(block: Blocking) -> object:
+    return (block.source.file, block.source.line) if block.source is not None else None
 
 
 def _limit_of(wait: AnyWait, context: Context) -> str:
