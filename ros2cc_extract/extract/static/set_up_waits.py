@@ -125,6 +125,7 @@ def _decided(
 ) -> Blocking:
     """The wait with the reason why nobody knows whether it ends, where that is so."""
     is_open = block.seconds is None and block.escapes is None and not is_told
+    is_open = is_open and not block.initial  # of a semaphore: it is free
     if not is_open or any(waker.by in (OUTSIDE, TIME) for waker in block.wakers):
         return block
     why = _why_open(block, wait, world, doers)

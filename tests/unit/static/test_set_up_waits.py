@@ -81,6 +81,7 @@ def words(block: Blocking) -> str:
         ({'first': 'self.client.wait_for_service(1.0)'}, ['wait_for_service 1.0 s: outside']),
         ({'first': 'self.drive.wait_for_server()'}, ['wait_for_server: outside']),
         ({'then': 'input()'}, ['input: outside']),
+        ({'then': 'free = threading.Semaphore(2)\n    free.acquire()'}, ['Semaphore.acquire: ']),
         ({'then': "subprocess.run(['ls'])"}, ['subprocess.run: outside']),
         (
             {
