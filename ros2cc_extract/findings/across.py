@@ -8,14 +8,14 @@ from itertools import combinations
 
 from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.races import Race, RaceKind, races_across
+from ros2cc_extract.findings.races import LOSING, Race, RaceKind, races_across
 from ros2cc_extract.findings.rule import Context, Doer, Hit
 from ros2cc_extract.findings.rules import lost_update
 from ros2cc_extract.findings.shared_names import node_classes, shared_part
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 
-_TOLD = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.CHANGED_IN_LOOP)
+_TOLD = (*LOSING, RaceKind.CHANGED_IN_LOOP)
 _ADDED = '; their executors run at the same time, each in a thread of its own'
 
 

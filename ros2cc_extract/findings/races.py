@@ -50,7 +50,11 @@ class RaceKind(Enum):
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
+    WHOLE_UPDATE = 'update in one piece'
     LAST_WRITE_WINS = 'last write wins'
+
+
+LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
 
 
 @dataclass(frozen=True)
@@ -198,9 +202,17 @@ def describe(race: Race) -> str:
         f'write {it} in between: what was read no longer holds',
         RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '
         f'{others} may change {it} in between: what was read may no longer hold',
+        RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
+        f'may write {it} at the same time: {IN_ONE_PIECE}',
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]
+
+
+IN_ONE_PIECE = (
+    'CPython does it in one piece by its global lock, which the language does not promise and '
+    'free-threaded builds lack'
+)
 
 
 def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
@@ -231,7 +243,7 @@ def _share_data(one: Doer, other: Doer) -> bool:
 def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
     """What two threads that run the same lose; that both store the same is no matter."""
     for conflict in _at_once(thread, thread, Overlap()):
-        if conflict.kind in (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT):
+        if conflict.kind in LOSING:
             yield conflict
 
 
@@ -320,9 +332,11 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     if keep_apart(one.access.locks, other.access.locks):
         return _classify_locked(one, other)
     for first, second in ((one, other), (other, one)):
-        if first.access.update and not first.access.in_place:
+        if first.access.update and not first.access.in_place and _may_be_lost(first, second):
             return RaceKind.LOST_UPDATE, first, second
     for first, second in ((one, other), (other, one)):
+        if first.access.whole:
+            continue
         is_told = read_acted_on(first.access, first.doer, second.access) is not None
         is_told = is_told or (first.access.rests and not first.access.in_place)
         is_told = is_told and not _leaves_as_found(first, second)
@@ -332,11 +346,24 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         is_told = first.access.in_place and not _leaves_enough(first, second)
         if is_told and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
+    for first, second in ((one, other), (other, one)):
+        if first.access.whole:
+            return RaceKind.WHOLE_UPDATE, first, second
     if one.access.in_place and other.access.in_place:
         return None
     if _leaves_as_found(one, other) or _leaves_as_found(other, one):
         return None
     return RaceKind.LAST_WRITE_WINS, one, other
+
+
+def _may_be_lost(update: Use, rival: Use) -> bool:
+    """
+    Whether another write may meet the update in the middle, or wipe it out.
+
+    So does one that has read it before: ``print(self.n); self.n = 0``.
+    """
+    is_whole = update.access.whole
+    return not is_whole or (not rival.access.whole and _is_read_before(rival, update))
 
 
 def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:

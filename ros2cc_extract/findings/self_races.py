@@ -40,12 +40,14 @@ class SelfRace:
 
     :param use: where it shows; ``callback`` does it.
     :param waits: the callback waits between what it read or wrote first and ``use``.
+    :param is_whole: CPython lets nobody in between, as long as it has its global lock.
     """
 
     kind: SelfRaceKind
     callback: Callback
     use: Use
     waits: bool
+    is_whole: bool = False
 
 
 def self_races_of(callback: Callback, shared: frozenset[str] = frozenset()) -> Iterator[SelfRace]:
@@ -75,15 +77,21 @@ def self_races_over_awaits(
 def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iterator[SelfRace]:
     plain = [write for write in writes if not write.in_place]
     chosen = [write for write in writes if write.in_place and write.chosen]
-    for write in plain:
-        if write.update and not keep_apart(write.locks, write.locks):
-            yield SelfRace(SelfRaceKind.LOST_UPDATE, callback, Use(callback, write), waits=False)
+    updates = [w for w in plain if w.update and not keep_apart(w.locks, w.locks)]
+    lost = [_lost(write, callback) for write in updates]
+    yield from (race for race in lost if not race.is_whole)
     stored = [*plain, *chosen]
     stale = [found for write in stored if (found := _stale(write, stored, callback)) is not None]
-    yield from sorted(stale, key=lambda race: not race.waits)
+    yield from sorted((r for r in stale if not r.is_whole), key=lambda race: not race.waits)
     for read in () if is_shared else callback.reads:
         if _is_overwritten(read, plain, callback):
             yield SelfRace(SelfRaceKind.OVERWRITTEN, callback, Use(callback, read), waits=True)
+    yield from (race for race in (*lost, *stale) if race.is_whole)
+
+
+def _lost(write: Access, callback: Callback) -> SelfRace:
+    use = Use(callback, write)
+    return SelfRace(SelfRaceKind.LOST_UPDATE, callback, use, waits=False, is_whole=write.whole)
 
 
 def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace | None:
@@ -96,7 +104,9 @@ def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace 
         return None
     at_once = is_operand(read, write)
     kind = SelfRaceKind.LOST_UPDATE if at_once else SelfRaceKind.STALE_READ
-    return SelfRace(kind, callback, Use(callback, write), waits(read, write, callback))
+    has_waited = waits(read, write, callback)
+    is_whole = write.whole and at_once
+    return SelfRace(kind, callback, Use(callback, write), has_waited, is_whole)
 
 
 def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:

@@ -142,6 +142,8 @@ class Access:
     :param update: true when the old value is read for the new one (``+=``, ``append`` …).
     :param in_place: true for an update by one operation on the object itself (``append``,
         ``d[k] = v``), which CPython does in one piece.
+    :param whole: true for a write of what is computed from the old value where CPython, by its
+        global lock, lets no other thread in since that was read (``self.n += 1``).
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
         takes an item out.
@@ -166,6 +168,7 @@ class Access:
     locks: tuple[str, ...] = ()
     update: bool = False
     in_place: bool = False
+    whole: bool = False
     keeps_size: bool = False
     moves: str | None = None
     iterates: str | None = None

@@ -126,6 +126,7 @@ ACCESS = record(
             (
                 ('update', 'update', FLAG),
                 ('in_place', 'in_place', FLAG),
+                ('whole', 'whole', FLAG),
                 ('keeps_size', 'keeps_size', FLAG),
                 ('moves', 'moves', optional(TEXT)),
                 ('iterates', 'iterates', optional(TEXT)),

@@ -125,6 +125,9 @@ class Effects(Waits):
             locks=self.world.held,
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=is_content,
+            whole=not is_content
+            and not is_read
+            and reading.is_in_one_piece(name, self.world.path),
             keeps_size=self.world.refilling,
             moves=self.world.moves,
             iterates=self.world.iterating,

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.values import (
     ABSENT,
     NONE,
+    NOT_FOLDED,
     Call,
     Choice,
     Class,
@@ -128,7 +129,7 @@ class Expressions(Machine):
                 text = node if isinstance(node, ast.BinOp) else side.text
                 default = by_default([left, right], partial(folding.binary, op))
                 return Mystery(side.unknown, text, default)
-        return self.mystery('an expression that could not be folded', frame.place(node))
+        return self.mystery(NOT_FOLDED, frame.place(node))
 
     def _has_truth_method(self, value: Instance) -> bool:
         return isinstance(value.cls, Class) and any(

@@ -47,6 +47,7 @@ class Reading:
     :param used: objects of which more is asked than whether they are there, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
+    :param is_whole: what is stored now is read and stored in one piece, see ``in_one_piece.py``.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
     :param refusing: names because of which a goal was turned down.
@@ -66,6 +67,7 @@ class Reading:
     compared: set[tuple[Place, str]] = field(default_factory=set)
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
+    is_whole: bool = False
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
     found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
     asked: dict[Place, Asked] = field(default_factory=dict)
@@ -120,6 +122,12 @@ class Reading:
         behind = self.behind(path)
         tests = (place for place, _ in behind if name in self.tests.get(place, ()))
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
+
+    def is_in_one_piece(self, name: str, path: Path) -> bool:
+        """Whether nobody writes ``name`` since it was read for what is stored now."""
+        if not self.is_whole or (self.flowing and name not in self.flowing):
+            return False
+        return not self.governs(name, path) or not self.has_called_since(name, path)
 
     def forget(self, name: str, path: Path) -> None:
         """The callback has stored something itself: what it has read before decides no more."""

@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static import (
     ending,
     flags,
     heard,
+    in_one_piece,
     iterators,
     loops,
     memo,
@@ -188,8 +189,9 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     value = changing.evaluate_copied(machine, node.value, node.targets, frame)
-    for target in node.targets:
-        machine.assign(target, value, frame)
+    with in_one_piece.noted(machine, node, frame):
+        for target in node.targets:
+            machine.assign(target, value, frame)
     machine.world.reading.flowing = frozenset()
     return NEXT
 
@@ -208,7 +210,8 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     noted, machine.world.deeds = machine.world.deeds, None
     old = machine.evaluate(load, frame)
     machine.world.deeds = noted
-    machine.note_update(load, frame, AccessKind.UPDATE)
+    with in_one_piece.noted(machine, node, frame):
+        machine.note_update(load, frame, AccessKind.UPDATE)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.charge(len(items))

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _TEXT_LIMIT = 60
 
 NO_CALLER = 'no caller is in sight'
+NOT_FOLDED = 'an expression that could not be folded'
 
 
 class Value:

@@ -73,22 +73,22 @@ RULE = Rule(
     bad="""\
 class Arm(Node):
     def tick(self):
-        self.pending += 1
+        self.load += self.cost()
         self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
 
     def on_done(self, future):
-        self.pending -= 1
+        self.load -= self.cost()
 """,
     good="""\
 class Arm(Node):
     def tick(self):
         with self.lock:
-            self.pending += 1
+            self.load += self.cost()
         self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
 
     def on_done(self, future):
         with self.lock:
-            self.pending -= 1
+            self.load -= self.cost()
 """,
     mend='Hold one `threading.Lock` around both. A callback group does not reach such work.',
     find=find,

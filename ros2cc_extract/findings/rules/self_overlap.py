@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.flags import shared_by
 from ros2cc_extract.findings.one_shots import cancel_of, cancels_too_late, may_cancel_too_late
 from ros2cc_extract.findings.overlap import interleaves, is_quick, overlaps_itself
-from ros2cc_extract.findings.races import RaceKind, races_of
+from ros2cc_extract.findings.races import IN_ONE_PIECE, LOSING, RaceKind, races_of
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.self_races import (
     SelfRace,
@@ -35,11 +35,13 @@ def find(context: Context) -> Iterator[Hit]:
     late = [callback for callback in context.written if _runs_again(callback, context)]
     yield from (_late_hit(callback, cancel_of(callback), context) for callback in late)
     losing = list(_losing(context))
-    told = set(_told_of_others(context)) if losing else set()
+    worse = set(_told_of_others(context, LOSING[:2])) if losing else set()
+    any_told = worse | set(_told_of_others(context, LOSING)) if losing else set()
     for race in losing:
         if race.callback in late:
             continue
         name, callback = race.use.access.name, race.callback.name
+        told = any_told if race.is_whole else worse
         if not told & {(name, race.use.place), (name, callback)}:
             yield _hit(race, context)
 
@@ -96,10 +98,12 @@ def _text_of(doer: Callback | Activity) -> str:
     return doer.function.rpartition('.')[2] if doer.function else doer.name
 
 
-def _told_of_others(context: Context) -> Iterator[tuple[str, Place | str]]:
+def _told_of_others(
+    context: Context, kinds: Container[RaceKind]
+) -> Iterator[tuple[str, Place | str]]:
     """Attributes with the place of the update that is told, and with who else is named there."""
     for race in races_of(context):
-        if race.kind in (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT):
+        if race.kind in kinds:
             for name in race.names:
                 yield name, race.first.place
                 yield name, race.first.doer.name
@@ -110,11 +114,12 @@ def _hit(race: SelfRace, context: Context) -> Hit:
     callback, name = race.callback, race.use.access.name
     default = 'when messages come together'
     when = _TWICE.get(callback.entity, default) if callback.entity else default
-    is_less = race.kind is SelfRaceKind.STALE_READ and not race.waits
+    is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and not race.waits)
+    what = _UPDATES_WHOLE if race.is_whole else _WHAT[race.kind]
     return Hit(
         place=race.use.place,
         message=f'{callback.display_name} may overlap itself {when}, and '
-        + _WHAT[race.kind].format(name=name),
+        + what.format(name=name),
         help=_help(race),
         severity=Severity.NOTE if is_less or is_quick(callback, context) else None,
         subjects=(callback.name, name),
@@ -133,6 +138,7 @@ def _help(race: SelfRace) -> str:
     return f'{_HELP_OUTSIDE[race.kind]}, or {group}'
 
 
+_UPDATES_WHOLE = f'updates {{name}} from its old value without a lock: {IN_ONE_PIECE}'
 _WHAT = {
     SelfRaceKind.LOST_UPDATE: 'updates {name} from its old value without a lock: one of the '
     'changes can get lost',
@@ -159,7 +165,8 @@ RULE = Rule(
     'that one. Two runs of the same callback may coincide. So do those of a timer that is to run '
     'once and cancels itself only after it has slept longer than its period (a note where it '
     'waits and nobody knows how long): everything in it is done several times. An update is only '
-    'a note '
+    'a note where it is one of a number with nothing but constants and names between its read and '
+    'its write (`self.n += 1`), see CC301, '
     'for a timer whose runs are known to be shorter than its period, for a done-callback where '
     'one such timer alone asks, once in a run, and for a test that is followed by the write '
     'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
@@ -176,7 +183,7 @@ class Arm(Node):
             Image, 'image', self.on_image, 10, callback_group=ReentrantCallbackGroup())
 
     def on_image(self, msg):
-        self.frames += 1
+        self.received += len(msg.data)
 """,
     good="""\
 class Arm(Node):

@@ -69,7 +69,7 @@ class Filter(Node):
         self.create_subscription(Empty, 'scan', self.on_scan, 10, callback_group=group)
 
     def on_scan(self, msg):
-        self.count += 1  # here
+        self.count += hash(msg)  # here
 
     def send(self):
         self.pub.publish(Empty())

@@ -277,7 +277,7 @@ class A(Node):
         self.client.call_async(Trigger.Request()).add_done_callback(self.on_done)
 
     def on_done(self, future):
-        self.answers += 1
+        self.answers += future.result().success
 
 rclpy.init()
 executor = MultiThreadedExecutor(num_threads=3)

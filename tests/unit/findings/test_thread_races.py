@@ -226,11 +226,11 @@ class Arm(Node):
     def work(self):
         while rclpy.ok():
             with {first}:
-                self.count += 1
+                self.count += {step}
 
     def tick(self):
         with {second}:
-            self.count += 1
+            self.count += {step}
 
 
 rclpy.init()
@@ -239,12 +239,17 @@ rclpy.spin(Arm())
 
 
 @pytest.mark.parametrize(
-    ('first', 'expected'),
-    [('threading.Lock()', ['CC301:22 warning']), ('self.lock', [])],
+    ('first', 'step', 'expected'),
+    [
+        ('threading.Lock()', 'len(self.get_name())', ['CC301:22 warning']),
+        ('self.lock', 'len(self.get_name())', []),
+        ('threading.Lock()', '1', ['CC301:22 note']),
+        ('self.lock', '1', []),
+    ],
 )
-def test_from_source(first: str, expected: list[str], tmp_path: Path) -> None:
+def test_from_source(first: str, step: str, expected: list[str], tmp_path: Path) -> None:
     path = tmp_path / 'arm.py'
-    path.write_text(NODE.format(first=first, second='self.lock'), encoding='utf-8')
+    path.write_text(NODE.format(first=first, second='self.lock', step=step), encoding='utf-8')
     (spec,) = scan([path], root=tmp_path).units
     assert [code for code in found(spec) if code.startswith('CC3')] == expected
 
