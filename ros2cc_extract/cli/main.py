@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -101,6 +102,9 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
 
 def entry_point() -> None:
     """Run as the console script."""
+    # Who started us may not wait for children; we do, and need to know how they ended.
+    if signal.getsignal(signal.SIGCHLD) is signal.SIG_IGN:
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     sys.exit(with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr)))
 
 

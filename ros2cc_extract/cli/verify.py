@@ -79,7 +79,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         return run_sweeps(args, stdout, stderr)
     if args.replay is not None:
         return _replay(args, stdout, stderr)
-    verifications = list(_verifications(args, stderr))
+    from ros2cc_extract.verify.results import with_fewer_runs
+
+    verifications = [with_fewer_runs(verified) for verified in _verifications(args, stderr)]
     if args.output is not None:
         _write_traces(verifications, args, stderr)
     if args.output_format == 'json':

@@ -13,6 +13,7 @@ from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.load import Load
+from ros2cc_extract.verify.results import with_fewer_runs
 from ros2cc_extract.verify.unit import QueryResult, Verification
 
 Data = dict[str, Any]
@@ -25,6 +26,7 @@ def to_text(data: object) -> str:
 
 def verification_data(verification: Verification) -> Data:
     """One object per model; queries in the order of the ``.q`` file."""
+    verification = with_fewer_runs(verification)
     return {
         'model': verification.model,
         'profile': verification.profile,

@@ -32,7 +32,15 @@ def console_for(stream: TextIO) -> Console:
     width = None if stream.isatty() or 'COLUMNS' in os.environ else LOG_WIDTH
     shown = cast(TextIO, Shown(stream, styled=stream.isatty(), in_log=True))
     target = cast(TextIO, Unpadded(shown))
-    return Console(file=target, width=width, highlight=False, markup=False, emoji=False)
+    return _Telling(file=target, width=width, highlight=False, markup=False, emoji=False)
+
+
+class _Telling(Console):
+    """A console where a reader that leaves is an error like any other."""
+
+    def on_broken_pipe(self) -> None:
+        """Go on with the error; rich would end the process with the status of findings."""
+        raise
 
 
 class Unpadded:

@@ -15,6 +15,8 @@ from ros2cc_extract.verify.evidence import Evidence, Moment
 from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
 
 LISTED_SUBJECTS = 20
+MOST_ROWS, ROWS_OF_A_KIND = 2_000, 200
+"""A table of more rows shows the first of each family and verdict, and counts the others."""
 _LISTED = (
     ('can never run', 'executable', Verdict.NOT_SATISFIED),
     ('can run at the same time', 'can overlap', Verdict.SATISFIED),
@@ -32,7 +34,7 @@ def print_table(verification: Verification, console: Console, *, details: bool) 
     has_words = any(result.words != result.formula for result in verification.results)
     titles = ['expression', 'verdict', 'time'] if details else ['verdict']
     rows = table('  #', *(['query'] if has_words or not details else []), *titles)
-    for number, result in enumerate(verification.results, start=1):
+    for number, result in _listed(verification):
         verdict = verdict_text(result.verdict, result.reason)
         if result.load is not None:
             verdict.append(f'; {result.load.words}', style='default')
@@ -40,7 +42,32 @@ def print_table(verification: Verification, console: Console, *, details: bool) 
         words = [result.words] if has_words or not details else []
         rows.add_row(f'{number:3}', *words, *(expert if details else [verdict]))
     console.print(rows)
+    for line in _unlisted(verification):
+        console.print(f'  {line}')
     _print_footer(verification, console, details=details)
+
+
+def _listed(verification: Verification) -> Iterator[tuple[int, QueryResult]]:
+    """Give the rows to show, with the number that each query has."""
+    is_long = len(verification.results) > MOST_ROWS
+    seen: Counter[tuple[str | None, Verdict]] = Counter()
+    for number, result in enumerate(verification.results, start=1):
+        kind = result.family, result.verdict
+        seen[kind] += 1
+        if not is_long or seen[kind] <= ROWS_OF_A_KIND:
+            yield number, result
+
+
+def _unlisted(verification: Verification) -> Iterator[str]:
+    """Say of how many queries there is no row."""
+    if len(verification.results) <= MOST_ROWS:
+        return
+    kinds = Counter((result.family, result.verdict) for result in verification.results)
+    for (family, verdict), count in kinds.items():
+        if count > ROWS_OF_A_KIND:
+            words = (family or 'query').replace('_', ' ')
+            yield f'and {count - ROWS_OF_A_KIND} more, {words}: {verdict.value}'
+    yield '--output-format json lists all'
 
 
 def _print_footer(verification: Verification, console: Console, *, details: bool) -> None:

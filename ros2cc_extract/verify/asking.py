@@ -16,7 +16,7 @@ from ros2cc_extract.generator.build import Family, Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.known import Answered, Entry, Role, Shelf
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results import QueryResult, open_result
 from ros2cc_extract.verify.shapes import Outline, Shape
 from ros2cc_extract.verify.slices import Names, Slicer
 
@@ -207,3 +207,21 @@ def total(checks: Sequence[CheckResult]) -> CheckResult:
         seconds=sum(check.seconds for check in checks),
         peak_mb=max(check.peak_mb for check in checks),
     )
+
+
+def unasked(queries: Iterable[Query], keys: Sequence[Key], limits: Limits) -> Found:
+    """What is open when the time is over before a unit could be asked."""
+    reason = limits.deadline.reason if limits.deadline else ''
+    wanted = set(keys)
+    left = [query for query in queries if key_of(query) in wanted]
+    check = CheckResult(
+        engine='none',
+        note='',
+        states=0,
+        transitions=0,
+        seconds=0.0,
+        peak_mb=0.0,
+        complete=False,
+        answers=(),
+    )
+    return Found({key_of(query): open_result(query, reason) for query in left}, check)

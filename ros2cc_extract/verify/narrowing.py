@@ -10,17 +10,25 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
+from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.apart import prove_apart
-from ros2cc_extract.verify.asking import Found, Key, Search, Slicing, key_of, total, weighs_more
+from ros2cc_extract.verify.asking import (
+    Found,
+    Search,
+    Slicing,
+    key_of,
+    total,
+    unasked,
+    weighs_more,
+)
 from ros2cc_extract.verify.crowds import Refute, refute_by_crowds
 from ros2cc_extract.verify.hunts import refute_by_hunts
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.loosened import Loosened, is_loose, loosened
-from ros2cc_extract.verify.results import QueryResult, open_result
+from ros2cc_extract.verify.results import QueryResult
 from ros2cc_extract.verify.slices import Names, Slicer
 
 
@@ -72,6 +80,8 @@ def narrow(
     found = found and _derive(found, queries, slicer)
     ways = _Ways(slicer, search, refuters, limits, Shelf() if shelf is None else shelf)
     for way in ways.in_order():
+        if limits.is_over:
+            break
         left = _left(queries, found)
         part = way(left) if left else None
         if part is not None:
@@ -79,7 +89,7 @@ def narrow(
     rest = [key_of(query) for query in _left(queries, found)]
     if rest or found is None:
         most = replace(limits, states=limits.states or WHOLE_STATES)
-        whole = _unasked(queries, rest, limits) if limits.is_over else search(closed, rest, most)
+        whole = unasked(queries, rest, limits) if limits.is_over else search(closed, rest, most)
         found = whole if found is None else joined(found, whole)
     complete = not any(map(_is_open, found.results.values()))
     return replace(found, check=replace(found.check, complete=complete))
@@ -146,24 +156,6 @@ class _Ways:
 
     def _apart(self, left: Sequence[Query]) -> Found | None:
         return prove_apart(self.slicer, left, self.search, self.limits)
-
-
-def _unasked(queries: Sequence[Query], keys: Sequence[Key], limits: Limits) -> Found:
-    """What is open when the time is over before the whole unit could be asked."""
-    reason = limits.deadline.reason if limits.deadline else ''
-    wanted = set(keys)
-    left = [query for query in queries if key_of(query) in wanted]
-    check = CheckResult(
-        engine='none',
-        note='',
-        states=0,
-        transitions=0,
-        seconds=0.0,
-        peak_mb=0.0,
-        complete=False,
-        answers=(),
-    )
-    return Found({key_of(query): open_result(query, reason) for query in left}, check)
 
 
 def _is_undecided(result: QueryResult | None) -> bool:

@@ -1,4 +1,4 @@
-"""A limit on time that covers reading: models and queries of somebody else may be large."""
+"""A limit on time that covers reading: units, models and queries of somebody else may be large."""
 
 from __future__ import annotations
 
@@ -8,11 +8,37 @@ from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits
 from ros2cc_extract.checker.limits import seconds_reason
-from ros2cc_extract.deadline import TimeOverError, alarm
+from ros2cc_extract.deadline import GRACE_S, TimeOverError, alarm
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 
 _AGAIN_S = 1.0
+
+
+class NotReadError(Exception):
+    """The time was over before a model was read."""
+
+
+@contextmanager
+def read_in_time(limits: Limits) -> Iterator[Callable[[], None]]:
+    """
+    End what makes and reads a model of ours some time after the limit.
+
+    What is given is called once the search has begun, which looks at the clock itself.
+
+    :raises NotReadError: then, or at once where the time is over.
+    """
+    if limits.is_over:
+        raise NotReadError
+    seconds = limits.seconds_left
+    with alarm(None if seconds is None else seconds + GRACE_S, _AGAIN_S) as disarm:
+        if disarm is None:  # an alarm of somebody else is not ours to hear
+            yield _nothing
+            return
+        try:
+            yield disarm
+        except TimeOverError:
+            raise NotReadError from None
 
 
 @contextmanager

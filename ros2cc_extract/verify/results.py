@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
@@ -11,6 +12,9 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Query
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.load import Load
+
+MOST_RUNS = 100
+"""Of one family and verdict: to find each takes a search, and pairs come by the ten thousand."""
 
 
 class NotKept(Enum):
@@ -90,6 +94,25 @@ class Verification:
     def is_undecided(self) -> bool:
         """True when a limit left at least one query open."""
         return any(result.verdict is Verdict.UNDECIDED for result in self.results)
+
+
+def with_fewer_runs(verification: Verification) -> Verification:
+    """Leave the first runs of each family and verdict; how many others there are is noted."""
+    seen: Counter[tuple[str | None, Verdict]] = Counter()
+    results = []
+    for result in verification.results:
+        kind = result.family, result.verdict
+        seen[kind] += result.run is not None
+        is_beyond = result.run is not None and seen[kind] > MOST_RUNS
+        results.append(replace(result, run=None) if is_beyond else result)
+    left_out = sum(max(0, count - MOST_RUNS) for count in seen.values())
+    if not left_out:
+        return verification
+    note = (
+        f'the runs behind {left_out} verdicts are left out: of each kind of claim the first '
+        f'{MOST_RUNS} are shown, and --query asks for any other'
+    )
+    return replace(verification, results=tuple(results), notes=(*verification.notes, note))
 
 
 def open_result(query: Query, reason: str) -> QueryResult:

@@ -40,14 +40,14 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.again import ask_again
 from ros2cc_extract.verify.arrivals import TWO_ARRIVALS, needs_two_arrivals
-from ros2cc_extract.verify.asking import Found, Key, key_of
+from ros2cc_extract.verify.asking import Found, Key, key_of, unasked
 from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
 from ros2cc_extract.verify.doubts import doubts_in
 from ros2cc_extract.verify.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.load import demands_of, load_of
 from ros2cc_extract.verify.narrowing import Refuters, joined, narrow
-from ros2cc_extract.verify.reading import limited_reading
+from ros2cc_extract.verify.reading import NotReadError, limited_reading, read_in_time
 from ros2cc_extract.verify.results import QueryResult as QueryResult
 from ros2cc_extract.verify.results import Verification as Verification
 from ros2cc_extract.verify.structural import structural_verdicts
@@ -211,7 +211,36 @@ def _search(
     options: Options,
     progress: OnProgress | None,
 ) -> Found:
-    """Ask some of the queries of a unit, or of a slice of one."""
+    """Ask some of the queries of a unit, or of a slice of one; all are open if it is too late."""
+    try:
+        with read_in_time(limits) as has_begun:
+            watch = _also(has_begun, progress)
+            return _searched(closed, keys, limits, options=options, progress=watch)
+    except NotReadError:
+        return unasked(
+            build.queries_of(closed, profile=options.profile, max_cycle=options.max_cycle),
+            keys,
+            limits,
+        )
+
+
+def _also(has_begun: Callable[[], None], progress: OnProgress | None) -> OnProgress:
+    def watch(known: Progress) -> None:
+        has_begun()
+        if progress is not None:
+            progress(known)
+
+    return watch
+
+
+def _searched(
+    closed: ClosedSpec,
+    keys: Sequence[Key],
+    limits: Limits,
+    *,
+    options: Options,
+    progress: OnProgress,
+) -> Found:
     rendered, model = _read(closed, options)
     wanted = set(keys)
     asked = [query for query in rendered.queries if key_of(query) in wanted]
@@ -254,7 +283,11 @@ def _dive(closed: ClosedSpec, keys: Sequence[Key], limits: Limits, *, options: O
 
     What was refuted only with something that is not known is in doubt, and stays so.
     """
-    rendered, _ = _read(closed, options)
+    try:
+        with read_in_time(limits):
+            rendered, _ = _read(closed, options)
+    except NotReadError:
+        return unasked((), (), limits)
     avoided = build.IN_DOUBT if any(query.whatever for query in rendered.queries) else None
     return _refuted(closed, keys, partial(dive, limits=limits, avoided=avoided), options)
 
@@ -364,12 +397,16 @@ def ask_unit(
     They are asked of the plain text, whatever the options say: the compact text keeps only what
     its own queries can see.
     """
-    rendered = build.render(
-        closed, profile=options.profile, text=build.Text.PLAIN, max_cycle=options.max_cycle
-    )
-    model = read_model(rendered.xml, f'{rendered.name}.xml')
+    options = replace(options, limits=options.limits.begun())
+    with limited_reading(options.limits, Path(closed.spec.name)) as has_begun:
+        rendered = build.render(
+            closed, profile=options.profile, text=build.Text.PLAIN, max_cycle=options.max_cycle
+        )
+        model = read_model(rendered.xml, f'{rendered.name}.xml')
+        names, watch = Names.of(closed.spec), _also(has_begun, progress)
+        found = _asked(model, rendered.xml.encode(), queries, options, watch, names)
     return replace(
-        _asked(model, rendered.xml.encode(), queries, options, progress, Names.of(closed.spec)),
+        found,
         model=rendered.name,
         profile=options.profile.value,
         text=build.Text.PLAIN.value,
@@ -391,13 +428,7 @@ def verify_model(
     """
     options = replace(options, limits=options.limits.begun())
     with limited_reading(options.limits, path) as has_begun:
-
-        def watch(known: Progress) -> None:
-            has_begun()
-            if progress is not None:
-                progress(known)
-
-        return _verify_model(path, queries, options, watch)
+        return _verify_model(path, queries, options, _also(has_begun, progress))
 
 
 def _verify_model(

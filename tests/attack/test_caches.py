@@ -9,6 +9,7 @@ import random
 import shutil
 import subprocess
 import sys
+import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,7 @@ CLASS = 'caches'
 
 NODE = Path(__file__).parents[2] / 'launch_free_examples/service_deadlock/node.py'
 CORRUPTIONS, CORRUPTIONS_OF_RECORD = 15, 1_000
+EVIL, EVIL_OF_RECORD = 12, 1_000
 # Many runs in one process: to start it takes longer than a run, and the caches are read each time.
 RUN_MANY = """
 import functools, io, json, sys
@@ -41,13 +43,28 @@ for line in sys.stdin:
 
 
 class Evil:
-    """What makes its reader write a file."""
+    """
+    What makes its reader write a file.
 
-    def __init__(self, canary: Path) -> None:
+    :param way: which of ``WAYS``.
+    """
+
+    def __init__(self, canary: Path, way: int = 0) -> None:
         self._canary = canary
+        self._way = way
 
-    def __reduce__(self) -> tuple[Callable[..., object], tuple[str]]:
-        return os.mkdir, (str(self._canary),)
+    def __reduce__(self) -> tuple[Callable[..., object], tuple[object, ...]]:
+        return WAYS[self._way](str(self._canary))
+
+
+WAYS: tuple[Callable[[str], tuple[Callable[..., object], tuple[object, ...]]], ...] = (
+    lambda canary: (os.mkdir, (canary,)),
+    lambda canary: (os.system, (f'mkdir {canary}',)),
+    lambda canary: (exec, (f'import os; os.mkdir({canary!r})',)),
+    lambda canary: (eval, (f'__import__("os").mkdir({canary!r})',)),
+    lambda canary: (subprocess.call, (['mkdir', canary],)),
+)
+"""Before any of them is tried on the tool, a test sees that it works."""
 
 
 @pytest.fixture
@@ -83,6 +100,69 @@ def test_a_pickle_in_the_cache_is_not_run(home: Path, tmp_path: Path) -> None:
         entry.write_bytes(header + b'\n' + pickle.dumps(Evil(canary)))
         assert run(home) == before
     assert not canary.exists()
+
+
+@pytest.mark.parametrize('way', range(len(WAYS)))
+def test_an_evil_pickle_is_evil(way: int, tmp_path: Path) -> None:
+    pickle.loads(pickle.dumps(Evil(tmp_path / 'canary', way)))
+    assert (tmp_path / 'canary').exists()
+
+
+@pytest.mark.parametrize('rounds', [EVIL, pytest.param(EVIL_OF_RECORD, marks=pytest.mark.slow)])
+def test_no_evil_entry_is_run(rounds: int, home: Path, tmp_path: Path, tally: Tally) -> None:
+    """Whatever it does, wherever it stands, and also where its checksum is right."""
+    chance, pristine, canary = random.Random(rounds), home / 'pristine', tmp_path / 'canary'
+    (home / 'ros2cc-extract').rename(pristine)
+    with many_runs(home) as ask:
+        before = ask('--no-cache')
+        for number in range(rounds):
+            shutil.rmtree(home / 'ros2cc-extract', ignore_errors=True)
+            shutil.copytree(pristine, home / 'ros2cc-extract')
+            way, protocol = chance.randrange(len(WAYS)), chance.randrange(6)
+            evil = pickle.dumps(Evil(canary, way), protocol)
+            put = chance.choice(PUTS)
+            for entry in chance.sample(list(entries(home)), chance.randint(1, 3)):
+                put(entry, chance.choice(WRAPPED)(evil))
+            tally.add()
+            assert ask() == before, f'{number}: {put.__name__}'
+            assert not canary.exists(), f'{number}: {put.__name__}, way {way}'
+
+
+def instead(entry: Path, evil: bytes) -> None:
+    entry.write_bytes(evil)
+
+
+def behind_its_header(entry: Path, evil: bytes) -> None:
+    entry.write_bytes(entry.read_bytes().partition(b'\n')[0] + b'\n' + evil)
+
+
+def behind_its_content(entry: Path, evil: bytes) -> None:
+    entry.write_bytes(entry.read_bytes() + evil)
+
+
+def with_a_right_checksum(entry: Path, evil: bytes) -> None:
+    """As only the user could write it."""
+    cachefile.store_content(entry, evil)
+
+
+def under_an_old_name(entry: Path, evil: bytes) -> None:
+    for name in (
+        'uppaal-grammar.cache',
+        f'{entry.stem}.pickle',
+        f'{entry.stem}.pyc',
+        'lark.cache',
+    ):
+        (entry.parent / name).write_bytes(evil)
+        cachefile.store_content(entry.parent / name, evil)
+
+
+PUTS = (instead, behind_its_header, behind_its_content, with_a_right_checksum, under_an_old_name)
+WRAPPED: tuple[Callable[[bytes], bytes], ...] = (
+    bytes,
+    lambda evil: b'0' * 64 + b'\n' + evil,
+    zlib.compress,
+    lambda evil: json.dumps({'py/reduce': [evil.hex()], '__class__': 'os.system'}).encode(),
+)
 
 
 def test_a_pickle_where_lark_had_its_tables_is_not_run(tmp_path: Path) -> None:

@@ -93,6 +93,7 @@ class Calls(Machine):
 
     def run_function(self, function: Function, call: Call) -> Value:
         """Run the body of a scanned function with the arguments of ``call``."""
+        self.charge(0)  # calls within one expression double too, and no statement looks meanwhile
         self.world.called[id(function.node)] = function
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
             if len({*self.stack, function}) > len(self.stack):  # nobody calls itself

@@ -113,11 +113,14 @@ def _name(part: ast.AST) -> str | None:
 
 
 def _by_name(tree: ast.Module) -> dict[str, list[ast.AST]]:
-    """The functions and classes of a module, wherever they stand in it."""
+    """The functions and classes of a module, also those without a name of their own."""
     found: dict[str, list[ast.AST]] = {}
     for part in walk(tree):
         if isinstance(part, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
             found.setdefault(part.name, []).append(part)
+        elif isinstance(part, ast.Assign) and isinstance(part.value, ast.Lambda):
+            for name in filter(None, map(_name, part.targets)):
+                found.setdefault(name, []).append(part.value)
     return found
 
 

@@ -282,6 +282,9 @@ def timers(set_up: str, before: str = '') -> str:
 CALLS_THAT_DOUBLE = ''.join(
     f'def f{i}(n):\n    f{i - 1}(n)\n    f{i - 1}(n)\n' for i in range(1, 31)
 )
+LAMBDAS_THAT_DOUBLE = 'f0 = lambda n: n.create_timer(1.0, print)\n' + ''.join(
+    f'f{i + 1} = lambda n: (f{i}(n), f{i}(n))\n' for i in range(30)
+)
 FIRST = 'def f0(n):\n    n.create_timer(1.0, print)\n'
 
 
@@ -296,6 +299,8 @@ FIRST = 'def f0(n):\n    n.create_timer(1.0, print)\n'
         (timers('x = [n]\n' + 'x = x * 900\n' * 60), False),
         (timers('f8(n)\n', FIRST + CALLS_THAT_DOUBLE), True),
         (timers('f30(n)\n', FIRST + CALLS_THAT_DOUBLE), False),
+        (timers('f8(n)\n', LAMBDAS_THAT_DOUBLE), True),
+        (timers('f30(n)\n', LAMBDAS_THAT_DOUBLE), False),
     ],
 )
 def test_what_doubles_is_followed_for_some_time(
