@@ -380,5 +380,5 @@ def structural_starvation(callback: UnitCallback) -> Query:
     return replace(
         _starvation_of_data(callback),
         family=Family.STRUCTURAL_STARVATION,
-        words=f'{callback.name} is served however much arrives for others',
+        words=f'{callback.name} is served however much arrives for others, while all end',
     )
