@@ -21,7 +21,9 @@ from ros2cc_extract.extract.static.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.extract.static.waited_on import is_waited_on
 from ros2cc_extract.extract.static.world import Cut, EntityState, World, note_once
+from ros2cc_extract.places import Place
 
 _ROUNDS = 10
 """A chain of as many states is followed to its end."""
@@ -46,7 +48,13 @@ def _objects(held: object) -> Tokens:
 
 
 def _token(value: Value) -> object:
-    """Equal for functions of one text: a lambda is another object each time it is made."""
+    """
+    Equal for functions of one text: a lambda is another object each time it is made.
+
+    So is a future that a callback makes in each run: who ends the wait for one ends it for all.
+    """
+    if isinstance(value, Instance) and is_waited_on(value):
+        return value.place
     if isinstance(value, Instance):
         return value if isinstance(value.cls, Class) else None
     if isinstance(value, Bound):
@@ -84,6 +92,8 @@ def _kinds(tokens: Tokens) -> Tokens:
 
 
 def _kinds_of(token: object) -> Iterator[object]:
+    if isinstance(token, Place):
+        return  # it holds nothing, and is made once more in each run
     if isinstance(token, tuple):
         receiver, function = token
         yield from ((kind, function) for kind in _kinds_of(receiver))

@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.mapping import filtered, mapped, zipped
 from ros2cc_extract.extract.static.memo import keep_results
+from ros2cc_extract.extract.static.named_methods import methods_named_like
 from ros2cc_extract.extract.static.sorting import identity, in_order
 from ros2cc_extract.extract.static.values import (
     ABSENT,
@@ -233,7 +234,8 @@ def _extreme(act: str) -> Handler:
 
 def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
     if len(call.args) < 2 or not isinstance(call.args[1], Const):
-        return machine.mystery('getattr with a computed name', call.place, 'getattr(…)')
+        like = methods_named_like(machine, call) if len(call.args) > 1 else None
+        return like or machine.mystery('getattr with a computed name', call.place, 'getattr(…)')
     name = str(call.args[1].value)
 
     def of(owner: Value) -> Value:

@@ -83,6 +83,11 @@ class Mystery(Value):
         self.default = default
 
     @property
+    def node(self) -> ast.expr | None:
+        """The expression, where it was kept as such."""
+        return None if isinstance(self._text, str) else self._text
+
+    @property
     def text(self) -> str:
         """Short source of the expression, made when somebody asks."""
         if not isinstance(self._text, str):
