@@ -1,4 +1,4 @@
-"""An attribute holds a future from the start, and a callback puts another one there to wait for."""
+"""An attribute holds a future from the start, and a callback puts another one there to await."""
 
 from __future__ import annotations
 
