@@ -331,7 +331,9 @@ class UnitWaits:
             return stays and self._is_behind(end, raw, doer)
 
         wakers = [waking.by for waking in mine]
-        why = why_gone(self._world, wakers, comes_after, self._name)
+        # An error that ends a thread is what a join waits for.
+        gone = [None if waking.word is Word.END else waking.by for waking in mine]
+        why = why_gone(self._world, gone, comes_after, self._name)
         why = why or why_unspun(self._world, wakers, doer, self._name)
         if why is not None or forgets(reference, mine, doer):
             return why

@@ -143,3 +143,14 @@ def test_what_is_registered_at_exit_runs_when_the_spin_is_over() -> None:
     joins = UPLOAD.replace('REGISTERS', 'atexit.register(self.close)')
     wakes = UPLOAD.replace('REGISTERS', 'atexit.register(self.close, wakes=True)')
     assert (slugs(joins), slugs(wakes)) == (['nobody-spins'], [])
+
+
+def test_an_error_that_ends_a_thread_is_what_a_join_waits_for() -> None:
+    text = ARCHIVE.replace('TESTS', 'if not line: raise ValueError(line)')
+    starts = 'threading.Thread(target=self.work, daemon=True)'
+    text = text.replace(
+        f'{starts}.start()', f'self.thread = {starts}\n        self.thread.start()'
+    )
+    (join,) = waits(text.replace('self.jobs.join()', 'self.thread.join()'), 'flush')
+    reason = 'work, which ends it, may end by ValueError'
+    assert join.escapes is None or join.escapes.reason != reason
