@@ -25,14 +25,14 @@ from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.generator.spins import is_open, is_part_of_spin, is_spin, nested_spins
 from ros2cc_extract.generator.steps import Lock, NamedWait, WaitKind
 from ros2cc_extract.once import known_of, once
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Blocking
+from ros2cc_extract.spec.deeds import RE_ENTRANT, TURN, Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
 
 _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
 # They end by themselves, even where it is not known when.
-_PAUSES = ('time.sleep', 'asyncio.sleep')
+_PAUSES = ('time.sleep', 'asyncio.sleep', TURN)
 
 
 def waits_of(callback: Actor, spec: Spec) -> tuple[NamedWait, ...]:

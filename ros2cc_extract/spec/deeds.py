@@ -32,6 +32,9 @@ WORKING_LOOP = 'working loop'
 POLLING_LOOP = 'polling loop'
 """A loop that does nothing but wait until what it asks for has changed."""
 
+TURN = 'yield'
+"""A coroutine lets the executor run others, and goes on by itself."""
+
 ENDLESS_LOOP = 'endless loop'
 """A loop that nothing in sight leaves."""
 

@@ -18,7 +18,15 @@ from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.queue_items import give_items
 from ros2cc_extract.extract.static.queues_library import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.queues_library import init as init_queue
-from ros2cc_extract.extract.static.values import NONE, Call, Handler, Instance, Native, Value
+from ros2cc_extract.extract.static.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Native,
+    Value,
+)
 from ros2cc_extract.extract.static.values import Library as Name
 from ros2cc_extract.extract.static.wait_table import AWAITED
 from ros2cc_extract.extract.static.waited_on import OF_LOOP
@@ -96,8 +104,11 @@ def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     current = machine.world.current
-    if current is None or not current.node.state.on_asyncio:
-        machine.note_blocking('asyncio.sleep', None, call.argument(0, 'delay'), call.place)
+    delay = call.argument(0, 'delay')
+    if isinstance(delay, Const) and isinstance(delay.value, (int, float)) and delay.value <= 0:
+        machine.note_turn(call.place)  # this asks for no loop
+    elif current is None or not current.node.state.on_asyncio:
+        machine.note_blocking('asyncio.sleep', None, delay, call.place)
     return NONE
 
 

@@ -329,12 +329,28 @@ class Calls(Machine):
         awaited = value.slots.get(AWAITED) if isinstance(value, Instance) else None
         if isinstance(awaited, Native):
             return self.call(awaited, Call(place))
+        turns = self._turns_of(value, place)
+        if turns is not None:
+            for turn in turns:
+                self.note_await(turn, place)
+            return self.mystery('result of an await', place)
         self.note_await(value, place)
         if isinstance(value, Coroutine):
             return self.run_function(value.function, value.call)
         if isinstance(value, Instance) and isinstance(value.state, PlainState):
             return self.awaited(value, place)
         return self.mystery('result of an await', place)
+
+    def _turns_of(self, value: Value, place: Place) -> tuple[Value, ...] | None:
+        """What a generator gives the executor, behind ``__await__`` of a class of the program."""
+        if not isinstance(value, Instance) or not self.has_attribute(value, '__await__'):
+            return None
+        turn = self.attribute(value, '__await__', place)
+        if not isinstance(turn, Bound) or not isinstance(turn.function, Function):
+            return None
+        given = self.call(turn, Call(place))
+        is_whole = isinstance(given, Sequence) and not given.others
+        return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
         """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""

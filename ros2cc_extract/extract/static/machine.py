@@ -384,6 +384,10 @@ class Machine(ABC):
         """A callback awaits ``value``."""
 
     @abstractmethod
+    def note_turn(self, place: Place) -> None:
+        """A coroutine lets the executor run others and goes on by itself."""
+
+    @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
         """A lock is taken; with a time-out it may not be."""
 

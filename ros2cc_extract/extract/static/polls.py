@@ -111,11 +111,15 @@ def _note_by_name(machine: Machine, loop: ast.While, frame: Frame) -> bool:
 def _note_busy(
     machine: Machine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
 ) -> None:
-    world = machine.world
-    frees = world.in_callback and not world.on_loop
-    gives_back = frees and awaits_each_round(loop)
-    call = 'await' if gives_back else call_of_loop(loop, 'busy wait', world.activity)
+    own = call_of_loop(loop, 'busy wait', machine.world.activity)
+    call = 'await' if _gives_back(machine, loop) else own
     machine.note_blocking(call, on, seconds, frame.place(loop))
+
+
+def _gives_back(machine: Machine, loop: ast.While) -> bool:
+    """Whether a coroutine that an executor runs gives its thread back in each round."""
+    frees = machine.world.in_callback and not machine.world.on_loop
+    return frees and awaits_each_round(loop)
 
 
 def _note_things(machine: Machine, loop: ast.While, frame: Frame, told: Told) -> bool:
@@ -279,6 +283,7 @@ def _note(
 ) -> None:
     place = frame.place(tests[0])
     call = call_of_loop(loop, POLL, machine.world.activity)
+    call = 'await' if _gives_back(machine, loop) else call
     ends_otherwise = any(_is_foreign(machine, test, loop, frame) for test in tests)
     if names:
         own = frozenset(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static import outside_library
 from ros2cc_extract.extract.static.wakings import Word
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, WORKING_LOOP, Needs
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
 
 INITIAL = '__initial__'
 """Slot of a semaphore for its value, and of a queue for its size."""
@@ -86,6 +86,7 @@ WAITS: dict[str, WaitRow] = {
     WORKING_LOOP: _FUTURE,
     'time.sleep': _SLEEP,
     'asyncio.sleep': _SLEEP,
+    TURN: _SLEEP,
     'Clock.sleep_for': _SLEEP,
     'Clock.sleep_until': _SLEEP,
     'wait_for_message': WaitRow(),

@@ -53,7 +53,7 @@ from ros2cc_extract.extract.static.world import (
     World,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Blocking, Needs
+from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -259,10 +259,17 @@ class Waits(Machine):
         """A callback awaits ``value``; awaiting its own coroutine is only a call."""
         if is_of_loop(value):
             self.world.awaited_of_loops.append(value)
-        if not isinstance(value, (Coroutine, Const)):
+        if value == NONE:
+            self.note_turn(place)
+        elif not isinstance(value, (Coroutine, Const)):
             self.note_blocking(
                 'asyncio await' if self.world.on_loop else 'await', value, None, place
             )
+
+    def note_turn(self, place: Place) -> None:
+        """A coroutine lets the executor run others and goes on by itself."""
+        if self.world.deeds is not None and self.world.in_callback:
+            self.note_blocking(TURN, None, Const(0), place)
 
     def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""

@@ -9,7 +9,7 @@ from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import group_words, made_at, served_at
 from ros2cc_extract.findings.workers import is_one_thread
-from ros2cc_extract.spec.deeds import ABORTS
+from ros2cc_extract.spec.deeds import ABORTS, TURN
 from ros2cc_extract.spec.model import Callback, EntityKind
 from ros2cc_extract.spec.order import steps
 
@@ -21,7 +21,9 @@ def find(context: Context) -> Iterator[Hit]:
         return
     first: dict[str, Wait] = {}
     for wait in waits_of(context):
-        if wait.caller.entity is EntityKind.ACTION_EXECUTE and wait.kind is WaitKind.SLEEP:
+        is_execute = wait.caller.entity is EntityKind.ACTION_EXECUTE
+        gives_way = any(block.call == TURN for block in wait.caller.blocking)
+        if is_execute and wait.kind is WaitKind.SLEEP and not gives_way:
             first.setdefault(wait.caller.name, wait)
     for wait in first.values():
         yield _hit(wait, context)
@@ -102,7 +104,9 @@ RULE = Rule(
     'another callback of the server (`handle_accepted_callback`, `goal_callback`) waits in a '
     'mutually exclusive group until a goal has been executed, and has not told that to stop.',
     why='The cancel request is taken by the waitable of the action server, which the executor '
-    'must run, and its only thread executes the goal. With two threads the cancel arrives at '
+    'must run, and its only thread executes the goal. A coroutine that gives '
+    'way between its sleeps (`await asyncio.sleep(0)`, or a bare `yield` behind an `__await__`) '
+    'lets it. With two threads the cancel arrives at '
     'once, whatever the groups, because execute runs as a task outside them; the goal, cancel and '
     'accepted callbacks of a server run in its group, one after the other. Sources: rclpy '
     '7.1.6 and 9.1.2, `action/server.py` (`notify_execute`), `executors.py`.',
