@@ -104,10 +104,12 @@ def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     current = machine.world.current
+    if current is not None and current.node.state.on_asyncio:
+        return NONE
     delay = call.argument(0, 'delay')
     if isinstance(delay, Const) and isinstance(delay.value, (int, float)) and delay.value <= 0:
         machine.note_turn(call.place)  # this asks for no loop
-    elif current is None or not current.node.state.on_asyncio:
+    else:
         machine.note_blocking('asyncio.sleep', None, delay, call.place)
     return NONE
 
