@@ -332,7 +332,10 @@ class Calls(Machine):
         turns = self._turns_of(value, place)
         if turns is not None:
             for turn in turns:
-                self.note_await(turn, place)
+                if turn == NONE:
+                    self.note_turn(place)
+                else:
+                    self.note_await(turn, place)
             return self.mystery('result of an await', place)
         self.note_await(value, place)
         if isinstance(value, Coroutine):

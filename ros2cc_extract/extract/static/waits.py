@@ -259,9 +259,7 @@ class Waits(Machine):
         """A callback awaits ``value``; awaiting its own coroutine is only a call."""
         if is_of_loop(value):
             self.world.awaited_of_loops.append(value)
-        if value == NONE:
-            self.note_turn(place)
-        elif not isinstance(value, (Coroutine, Const)):
+        if not isinstance(value, (Coroutine, Const)):
             self.note_blocking(
                 'asyncio await' if self.world.on_loop else 'await', value, None, place
             )
