@@ -35,7 +35,9 @@ class Comprehensions(Machine):
                 many[key] = Mystery(why) if why is not None else self.why_many()
 
         ready = self.world.ready
-        self._generate(node.generators, inner, collect, None)
+        # Whoever takes from a generator may stop before its end, as ``any`` does.
+        is_whole = not isinstance(node, ast.GeneratorExp)
+        self._generate(node.generators, inner, collect, None, is_whole=is_whole)
         picked, self.world.ready = self.world.ready - ready, ready
         if isinstance(node, ast.DictComp):
             return Mapping(dict(collected), None, many)
@@ -53,6 +55,8 @@ class Comprehensions(Machine):
         frame: Frame,
         collect: Callable[[Unknown | None], None],
         why: Unknown | None,
+        *,
+        is_whole: bool,
     ) -> None:
         """Run the loops; ``why`` an element may stand for several, or for none."""
         if not generators:
@@ -65,14 +69,24 @@ class Comprehensions(Machine):
         is_long = len(items.known) > loops.UNROLL_LIMIT
         here = Unknown('a long comprehension', place) if is_long else why
 
-        def once(item: Value) -> int:
-            self.assign(generator.target, item, frame)
-            passes, unsure = self._passes(generator, frame)
-            if passes:
-                self._generate(deeper, frame, collect, unsure or here)
-            return _NEXT
+        def rounds(begin: Callable[[Value], None] | None) -> None:
+            def once(item: Value) -> int:
+                if begin is not None:
+                    begin(item)
+                self.assign(generator.target, item, frame)
+                passes, unsure = self._passes(generator, frame)
+                if passes:
+                    is_sure = is_whole and unsure is None
+                    self._generate(deeper, frame, collect, unsure or here, is_whole=is_sure)
+                return _NEXT
 
-        loops.run_loop(self, items, once, place)
+            loops.run_loop(self, items, once, place)
+
+        if is_whole and not generator.ifs:
+            with loops.repeated(self, items, []) as begin:
+                rounds(begin)
+        else:
+            rounds(None)
 
     def _passes(self, generator: ast.comprehension, frame: Frame) -> tuple[bool, Unknown | None]:
         """Whether an item may pass the conditions, and why that is not certain."""
