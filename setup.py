@@ -24,6 +24,8 @@ IS_OPTIONAL = NATIVE == 'optional'
 setup(
     # colcon evaluates what it reads here as literals; from pyproject.toml this comes as none.
     python_requires='>=3.10',
+    # In pyproject.toml setuptools before 77, as in Ubuntu 24.04, takes a table, and later a text.
+    license='Apache-2.0',
     ext_modules=[]
     if NATIVE == 'none'
     else [
