@@ -99,7 +99,7 @@ class _XtrReader:
 
     def _numbers(self, line: str, count: int) -> list[int]:
         words = line.split()
-        if len(words) != count or not all(word.lstrip('-').isdecimal() for word in words):
+        if len(words) != count or not all(word.removeprefix('-').isdecimal() for word in words):
             raise self._error(f'{count} numbers expected, found {line!r}')
         return [int(word) for word in words]
 

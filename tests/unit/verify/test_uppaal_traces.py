@@ -130,6 +130,7 @@ def model() -> Model:
     [
         ('', 'the file ends within the run'),
         ('0 0 \n.\n', "3 numbers expected, found '0 0'"),
+        ('--0 0 0 \n.\n', "3 numbers expected, found '--0 0 0'"),
         ('0 0 x\n.\n', "3 numbers expected, found '0 0 x'"),
         ('0 9 0\n.\n.\n0 0 0 0\n.\n.\n', r'process Walker\(1\) has no location 9'),
         ('0 0 0\n0 0 0\n', "a dot expected, found '0 0 0'"),
