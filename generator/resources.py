@@ -165,7 +165,7 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
         for waker in activity.starts:
             if start is not None:
                 found.setdefault(waker.by, []).append((start, waker))
-    seen: set[object] = set()
+    told: dict[object, tuple[list[tuple[Resource, Waker]], int]] = {}
     for waiting in all_actors(spec):
         for block in waiting.blocking:
             is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
@@ -175,9 +175,14 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
             for resource, wakers in _resources_of(block, waiting, spec):
                 for waker in wakers:
                     key = (waker.by, resource, waker.after, waker.source, waker.held)
-                    if key not in seen:
-                        seen.add(key)
-                        found.setdefault(waker.by, []).append((resource, waker))
+                    if key not in told:
+                        own = found.setdefault(waker.by, [])
+                        told[key] = own, len(own)
+                        own.append((resource, waker))
+                    elif waker.conditional:
+                        # It may be kept from the one wait and not from the other.
+                        own, place = told[key]
+                        own[place] = resource, waker
     return found
 
 

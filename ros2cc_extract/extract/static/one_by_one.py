@@ -29,6 +29,15 @@ def keeps_to_itself(doer: object, others: Collection[object]) -> bool:
     return _has_one_thread(first.state) or _is_one_group(everybody)
 
 
+def may_not_overlap(one: object, other: object) -> bool:
+    """Whether the one waits for its turn while the other has a thread."""
+    everybody = [each for each in (one, other) if isinstance(each, EntityState)]
+    executors = [executor_of(each.node) for each in everybody]
+    if len(executors) != 2 or executors[0] is None or executors[0] is not executors[1]:
+        return False
+    return _has_one_thread(executors[0].state) or _is_one_group(everybody)
+
+
 def _lets_others_run(doer: EntityState) -> bool:
     blocks = (doer.deeds or Deeds()).blocking
     return any(block.call == 'await' or 'spin' in block.call for block in blocks)

@@ -42,6 +42,7 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.extract.static.wakings import Waking, Word
 from ros2cc_extract.extract.static.world import (
     EntityState,
     ExecutorState,
@@ -346,7 +347,19 @@ def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
     if task is not None and (call.args[1:] or call.keywords):
         task = Partial(task, tuple(call.args[1:]), dict(call.keywords))
     add_task(machine, nodes[0] if nodes else None, task, call.place)
-    return machine.future(call.place, 'task')
+    future = machine.future(call.place, 'task')
+    _note_its_end(machine, future, call.place)
+    return future
+
+
+def _note_its_end(machine: Machine, future: Value, place: Place) -> None:
+    """The future of a task is done when the task has ended, whoever asks for it."""
+    world = machine.world
+    world.kept.append(future)
+    for entity in world.entities:
+        if entity.kind is EntityKind.TASK and entity.place == place:
+            waking = Waking(Word.END, entity, place)
+            world.wakings.setdefault(id(future), []).append(waking)
 
 
 def add_task(

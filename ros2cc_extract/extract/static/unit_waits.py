@@ -9,12 +9,19 @@ from ros2cc_extract.extract.static import barriers, pipes, stock
 from ros2cc_extract.extract.static.activities import is_activity
 from ros2cc_extract.extract.static.consumers import may_find_it_done, taken_by_itself
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds, way_of
+from ros2cc_extract.extract.static.kept_out import is_kept_out
 from ros2cc_extract.extract.static.one_by_one import keeps_to_itself
 from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.pools import why_no_thread
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
-from ros2cc_extract.extract.static.unsure_wakers import forgets, why_gone, why_lost, why_unspun
+from ros2cc_extract.extract.static.unsure_wakers import (
+    forgets,
+    is_unheard,
+    why_gone,
+    why_lost,
+    why_unspun,
+)
 from ros2cc_extract.extract.static.wait_table import NO_ROW, WAITS
 from ros2cc_extract.extract.static.wakings import (
     ClockRef,
@@ -385,9 +392,19 @@ class UnitWaits:
             by=name,
             source=place,
             after=after,
-            conditional=waking.conditional and not (stays and waking.unless_done),
+            conditional=self._may_fail(waking, reference, doer, stays=stays),
             held=waking.held,
         )
+
+    def _may_fail(
+        self, waking: Waking, reference: ResourceRef, doer: Doer, *, stays: bool
+    ) -> bool:
+        """Whether ``waking`` perhaps does not come, or not while ``doer`` waits."""
+        if waking.conditional and not (stays and waking.unless_done):
+            return True
+        if self._forgets(reference, doer) and is_unheard(waking, doer):
+            return True
+        return is_kept_out(waking, reference, doer, self._doers)
 
     def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
         """What is set before anything else runs stays so, unless it is taken back."""

@@ -220,14 +220,20 @@ def _written_by(doer: Doer) -> frozenset[str]:
 
 def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
     """
-    Whether a wait misses what comes before it, of wakers whose coming the model has.
+    Whether a wait misses what comes before it, where the model has the coming of some wakers.
 
-    It has what comes by itself again and again, and what comes once.
+    It has what comes by itself again and again, and what comes once; of the others nobody says
+    whether they come in time, see ``is_unheard``.
     """
     guard = reference.guard
-    if guard is None or not mine or not all(_is_modelled(waking, doer) for waking in mine):
+    if guard is None or not any(_is_modelled(waking, doer) for waking in mine):
         return False
     return not is_heard(guard, [_notifier(waking) for waking in mine])
+
+
+def is_unheard(waking: Waking, doer: Doer) -> bool:
+    """Whether a waker of a wait that ``forgets`` perhaps comes while nobody waits."""
+    return not _is_modelled(waking, doer)
 
 
 def _is_modelled(waking: Waking, doer: Doer) -> bool:
