@@ -404,6 +404,8 @@ class UnitWaits:
             return True
         if self._forgets(reference, doer) and is_unheard(waking, doer):
             return True
+        if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
+            return True  # it notifies before it waits itself
         return is_kept_out(waking, reference, doer, self._doers)
 
     def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
