@@ -21,9 +21,7 @@ Doer = EntityState | ActivityState
 _FOR_ONE = frozenset({Word.PUT, Word.GET, Word.RELEASE})
 
 
-def is_kept_out(
-    waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer]
-) -> bool:
+def is_kept_out(waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer]) -> bool:
     """Whether ``waking`` may not come while ``doer`` waits, or be for somebody else."""
     by = waking.by
     if by is doer:
