@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
 import time
@@ -70,7 +71,8 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     :raises TimeOverError: then.
     """
     is_heard = threading.current_thread() is threading.main_thread()
-    if seconds is None or not is_heard or signal.getsignal(signal.SIGALRM) is not signal.SIG_DFL:
+    is_free = is_heard and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL
+    if seconds is None or seconds == math.inf or not is_free:
         yield None
         return
 

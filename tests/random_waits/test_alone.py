@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.random_waits.suite import ENDS, FOUND, judge
+from tests.random_waits.suite import ENDS, FOUND, UNDECIDED, judge
 
 PROGRAM = """\
 import threading
@@ -50,3 +50,17 @@ def main():
 )
 def test_a_service_that_nobody_asks_ends_no_wait(asks: str, expected: str) -> None:
     assert judge(PROGRAM.format(asks=asks))['tick_0'] == expected
+
+
+TOLD = PROGRAM.replace('self.given = threading.Event()', 'self.given = threading.Condition()')
+TOLD = TOLD.replace('self.given.set()', 'with self.given:\n            self.given.notify_all()')
+TOLD = TOLD.replace('self.given.wait()', 'with self.given:\n            self.given.wait()')
+ASKS = 'self.client_0.call_async(Trigger.Request())'
+
+
+@pytest.mark.parametrize(
+    ('group', 'expected'), [('', UNDECIDED), (', callback_group=self.free', ENDS)]
+)
+def test_a_service_ends_no_wait_of_who_keeps_out_whoever_asks(group: str, expected: str) -> None:
+    text = TOLD.replace('self.tick_1, callback_group=self.free', f'self.tick_1{group}')
+    assert judge(text.format(asks=ASKS))['tick_0'] == expected
