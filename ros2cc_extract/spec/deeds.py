@@ -152,7 +152,8 @@ class Access:
         takes an item out.
     :param iterates: class of the collection, where a loop goes over it.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
-    :param chosen: true for a change of the item that a look at the collection has led to.
+    :param chosen: true for a change of the item that a look at the collection has led to, or
+        of one whose new value was computed from what was read of the collection.
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.

@@ -114,8 +114,9 @@ class Effects(Waits):
             reading.read.add(name)
         at = place, attribute or name.rpartition('.')[2]
         is_content = kind is AccessKind.UPDATE_IN_PLACE
-        chosen = is_content and name in reading.choices.get(at, ())
-        rests = reading.governs(name, self.world.path) or name in reading.flowing or chosen
+        flows = name in reading.flowing
+        chosen = is_content and (flows or name in reading.choices.get(at, ()))
+        rests = reading.governs(name, self.world.path) or flows or chosen
         is_used = rests and is_read and at in reading.used
         if kind is AccessKind.WRITE:
             flags.put_up(self.world, name)

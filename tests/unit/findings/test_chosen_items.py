@@ -36,6 +36,7 @@ class Ward(Node):
         super().__init__('ward')
         self.beds = Beds()
         self.calls = []
+        self.stock = {'bolt': 4}
         group = ReentrantCallbackGroup()
         self.create_service(Trigger, 'go', self.on_go, callback_group=group)
         self.create_subscription(Empty, 'other', self.on_other, 10, callback_group=group)
@@ -68,6 +69,9 @@ LOCKED_TWICE = """with self.beds.lock:
         with self.beds.lock:
             self.beds.take(bed)"""
 ANSWER = 'call = self.calls[0]; time.sleep(0.2); self.calls.remove(call)'
+COUNT = (
+    'left = self.stock.get(request.name, 0); time.sleep(0.2); self.stock[request.name] = left - 1'
+)
 
 
 @pytest.mark.parametrize(
@@ -86,6 +90,10 @@ ANSWER = 'call = self.calls[0]; time.sleep(0.2); self.calls.remove(call)'
         # Somebody else's items are others.
         ('bed = request.bed; time.sleep(0.2); self.beds.take(bed)', 'pass', []),
         ('pass', 'if self.calls: time.sleep(0.2); self.calls.append(message)', []),
+        # What is stored was computed from what stood there.
+        (COUNT, 'pass', ['CC304 warning']),
+        (COUNT, COUNT, ['CC301 warning']),
+        (COUNT.replace('left - 1', 'request.number'), 'pass', []),
     ],
 )
 def test_what_two_looked_up_is_one_item(go: str, other: str, told: list[str]) -> None:
