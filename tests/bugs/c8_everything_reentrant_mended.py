@@ -19,7 +19,7 @@ class Feeder(Node):
         self.create_service(Trigger, 'choose', self.on_choose, callback_group=group)
 
     def on_watchdog(self, msg):
-        self.alarms += 1
+        self.alarms += int(msg.data)
 
     def on_choose(self, request, response):
         time.sleep(2.0)
