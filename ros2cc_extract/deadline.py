@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import signal
 import threading
@@ -9,9 +10,11 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from types import FrameType
 
 GRACE_S = 2.0
 """So long whoever looks at the clock may take to tell what is done."""
+_SOON_S = 0.01
 
 
 @dataclass(frozen=True)
@@ -66,8 +69,8 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     Gives what takes the alarm back, or ``None`` where none was set: without a limit, in threads
     that hear no signals, and where there are alarms of somebody else.
 
-    :param again_s: what is raised inside a callback of the garbage collector is lost, so it
-        rings again after so long.
+    :param again_s: what is raised while an object is taken apart is lost, so it rings again
+        after so long; and soon where the garbage collector tells somebody of its work.
     :raises TimeOverError: then.
     """
     is_heard = threading.current_thread() is threading.main_thread()
@@ -76,8 +79,10 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
         yield None
         return
 
-    def hear(number: int, frame: object) -> None:
-        raise TimeOverError
+    def hear(number: int, frame: FrameType | None) -> None:
+        if not _is_collecting(frame):
+            raise TimeOverError
+        signal.setitimer(signal.ITIMER_REAL, _SOON_S, again_s)
 
     signal.signal(signal.SIGALRM, hear)
     signal.setitimer(signal.ITIMER_REAL, max(seconds, 0.001), again_s)
@@ -86,6 +91,16 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     finally:
         _disarm()
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
+
+
+def _is_collecting(frame: FrameType | None) -> bool:
+    """Whether a callback of the garbage collector runs, which loses what is raised in it."""
+    codes = [getattr(callback, '__code__', None) for callback in gc.callbacks]
+    while frame is not None:
+        if frame.f_code in codes:
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _disarm() -> None:
