@@ -9,7 +9,14 @@ from pathlib import Path
 import pytest
 
 from tests.attack.conftest import Tally
-from tests.attack.environments import ENVIRONMENTS, SUBCOMMANDS, Surroundings, fill, is_possible
+from tests.attack.environments import (
+    ENVIRONMENTS,
+    NOBODY,
+    SUBCOMMANDS,
+    Surroundings,
+    fill,
+    is_possible,
+)
 from tests.attack.running import Ended, assert_orderly, run_tool
 
 CLASS = 'environments'
@@ -69,19 +76,25 @@ def test_a_subcommand_in_an_environment(
         assert done.err.splitlines()[-1].startswith(LINE), done
 
 
+def _at_once(names: list[str]) -> list[str]:
+    """Whoever has become a stranger cannot become one again."""
+    strangers = [name for name in names if NOBODY[0] in ENVIRONMENTS[name].prefix]
+    return [name for name in names if name not in strangers[1:]]
+
+
 @pytest.mark.slow
 def test_environments_together(base: Path, tally: Tally) -> None:
     chance = random.Random(1)
     # Without programs nobody would find those that make the others.
     names = [name for name in ENVIRONMENTS if is_possible(name) and name != 'no programs']
     for number in range(COMBINED):
-        chosen = chance.sample(names, 3)
+        chosen = _at_once(chance.sample(names, 3))
         subcommand = chance.choice(list(SUBCOMMANDS))
         each = [ENVIRONMENTS[name] for name in chosen]
+        # What a stranger may not do any more comes before.
+        each.sort(key=lambda one: (NOBODY[0] in one.prefix, not one.as_root))
         together = Surroundings(
-            tuple(
-                word for one in sorted(each, key=lambda e: not e.as_root) for word in one.prefix
-            ),
+            tuple(word for one in each for word in one.prefix),
             {key: value for one in each for key, value in one.variables.items()},
         )
         tally.add()

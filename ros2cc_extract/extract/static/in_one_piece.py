@@ -5,7 +5,7 @@ With its global lock CPython 3.10 and later switches threads where a function of
 a call and where a loop jumps back (``ceval.c``, the "eval breaker"). Measured on 3.10, 3.11, 3.12
 and 3.13, two threads with a switch interval of 1 µs: of 4 to 20 million ``self.n += 1`` and
 ``self.n = self.n + 1`` none was lost, of those with a property, an ``__add__`` of Python or a call
-in between 30 to 44 %. The language promises none of that, and builds without the lock lose some.
+in between 27 to 45 %. The language promises none of that, and builds without the lock lose some.
 """
 
 from __future__ import annotations

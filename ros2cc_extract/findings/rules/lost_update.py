@@ -60,7 +60,7 @@ RULE = Rule(
     'group, run on different threads. CPython may switch threads between reading and writing: '
     'where a function of Python begins, a property and `__add__` among them, at a call, and where '
     'a loop goes round. Measured on CPython 3.10 to 3.13, two threads: of 4 to 20 million '
-    '`self.n += 1` none was lost, of those with a call or a property 30 to 44 %. The language '
+    '`self.n += 1` none was lost, of those with a call or a property 27 to 45 %. The language '
     'promises none of that, and free-threaded builds switch anywhere. '
     'Whether two callbacks may overlap is decided by the model where it was verified, else by '
     'their groups and the number of threads. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
