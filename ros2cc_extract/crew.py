@@ -125,6 +125,8 @@ class Crew(Generic[Request, Answer]):
     def _answers(
         self, requests: Sequence[Request], by: Sequence[int | None]
     ) -> Iterator[tuple[int, tuple[Answer, int]]]:
+        if not self._lines:  # nobody to wait for, perhaps because there are no processes here
+            return
         from multiprocessing.connection import wait
 
         own = [deque(n for n, who in enumerate(by) if who == i) for i in range(self.size)]

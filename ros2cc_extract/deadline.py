@@ -67,14 +67,16 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     End what still runs after ``seconds``, wherever it is.
 
     Gives what takes the alarm back, or ``None`` where none was set: without a limit, in threads
-    that hear no signals, and where there are alarms of somebody else.
+    that hear no signals, where there are alarms of somebody else, and where the system has none,
+    as in a browser. Work that looks at the clock itself ends in time there too.
 
     :param again_s: what is raised while an object is taken apart is lost, so it rings again
         after so long; and soon where the garbage collector tells somebody of its work.
     :raises TimeOverError: then.
     """
     is_heard = threading.current_thread() is threading.main_thread()
-    is_free = is_heard and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL
+    is_there = is_heard and hasattr(signal, 'setitimer')
+    is_free = is_there and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL
     if seconds is None or seconds == math.inf or not is_free:
         yield None
         return

@@ -37,7 +37,9 @@ def changeable_by_others(status: os.stat_result) -> bool:
 
 def is_own(status: os.stat_result) -> bool:
     """Whether a file belongs to this user, or to root, who needs no rights."""
-    return status.st_uid in (os.geteuid(), ROOT)
+    # Where the system knows no users, as in a browser, all is of one.
+    user = os.geteuid() if hasattr(os, 'geteuid') else ROOT
+    return status.st_uid in (user, ROOT)
 
 
 def _upwards(folder: Path) -> Iterator[Path]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import resource
+import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,9 +10,14 @@ from pathlib import Path
 
 from ros2cc_extract.deadline import Deadline
 
+try:
+    import resource
+except ImportError:  # a Python without processes of its own, as in a browser
+    resource = None  # type: ignore[assignment]
+
 _MEMINFO = Path('/proc/meminfo')
 _STATM = Path('/proc/self/statm')
-_PAGE_BYTES = resource.getpagesize()
+_PAGE_BYTES = os.sysconf('SC_PAGE_SIZE')
 _MB = 1024 * 1024
 #: What a search may take between two looks.
 _STEP_MB = 4
@@ -73,7 +78,9 @@ def memory_mb() -> float:
 
 
 def peak_mb() -> float:
-    """Return the highest resident memory of this process so far."""
+    """Return the highest resident memory of this process so far; 0 where nobody counts it."""
+    if resource is None:
+        return 0.0
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
@@ -85,6 +92,11 @@ def most_of_the_memory_mb() -> float | None:
         return None
     free_kb = [int(line.split()[1]) for line in lines if line.startswith('MemAvailable:')]
     return memory_mb() + 0.9 * free_kb[0] / 1024 if free_kb else None
+
+
+def is_memory_known() -> bool:
+    """Whether this process can learn how much memory it has taken."""
+    return resource is not None or _STATM.exists()
 
 
 def states_reason(limit: int | None) -> str:
@@ -135,6 +147,8 @@ class Watch:
 
     def _out_of_memory(self, more_bytes: int, share: float) -> str | None:
         limit = self._memory_mb
+        if limit is not None and not is_memory_known():
+            return 'there is a limit on memory, and nobody counts memory here'
         if limit is None or memory_mb() + more_bytes / _MB + _STEP_MB <= share * limit:
             return None
         return f'the limit of {limit:.0f} MB was reached'
