@@ -34,6 +34,7 @@ VERBS: Mapping[str, str] = {
     'locks': 'takes the lock',
     'publishes': 'publishes',
     'changes': 'changes',
+    'pieces': 'shares piece by piece',
 }
 """The facts that are lists, each with the verb that tells one entry."""
 Named = TypeVar('Named', Callback, CallbackGroup)

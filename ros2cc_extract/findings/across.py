@@ -15,7 +15,7 @@ from ros2cc_extract.findings.shared_names import node_classes, shared_part
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 
-_TOLD = (*LOSING, RaceKind.CHANGED_IN_LOOP)
+_TOLD = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN)
 _ADDED = '; their executors run at the same time, each in a thread of its own'
 
 
@@ -48,7 +48,7 @@ def _of_program(units: Sequence[Spec]) -> Iterator[Finding]:
 def _parts(unit: Spec, classes: frozenset[str] | None) -> Iterator[Doer]:
     for callback in shared_by(Context(unit)):
         part = shared_part(callback, classes)
-        if part.writes:
+        if part.writes or part.pieces:
             yield part
 
 

@@ -33,6 +33,7 @@ def meeting(doer: Callback, other: Callback, context: Context) -> Callback:
         doer,
         reads=tuple(read for read in doer.reads if _is_between(begin, read, end)),
         writes=tuple(write for write in doer.writes if _is_between(begin, write, end)),
+        pieces=tuple(piece for piece in doer.pieces if _is_between(begin, piece, end)),
     )
 
 

@@ -173,6 +173,7 @@ def _meeting(doer: Doer, other: Doer) -> Doer:
         doer,
         reads=tuple(read for read in doer.reads if is_beside(read)),
         writes=tuple(write for write in doer.writes if is_beside(write)),
+        pieces=tuple(piece for piece in doer.pieces if is_beside(piece)),
     )
 
 

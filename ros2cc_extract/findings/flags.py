@@ -39,13 +39,18 @@ def as_shared(doers: tuple[_Doer, ...], context: Context) -> tuple[_Doer, ...]:
         return doers
     kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, context)}
     return tuple(
-        replace(doer, reads=_judged(doer.reads, kept), writes=_judged(doer.writes, kept))
+        replace(
+            doer,
+            reads=_judged(doer.reads, kept),
+            writes=_judged(doer.writes, kept),
+            pieces=_judged(doer.pieces, kept),
+        )
         for doer in doers
     )
 
 
 def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
-    return (*callback.reads, *callback.writes)
+    return (*callback.reads, *callback.writes, *callback.pieces)
 
 
 def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:

@@ -47,6 +47,7 @@ class RaceKind(Enum):
 
     CHANGED_IN_LOOP = 'changed in a loop'
     CLEARED_IN_USE = 'cleared in use'
+    TORN = 'torn'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -196,6 +197,8 @@ def describe(race: Race) -> str:
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
         RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
         f'{it} to None in between: the use then ends in an exception',
+        RaceKind.TORN: f'{first} publishes {names}, and {others} may be changing {it} piece by '
+        'piece at the same time: the message is part old and part new',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one of the changes can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
@@ -233,7 +236,8 @@ def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
 def _share_data(one: Doer, other: Doer) -> bool:
     written = (writes_of(one).keys(), writes_of(other).keys())
     read = (reads_of(one).keys(), reads_of(other).keys())
-    return not (
+    torn = {piece.name for piece in one.pieces} & {piece.name for piece in other.pieces}
+    return bool(torn) or not (
         written[0].isdisjoint(written[1])
         and written[0].isdisjoint(read[1])
         and written[1].isdisjoint(read[0])
@@ -251,6 +255,7 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
     others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
+    others += [(RaceKind.TORN, *pair) for pair in _torn(one, other)]
     for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
             (Use(one, a), Use(other, b))
@@ -287,6 +292,22 @@ def _is_stale(first: Use, second: Use) -> bool:
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
     return over_await and not keep_apart(kept_between(read, write, doer), second.access.locks)
+
+
+def _torn(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Objects that one publishes and the other changes piece by piece, without a common lock."""
+    for sender, changer in ((one, other), (other, one)):
+        yield from (
+            (Use(sender, sent), Use(changer, change))
+            for sent in sender.pieces
+            for change in changer.pieces
+            if sent.name == change.name
+            and change.update
+            and not sent.update
+            and not keep_apart(sent.locks, change.locks)
+            and not comes_before(change, changer, sender)
+            and not comes_before(sent, sender, changer)
+        )
 
 
 # Their loops notice a change of size; those over a list see more or less, and raise nothing.

@@ -28,11 +28,12 @@ def node_classes(units: Iterable[Spec]) -> frozenset[str] | None:
 def shared_part(doer: Doer, classes: frozenset[str] | None) -> Doer:
     """What ``doer`` does to objects that are no nodes; nothing where nodes are not known."""
     if classes is None:
-        return replace(doer, reads=(), writes=())
+        return replace(doer, reads=(), writes=(), pieces=())
     return replace(
         doer,
         reads=tuple(read for read in doer.reads if _is_shared(read, classes)),
         writes=tuple(write for write in doer.writes if _is_shared(write, classes)),
+        pieces=tuple(piece for piece in doer.pieces if _is_shared(piece, classes)),
     )
 
 

@@ -167,6 +167,8 @@ class Callback:
         in sight, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
     :param builtin: made by rclpy itself; nobody wrote it.
+    :param pieces: objects that it publishes as a whole while others change them piece by piece, or
+        the other way round; of a change, ``update`` is true.
     :param unresolved: why the callback function or its node could not be followed.
     :param assumed: the rule by which a fact about it was assumed.
     """
@@ -203,6 +205,7 @@ class Callback:
     locks: tuple[Act, ...] = ()
     publishes: tuple[Act, ...] = ()
     changes: tuple[Act, ...] = ()
+    pieces: tuple[Access, ...] = ()
     measured: Measured | None = None
 
     @property
@@ -280,6 +283,7 @@ class Activity:
     locks: tuple[Act, ...] = ()
     publishes: tuple[Act, ...] = ()
     changes: tuple[Act, ...] = ()
+    pieces: tuple[Access, ...] = ()
 
     @property
     def display_name(self) -> str:

@@ -23,6 +23,7 @@ def both(before: Deeds, again: Deeds) -> Deeds:
         locks=_both(before.locks, again.locks, lambda deed: deed.name),
         publishes=_both(before.publishes, again.publishes, lambda deed: deed.name),
         changes=_both(before.changes, again.changes, lambda deed: deed.name),
+        pieces=list(dict.fromkeys((*before.pieces, *again.pieces))),
         stored={**before.stored, **again.stored},
         written={**before.written, **again.written},
     )

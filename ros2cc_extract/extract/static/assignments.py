@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from ros2cc_extract.extract.static import loops
+from ros2cc_extract.extract.static import loops, pieces
 from ros2cc_extract.extract.static.containers import Mapping
 from ros2cc_extract.extract.static.containers import Sequence as Items
 from ros2cc_extract.extract.static.defaults import items_by_default
@@ -47,8 +47,10 @@ class Assignments(Machine):
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):
+            pieces.note_changed(self, target, frame)
             self._assign_attribute(target, value, frame)
         elif isinstance(target, ast.Subscript):
+            pieces.note_changed(self, target, frame)
             self._assign_item(target, value, frame)
         elif isinstance(target, (ast.Tuple, ast.List)):
             self._unpack(target.elts, value, frame)

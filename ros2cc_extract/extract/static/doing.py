@@ -11,6 +11,21 @@ from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 
+@dataclass(frozen=True)
+class Piece:
+    """
+    A part of an object is changed, or the whole of it is published, see ``pieces.py``.
+
+    :param part: what is changed, as the source has it; empty for the whole.
+    :param again: a loop changes one item of it after the other.
+    """
+
+    access: Access
+    part: str
+    path: Path
+    again: bool
+
+
 @dataclass
 class Deeds:
     """
@@ -24,6 +39,7 @@ class Deeds:
         before, see ``pipes.py``.
     :param loops: how many loops of several rounds, known ones, are followed now.
     :param order: messages, clears of events and waits for events, see ``wiped_out.py``.
+    :param pieces: what is changed piece by piece, or published as a whole.
     :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     """
@@ -43,6 +59,7 @@ class Deeds:
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
     order: list[tuple[str, object]] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
 
 
 def way_of(block: Blocking) -> object:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static import flags, heard, homes, wiped_out
+from ros2cc_extract.extract.static import flags, heard, homes, pieces, wiped_out
 from ros2cc_extract.extract.static.containers import Collection, Sequence, collection_class
 from ros2cc_extract.extract.static.held_locks import is_counter, lock_of
 from ros2cc_extract.extract.static.items_meant import note_item
@@ -68,7 +68,7 @@ class Effects(Waits):
         if not isinstance(cls, Class) or self._is_behaviour(owner, name):
             return
         attribute = unmangled(name, cls.name)
-        shown = f'{_object_name(owner, cls)}.{attribute}'
+        shown = f'{homes.object_name(owner, cls)}.{attribute}'
         is_own = isinstance(owner, Instance) and owner.born is self.world.deeds
         home = homes.home_of(self.world, owner, name) if kind in _OF_CONTENT else None
         if home is not None and home[1] != shown:
@@ -88,8 +88,9 @@ class Effects(Waits):
     def note_held(self, owner: Value, name: str, value: Value) -> None:
         """An attribute has got a value: a collection is known by the first one that holds it."""
         if isinstance(owner, Instance) and isinstance(owner.cls, Class):
-            shown = f'{_object_name(owner, owner.cls)}.{unmangled(name, owner.cls.name)}'
+            shown = f'{homes.object_name(owner, owner.cls)}.{unmangled(name, owner.cls.name)}'
             homes.note_held(self.world, owner, name, value, shown)
+            pieces.note_held(self.world, owner, name, value, shown)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
@@ -99,7 +100,7 @@ class Effects(Waits):
             return
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
-        shown = f'{_object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
+        shown = f'{homes.object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
         world.other_writes.setdefault(shown, (by, place))
 
     def _note_access(
@@ -397,9 +398,3 @@ def _is_assigned(cls: Value, name: str) -> bool:
         for base in getattr(cls, 'mro', ())
         if isinstance(base, Class)
     )
-
-
-def _object_name(owner: Instance | Class, cls: Class) -> str:
-    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
-    is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
-    return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]

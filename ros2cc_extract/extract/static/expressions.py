@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static import changing, conditions, folding, loops
+from ros2cc_extract.extract.static import changing, conditions, folding, loops, pieces
 from ros2cc_extract.extract.static.clock_times import time_from_now
 from ros2cc_extract.extract.static.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.defaults import by_default
@@ -215,6 +215,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     _note_choice(machine, node, frame)
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
+    pieces.note_sent(machine, function, node, frame)
     if isinstance(function, Mystery):
         call.text = node
         _note_abort(machine, node, call.place)
@@ -235,6 +236,7 @@ def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
         function = machine.evaluate(node, frame)
         _note_within(machine, node, frame)
         return function
+    pieces.note_changed(machine, node.value, frame, f'.{node.attr}')
     noted, machine.world.deeds = machine.world.deeds, None
     function = machine.evaluate(node, frame)
     machine.world.deeds = noted

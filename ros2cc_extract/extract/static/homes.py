@@ -20,7 +20,7 @@ def note_held(world: World, owner: Value, attribute: str, value: Value, shown: s
     """``owner`` holds ``value`` from here on; ``shown`` names the attribute."""
     if not isinstance(value, Collection) or getattr(value, 'kind', '') in _FIXED:
         return
-    if isinstance(owner, Instance) and not _is_reassigned(owner, attribute):
+    if isinstance(owner, Instance) and not is_reassigned(owner, attribute):
         world.homes.setdefault(value, (owner, shown))
 
 
@@ -29,7 +29,7 @@ def home_of(world: World, owner: Value, attribute: str) -> Home | None:
     if not isinstance(owner, Instance) or not world.homes:
         return None
     held = owner.slots.get(attribute)
-    if not isinstance(held, Collection) or _is_reassigned(owner, attribute):
+    if not isinstance(held, Collection) or is_reassigned(owner, attribute):
         return None
     return world.homes.get(held)
 
@@ -40,7 +40,13 @@ def homes_of(world: World, value: Value) -> list[Home]:
     return [home for home in known if home is not None]
 
 
-def _is_reassigned(owner: Instance, attribute: str) -> bool:
+def object_name(owner: Instance | Class, cls: Class) -> str:
+    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
+    is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
+    return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
+
+
+def is_reassigned(owner: Instance, attribute: str) -> bool:
     """Whether a method stores another one there: then the names part, nobody knows when."""
     return any(
         isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)

@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static import (
     iterators,
     loops,
     memo,
+    pieces,
     polls,
     same_tests,
     settings,
@@ -212,6 +213,7 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     machine.world.deeds = noted
     with in_one_piece.noted(machine, node, frame):
         machine.note_update(load, frame, AccessKind.UPDATE)
+        pieces.note_changed(machine, load, frame)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.charge(len(items))

@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.unit_waits import UnitWaits
 from ros2cc_extract.extract.static.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.wakings import ResourceRef
 from ros2cc_extract.extract.static.world import EntityState, World
-from ros2cc_extract.spec.deeds import Waker
+from ros2cc_extract.spec.deeds import Access, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 _MAIN = 'main'
@@ -75,14 +75,16 @@ def facts_of(state: ActivityState) -> FunctionFacts:
     return describe(state.target, state.place)
 
 
-def activity(state: ActivityState, name: str, names: dict[int, str], waits: UnitWaits) -> Activity:
+def activity(
+    state: ActivityState, names: dict[int, str], waits: UnitWaits, pieces: tuple[Access, ...]
+) -> Activity:
     """The value of ``state`` in the specification."""
     facts = facts_of(state)
     receiver = state.target.receiver if isinstance(state.target, Bound) else None
     owner = receiver if isinstance(receiver, Instance) else None
     deeds = state.deeds
     return Activity(
-        name=name,
+        name=names[id(state)],
         kind=state.kind,
         function=facts.function,
         node=names.get(id(owner)) or _only_node(state, names),
@@ -102,6 +104,7 @@ def activity(state: ActivityState, name: str, names: dict[int, str], waits: Unit
         locks=tuple(deeds.locks),
         publishes=tuple(deeds.publishes),
         changes=tuple(deeds.changes),
+        pieces=pieces,
     )
 
 

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.naming import (
     describe,
     snake_case,
 )
+from ros2cc_extract.extract.static.pieces import pieces_of
 from ros2cc_extract.extract.static.set_up_waits import told
 from ros2cc_extract.extract.static.unit_activities import activities_of, activity, facts_of
 from ros2cc_extract.extract.static.unit_executor import Unit, executor_of
@@ -277,6 +278,7 @@ class UnitBuilder:
             locks=tuple(deeds.locks) if deeds else (),
             publishes=tuple(deeds.publishes) if deeds else (),
             changes=tuple(deeds.changes) if deeds else (),
+            pieces=pieces_of(entity, self._world),
         )
 
     def _note_open_ends(self) -> None:
@@ -322,7 +324,9 @@ class UnitBuilder:
                 replace(callback, blocking=waits.of(entity))
                 for callback, entity in zip(callbacks, entities, strict=True)
             ),
-            tuple(activity(state, names[id(state)], names, waits) for state in states),
+            tuple(
+                activity(state, names, waits, pieces_of(state, self._world)) for state in states
+            ),
             told(self._unit.set_up, self._world, waits, doers),
         )
 

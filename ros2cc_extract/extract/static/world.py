@@ -374,6 +374,7 @@ class World:
     :param readers: who reads the pipes of a child process, by the place where that is made.
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``homes.py``.
+    :param objects: the attribute that holds an object of unknown kind for good, by the object.
     :param locks: the locks that were taken, by the name they are stored under.
     :param main_spins: how many spins the set-up has called in its own thread, behind which no
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
@@ -471,6 +472,7 @@ class World:
     readers: dict[Place, list[Deeds | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
     homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
+    objects: dict[Value, str] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)
     loops_at: dict[str, int] = field(default_factory=dict)

@@ -49,7 +49,10 @@ RULE = Rule(
     'changes that one. A '
     'loop over a dictionary, set or deque that another callback changes meanwhile ends in '
     'a RuntimeError; one that is handed to a helper or a thread stays the same, and a copy '
-    '(`list(d.items())`) is another one. Threads that the program starts, timers and tasks '
+    '(`list(d.items())`) is another one. A message that is kept and changed piece by piece '
+    '(`self.msg.position[k] = x`, two fields one after the other) and published by another '
+    'callback meanwhile goes out part old and part new; one that is made anew each time, or '
+    'changed in one piece, does not. Threads that the program starts, timers and tasks '
     'of pools among them, and `main` beside a thread that spins count as callbacks do, on '
     'any executor. Not told is what is done before the start of a thread or after its '
     'join, and where branches may leave out both. A flag that one tests and both set to '
@@ -66,7 +69,9 @@ RULE = Rule(
     'their groups and the number of threads. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`MultiThreadedExecutor`), `callback_groups.py`. A thread that the program starts is asked '
     'by no executor. Measured with rclpy 7.1.6: a thread and a timer added to one counter, on a '
-    '`SingleThreadedExecutor`; of 35593 additions 32800 were lost.',
+    '`SingleThreadedExecutor`; of 35593 additions 32800 were lost. A thread that read a sensor '
+    'for each of the six items of a message which a timer published: of 80 messages 43 held two '
+    'samples (rclpy 7.1.6; 42 with 9.1.2), and none under one lock.',
     bad="""\
 class Arm(Node):
     def __init__(self):
