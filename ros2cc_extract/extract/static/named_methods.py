@@ -21,7 +21,7 @@ _MANY = 40
 
 
 def methods_named_like(machine: Machine, call: Call) -> Value | None:
-    """What ``getattr(owner, f'do_{word}')`` may give: each method so named, or the default."""
+    """What ``getattr(owner, 'do_' + word)`` may give: each method so named, or the default."""
     name = call.args[1]
     ends = _ends_of(name.node) if isinstance(name, Mystery) else None
     if ends is None:
@@ -47,11 +47,25 @@ def _methods(owner: Instance, first: str, last: str) -> Iterator[str]:
 
 
 def _ends_of(text: ast.expr | None) -> tuple[str, str] | None:
-    """How an f-string begins and ends, if anything of it is known."""
-    if not isinstance(text, ast.JoinedStr):
-        return None
-    first, last = (
-        str(part.value) if isinstance(part, ast.Constant) else ''
-        for part in (text.values[0], text.values[-1])
-    )
-    return (first, last) if first or last else None
+    """How a text that the source puts together begins and ends, if anything of it is known."""
+    match text:
+        case ast.JoinedStr(values=[first, *_] as parts):
+            ends = _constant(first), _constant(parts[-1])
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            ends = _beginning(left), _constant(right)
+        case ast.BinOp(left=ast.Constant(value=str(form)), op=ast.Mod()):
+            ends = form.partition('%s')[0], form.rpartition('%s')[2]
+        case _:
+            return None
+    return ends if any(ends) else None
+
+
+def _beginning(sum_: ast.expr) -> str:
+    while isinstance(sum_, ast.BinOp) and isinstance(sum_.op, ast.Add):
+        sum_ = sum_.left
+    return _constant(sum_)
+
+
+def _constant(part: ast.expr) -> str:
+    return str(part.value) if isinstance(part, ast.Constant) else ''
+

@@ -43,6 +43,12 @@ rclpy.spin(Router())
         ("f'{verb}_call'", ['client.call']),
         ("f'do_{verb}_now'", []),
         ("f'{verb}'", []),
+        ("'do_' + verb", ['client.call']),
+        ("'d' + 'o_' + verb", ['client.call']),
+        ("verb + '_call'", ['client.call']),
+        ("'do_' + verb + '_now'", []),
+        ("'do_%s' % verb", ['client.call']),
+        ("'do_%s_now' % verb", []),
     ],
 )
 def test_each_method_so_named_may_run(name: str, waits: list[str]) -> None:
