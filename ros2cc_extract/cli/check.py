@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -34,6 +35,7 @@ DEFAULT_SECONDS = 20.0
 DEFAULT_MAX_SECONDS = 120.0
 WITH_RUNS = ('json', 'html')
 """Formats that show the run behind every verdict."""
+LAUNCH_SUFFIXES = ('.launch.py', '_launch.py')
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
 
@@ -108,6 +110,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if outcome.interrupted:
         print('interrupted: what was not verified by then is undecided', file=stderr)
         return termination.status
+    if not outcome.units:
+        _tell_nothing_judged(outcome.extraction.files_seen, stderr)
     return _status(args, outcome)
 
 
@@ -199,6 +203,14 @@ def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) 
     stdout.write(write(checked, form))
     if form == 'github':
         _append_step_summary(checked)
+
+
+def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:
+    """Zero problems of nothing may read as safe."""
+    told = 'nothing was judged: no rclpy node with a callback found'
+    if any(file.endswith(LAUNCH_SUFFIXES) for file in files):
+        told += '; launch files are not followed, name the Python files of their nodes'
+    print(told, file=stderr)
 
 
 def _append_step_summary(checked: Checked) -> None:

@@ -253,6 +253,25 @@ def test_a_node_that_only_publishes_is_told_and_left_out(run: Run, tmp_path: Pat
     )
 
 
+@pytest.mark.parametrize(
+    ('name', 'more'),
+    [
+        ('tool.py', ''),
+        (
+            'robot.launch.py',
+            '; launch files are not followed, name the Python files of their nodes',
+        ),
+    ],
+)
+def test_nothing_judged_does_not_read_as_safe(
+    run: Run, tmp_path: Path, name: str, more: str
+) -> None:
+    (tmp_path / name).write_text('def main():\n    return 1\n')
+    outcome = run(name)
+    assert outcome.status == 0
+    assert outcome.err == f'nothing was judged: no rclpy node with a callback found{more}\n'
+
+
 def test_a_unit_left_out_says_what_could_not_be_followed(run: Run, tmp_path: Path) -> None:
     (tmp_path / 'robot.py').write_text(
         'import rclpy\n'
