@@ -68,4 +68,3 @@ def _beginning(sum_: ast.expr) -> str:
 
 def _constant(part: ast.expr) -> str:
     return str(part.value) if isinstance(part, ast.Constant) else ''
-
