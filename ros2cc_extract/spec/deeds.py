@@ -91,6 +91,8 @@ class Blocking:
         reads that pipe.
     :param answer_to: the topic of the message on which another process must answer, by a
         subscription, before the wait ends.
+    :param unsent: the topics whose messages end it, where whoever publishes there in this program
+        does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
         locks held and the wait.
@@ -116,6 +118,7 @@ class Blocking:
     assumed: str | None = None
     unread: str | None = None
     answer_to: str | None = None
+    unsent: str | None = None
     at_end: Place | None = None
     repeats: bool = False
     times: int = 1

@@ -104,6 +104,7 @@ BLOCKING = record(
                 ('assumed', 'assumed', optional(TEXT)),
                 ('unread', 'unread', optional(TEXT)),
                 ('answer_to', 'answer_to', optional(TEXT)),
+                ('unsent', 'unsent', optional(TEXT)),
                 ('at_end', 'at_end', _OPTIONAL_PLACE),
                 ('repeats', 'repeats', FLAG),
                 ('times', 'times', COUNT),

@@ -314,6 +314,7 @@ class Effects(Waits):
         is_open = self.world.path != self.world.callback_path
         deeds.written.setdefault((name, place), (deeds.behind, is_open))
         wiped_out.note_sent(deeds, str(name))
+        heard.note_begun(self.world, place)
         note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:

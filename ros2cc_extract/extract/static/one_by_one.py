@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from ros2cc_extract.extract.static.doing import Deeds
+from ros2cc_extract.extract.static.doing import ActivityState, Deeds
 from ros2cc_extract.extract.static.ending import executor_of
 from ros2cc_extract.extract.static.world import EntityState, ExecutorState, GroupState
+from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import GroupType
 
 _SINGLE = 'SingleThreadedExecutor'
@@ -38,9 +39,29 @@ def may_not_overlap(one: object, other: object) -> bool:
     return _has_one_thread(executors[0].state) or _is_one_group(everybody)
 
 
+def keeps_out(doer: object, other: object, block: Blocking) -> bool:
+    """
+    Whether ``other`` does not run as long as ``doer`` is in that wait; it may be ``doer`` itself.
+
+    An ``await`` and a nested spin give the thread to others, and keep the group.
+    """
+    if isinstance(doer, ActivityState):
+        return other is doer and doer.count == 1
+    if not isinstance(doer, EntityState) or not isinstance(other, EntityState):
+        return False
+    executor = executor_of(doer.node)
+    if executor is None or executor is not executor_of(other.node):
+        return False
+    is_thread_taken = _has_one_thread(executor.state) and not _gives_thread(block)
+    return is_thread_taken or _is_one_group((doer, other))
+
+
 def _lets_others_run(doer: EntityState) -> bool:
-    blocks = (doer.deeds or Deeds()).blocking
-    return any(block.call == 'await' or 'spin' in block.call for block in blocks)
+    return any(map(_gives_thread, (doer.deeds or Deeds()).blocking))
+
+
+def _gives_thread(block: Blocking) -> bool:
+    return block.call == 'await' or 'spin' in block.call
 
 
 def _has_one_thread(state: object) -> bool:

@@ -36,7 +36,7 @@ from ros2cc_extract.extract.static.values import (
 )
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
-from ros2cc_extract.extract.static.wiped_out import sent_up_to
+from ros2cc_extract.extract.static.wiped_out import sent_by_now, sent_up_to
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, Blocking
 
@@ -292,6 +292,7 @@ def _note(
         reference = DataRef(sorted(names)[0])
         reference.names, reference.before = frozenset(names), own
         reference.sent = sent
+        reference.sent_by_now = sent_by_now(machine.world.deeds or Deeds())
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
     elif (not ends_otherwise or _is_idle(loop, tests)) and not any(

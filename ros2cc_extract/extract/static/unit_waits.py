@@ -15,6 +15,12 @@ from ros2cc_extract.extract.static.outside_library import OF_CHILDREN
 from ros2cc_extract.extract.static.pools import why_no_thread
 from ros2cc_extract.extract.static.setters import the_setter
 from ros2cc_extract.extract.static.uncalled import data_is_written_elsewhere, uncalled_wakers
+from ros2cc_extract.extract.static.unsent import (
+    comes_unasked,
+    is_first,
+    sent_in_hold,
+    unsent_before_end,
+)
 from ros2cc_extract.extract.static.unsure_wakers import (
     forgets,
     is_unheard,
@@ -238,17 +244,7 @@ class UnitWaits:
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)
         if isinstance(raw.on, DataRef):
-            writers = tuple(dict.fromkeys((*self._writers(raw.on), *self._at_end(raw.on, doer))))
-            why = data_is_written_elsewhere(self._world, raw.on.names)
-            by = [writer for writer, _ in self._writes(raw.on)]
-            unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
-            unsure = unsure or why_unspun(self._world, by, doer, self._name)
-            if unsure is not None:
-                writers = _unsure(writers)
-            asked = answer_from_outside(raw.on.sent, by, self._world)
-            is_poll = raw.call == POLLING_LOOP and raw.seconds is None
-            asked = asked if is_poll and not is_activity(doer) else None
-            return replace(named, wakers=writers, escapes=why or unsure, answer_to=asked)
+            return self._of_data(raw, raw.on, named, doer)
         forked = self._world.forked
         if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
             raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
@@ -289,7 +285,48 @@ class UnitWaits:
         elif row.ended_by and escapes is None:
             unknown = Unknown('what is waited for is not known', raw.source)
             escapes = raw.on if isinstance(raw.on, Unknown) else unknown
+        if escapes is None and not _ends_by_itself(wakers) and not named.initial:
+            named = replace(named, unsent=self._unsent(raw, doer))
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
+
+    def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
+        """A loop that waits until somebody has written what it reads."""
+        writers = tuple(dict.fromkeys((*self._writers(on), *self._at_end(on, doer))))
+        why = data_is_written_elsewhere(self._world, on.names)
+        by = [writer for writer, _ in self._writes(on)]
+        unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
+        unsure = unsure or why_unspun(self._world, by, doer, self._name)
+        if unsure is not None:
+            writers = _unsure(writers)
+        asked = answer_from_outside(on.sent, by, self._world)
+        is_poll = raw.call == POLLING_LOOP and raw.seconds is None
+        asked = asked if is_poll and not is_activity(doer) else None
+        is_open = why is not None or unsure is not None or _ends_by_itself(writers)
+        sent = on.sent_by_now
+        unsent = None if is_open else unsent_before_end(raw, sent, by, doer, self._world)
+        return replace(
+            named, wakers=writers, escapes=why or unsure, answer_to=asked, unsent=unsent
+        )
+
+    def _unsent(self, raw: Blocking, doer: Doer) -> str | None:
+        """The topics on which nobody in sight publishes before the wait has ended."""
+        reference = raw.resource
+        if not isinstance(reference, ResourceRef) or _is_in_turn(reference, doer):
+            return None
+        stays = reference.is_kept and reference.number not in self._world.cleared
+        if stays and not is_first(raw, reference, doer):
+            return None
+        by = [
+            waking.by
+            for waking in wakings_of(self._world, reference)
+            if waking.word in reference.ended_by
+            and not comes_last(waking, self._world)
+            and (waking.by is doer or comes_unasked(waking, reference))
+        ]
+        sent = reference.sent
+        if self._forgets(reference, doer):
+            sent = sent_in_hold(reference, doer)
+        return unsent_before_end(raw, sent, by, doer, self._world)
 
     def _wakers_of(
         self, raw: Blocking, reference: ResourceRef, doer: Doer
@@ -316,8 +353,7 @@ class UnitWaits:
 
     def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
         """What the wait is an answer to; a thread that takes items in turn waits for no answer."""
-        is_in_turn = is_activity(doer) and not reference.is_kept
-        if raw.seconds is not None or is_in_turn:
+        if raw.seconds is not None or _is_in_turn(reference, doer):
             return None
         wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
         by = [waking.by for waking in wakings if not comes_last(waking, self._world)]
@@ -459,6 +495,15 @@ def comes_last(waking: Waking, world: World) -> bool:
     """Whether the set-up does it when its last spin is over, and no callback runs any more."""
     is_behind = 0 < waking.spins == world.main_spins
     return waking.by is None and (waking.after_spin or is_behind)
+
+
+def _is_in_turn(reference: ResourceRef, doer: Doer) -> bool:
+    """Whether a thread takes what others give it, one by one."""
+    return is_activity(doer) and not reference.is_kept
+
+
+def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
+    return any(waker.by in (OUTSIDE, TIME) for waker in wakers)
 
 
 def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:

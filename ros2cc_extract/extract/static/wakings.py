@@ -142,11 +142,13 @@ class DataRef(EntityRef):
 
     :param names: what the test reads.
     :param before: what the loop's own callback has written before the loop, and where.
-    :param sent: topics of messages that come before the loop.
+    :param sent: topics of messages that come before the loop; ``sent_by_now`` of all, with those
+        of its rounds.
     """
 
     number = 0
     sent: frozenset[str] = frozenset()
+    sent_by_now: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     before: frozenset[tuple[str, Place | None]] = frozenset()
 

@@ -59,12 +59,17 @@ def answer_from_outside(
     They come by subscriptions whose topics nobody in sight publishes. Who sends nothing before it
     waits takes it that messages come by themselves.
     """
-    heard = {_topic(waker) for waker in wakers}
+    heard = {heard_on(waker) for waker in wakers}
     doers: tuple[Doer, ...] = (*world.entities, *world.activities)
     acts = (act for doer in doers for act in (doer.deeds or Deeds()).publishes)
     published = {act.name.strip('/') if isinstance(act.name, str) else None for act in acts}
     is_open = None in heard or None in published or not heard.isdisjoint(published)
     return ', '.join(sorted(sent)) if sent and heard and not is_open else None
+
+
+def sent_by_now(deeds: Deeds) -> frozenset[str]:
+    """The topics on which the run that is followed has published so far."""
+    return frozenset(str(what) for kind, what in deeds.order if kind == _SEND)
 
 
 def sent_before_clear(deeds: Deeds, event: object) -> frozenset[str]:
@@ -87,7 +92,7 @@ def why_wiped_out(
 ) -> Unknown | None:
     """Why all that ends a wait may come before the event is cleared, and not again."""
     answers = _answers(reference.answered, doers)
-    heard = [_topic(waking.by) for waking in mine]
+    heard = [heard_on(waking.by) for waking in mine]
     if not answers or not heard or not all(_is_answer(t, answers, doer, doers) for t in heard):
         return None
     topics = ', '.join(sorted(reference.answered))
@@ -101,8 +106,8 @@ def _answers(sent: frozenset[str], doers: Sequence[Doer]) -> frozenset[str]:
     while more := {
         topic
         for doer in doers
-        if _topic(doer) in found
-        for topic in _published(doer)
+        if heard_on(doer) in found
+        for topic in published_by(doer)
         if topic not in found
     }:
         found |= more
@@ -115,16 +120,18 @@ def _is_answer(
     """Whether nobody in sight publishes ``topic`` but because of a message that was sent."""
     if topic is None:
         return False
-    senders = [each for each in doers if topic in _published(each)]
-    return all(each is doer or _topic(each) in answers for each in senders)
+    senders = [each for each in doers if topic in published_by(each)]
+    return all(each is doer or heard_on(each) in answers for each in senders)
 
 
-def _topic(doer: object) -> str | None:
+def heard_on(doer: object) -> str | None:
+    """The topic of a subscription, where that is known."""
     if not isinstance(doer, EntityState) or doer.kind is not EntityKind.SUBSCRIPTION:
         return None
     return str(doer.key.value).strip('/') if isinstance(doer.key, Const) else None
 
 
-def _published(doer: Doer) -> frozenset[str]:
+def published_by(doer: Doer) -> frozenset[str]:
+    """The topics on which ``doer`` publishes, as far as they are known."""
     acts = (doer.deeds or Deeds()).publishes
     return frozenset(act.name.strip('/') for act in acts if isinstance(act.name, str))

@@ -20,10 +20,10 @@ from ros2cc_extract.findings.waits import (
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.findings.words import listing
+from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
-from ros2cc_extract.spec.model import Activity, ActivityKind
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 from ros2cc_extract.verify.caveats import open_ends
 from ros2cc_extract.verify.unit import Verdict
 
@@ -74,16 +74,16 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
             waits.append(wait)
             reasons[id(wait)] = _reason(wait.block)
     else:
-        for wait in _for_answers(context):
+        for wait in _for_messages(context):
             waits.append(wait)
             reasons[id(wait)] = ''
     for alike in at_one_place(waits):
-        yield _hit(alike, reasons[id(alike[0])], is_outside=is_outside)
+        yield _hit(alike, reasons[id(alike[0])], context, is_outside=is_outside)
 
 
-def _for_answers(context: Context) -> Iterator[AnyWait]:
+def _for_messages(context: Context) -> Iterator[AnyWait]:
     """
-    Waits for a message from another process that answers one of this program.
+    Waits for messages from another process: answers, and what nobody here can send meanwhile.
 
     Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
     anyhow, that is told.
@@ -91,7 +91,7 @@ def _for_answers(context: Context) -> Iterator[AnyWait]:
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
             for block in caller.blocking:
-                if block.answer_to is not None:
+                if block.answer_to is not None or block.unsent is not None:
                     yield AnyWait(caller, block, kind_of(block))
 
 
@@ -217,7 +217,15 @@ def _limit_of(wait: AnyWait, context: Context) -> str:
     return (result.reason if result else None) or 'a limit was hit'
 
 
-def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
+def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
+    """Who publishes them here."""
+    for doer in context.doers:
+        names = (act.name for act in doer.publishes if isinstance(act.name, str))
+        if any(name.strip('/') in topics.split(', ') for name in names):
+            yield doer
+
+
+def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside: bool) -> Hit:
     wait = waits[0]
     what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
     named = f' for {what}' if what else ''
@@ -229,6 +237,12 @@ def _hit(waits: Sequence[AnyWait], reason: str, *, is_outside: bool) -> Hit:
         ends = (
             f'and {verb} for ever if nobody outside this program answers the message on {topic}, '
             'or one of the two is lost'
+        )
+    elif wait.block.unsent is not None and is_outside:
+        topic = wait.block.unsent
+        ends = (
+            f'and {verb} for ever if nobody outside this program publishes {topic}, as '
+            f'{shown(_senders(topic, context))} cannot do so meanwhile'
         )
     return Hit(
         place=wait.place,
@@ -306,10 +320,11 @@ OUTSIDE_WAIT = Rule(
     severity=Severity.NOTE,
     title='Wait that nobody on its executor ends',
     what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
-    'serial line or a person, for what another executor or program does, or for the message by '
-    'which another program answers one that was published before. The verdicts assume that it '
-    'ends. If it does not, a callback keeps its thread and its mutually exclusive group for ever, '
-    'and a thread keeps the process.',
+    'serial line or a person, for what another executor or program does, for the message by '
+    'which another program answers one that was published before, or for a message that nobody '
+    'in this program publishes before the wait has ended, as its publishers are in the same '
+    'group. The verdicts assume that it ends. If it does not, a callback keeps its thread and its '
+    'mutually exclusive group for ever, and a thread keeps the process.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
     'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '

@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from finding_units import ONE_THREAD, at, calls, client, found, only, threads, timer, unit
+from finding_units import (
+    ONE_THREAD,
+    at,
+    calls,
+    client,
+    found,
+    only,
+    subscription,
+    threads,
+    timer,
+    unit,
+)
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Blocking, Needs, Waker
+from ros2cc_extract.spec.deeds import OUTSIDE, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 
@@ -50,6 +61,20 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
     assert only(spec, 'CC121').message == (
         'feed waits in subprocess.run without a time-out, and waits for ever if nobody outside '
         'its executor ends it'
+    )
+
+
+def test_what_nobody_here_sends_meanwhile_rests_on_other_programs() -> None:
+    (wait,) = calls(None, call='Event.wait')
+    wait = replace(wait, wakers=(Waker(by='listen', after=0),), unsent='go')
+    sender = replace(timer('tell'), publishes=(Act(name='/go'),))
+    spec = unit(
+        threads(2), timer('feed', blocking=(wait,)), subscription('listen', 'other'), sender
+    )
+    assert found(spec) == ['CC121:40 note']
+    assert only(spec, 'CC121').message == (
+        'feed waits in Event.wait without a time-out, and waits for ever if nobody outside '
+        'this program publishes go, as tell cannot do so meanwhile'
     )
 
 
