@@ -24,7 +24,7 @@ from ros2cc_extract.cli.main import (
     EXIT_FINDINGS,
     EXIT_UNDECIDED,
 )
-from ros2cc_extract.cli.termination import termination_as_interrupt
+from ros2cc_extract.cli.termination import Termination, termination_as_interrupt
 
 if TYPE_CHECKING:
     from ros2cc_extract.cli.config import Config
@@ -88,17 +88,17 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
-    with termination_as_interrupt() as termination:
-        begun = time.monotonic()
-        try:
+    termination, begun = Termination(), time.monotonic()
+    try:
+        with termination_as_interrupt(termination):
             known = _known(args, config, job, stderr)
             job = replace(job, known=known, spent_s=time.monotonic() - begun)
             outcome = check_paths(job, stderr)
-        except KeyboardInterrupt:  # before there was anything to tell
-            if not termination.is_asked:
-                raise
-            print('interrupted', file=stderr)
-            return termination.status
+    except KeyboardInterrupt:  # before there was anything to tell
+        if not termination.is_asked:
+            raise
+        print('interrupted', file=stderr)
+        return termination.status
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
     if args.output is not None:

@@ -20,7 +20,7 @@ from typing import Protocol, TextIO, cast
 
 from ros2cc_extract.cli.missing_parts import tell_what_is_missing
 from ros2cc_extract.cli.streams import as_utf_8, silence, with_streams
-from ros2cc_extract.cli.termination import termination_as_interrupt
+from ros2cc_extract.cli.termination import Termination, forget_interrupt, termination_as_interrupt
 from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
 from ros2cc_extract.places import Place
 from ros2cc_extract.shown import Shown, raw
@@ -105,7 +105,9 @@ def entry_point() -> None:
     # Who started us may not wait for children; we do, and need to know how they ended.
     if signal.getsignal(signal.SIGCHLD) is signal.SIG_IGN:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-    sys.exit(with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr)))
+    status = with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr))
+    forget_interrupt()
+    sys.exit(status)
 
 
 def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
@@ -132,15 +134,15 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     tell_what_is_missing(name, args, stderr)
     if name in WRITES_DATA or getattr(args, 'output_format', 'text') != 'text':
         as_utf_8(raw(stdout))
-    with termination_as_interrupt() if name not in HEARS_ITSELF else nullcontext() as request:
-        try:
-            status = command.run(args, stdout, stderr)
-        except KeyboardInterrupt:
-            if request is None or not request.is_asked:
-                raise
-            print(f'{PROGRAM}: interrupted', file=stderr)
-            return request.status
-    return status
+    request = Termination()
+    try:
+        with termination_as_interrupt(request) if name not in HEARS_ITSELF else nullcontext():
+            return command.run(args, stdout, stderr)
+    except KeyboardInterrupt:
+        if not request.is_asked:
+            raise
+        print(f'{PROGRAM}: interrupted', file=stderr)
+        return request.status
 
 
 def _refusal(error: OSError) -> str:

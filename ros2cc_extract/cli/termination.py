@@ -33,16 +33,17 @@ class Termination:
 
 
 @contextmanager
-def termination_as_interrupt() -> Iterator[Termination]:
+def termination_as_interrupt(asked: Termination) -> Iterator[None]:
     """
     Turn requests to end into SIGINT, which a search knows how to end with.
 
-    Handlers of the user's own, signals that are ignored, and threads that hear none, are left
-    alone.
+    The interrupt may come at the end of the context too: it is caught outside. Handlers of the
+    user's own, signals that are ignored, and threads that hear none, are left alone.
+
+    :param asked: is told which one was heard.
     """
-    asked = Termination()
     if threading.current_thread() is not threading.main_thread():
-        yield asked
+        yield
         return
 
     def hear(number: int, frame: object) -> None:
@@ -53,7 +54,19 @@ def termination_as_interrupt() -> Iterator[Termination]:
     for each in heard:
         signal.signal(each, hear)
     try:
-        yield asked
+        yield
     finally:
         for each in heard:
             signal.signal(each, signal.SIG_DFL)
+
+
+def forget_interrupt() -> None:
+    """
+    Let the process end with its own status, though an interrupt was caught on the way.
+
+    An interrupt that leaves ``exec`` of a text (each data class is made by one) is noted by
+    CPython as one that nobody has caught, whoever does: ``python -m`` then ends by SIGINT,
+    whatever the status (``unhandled_keyboard_interrupt`` in Python/pythonrun.c and
+    Modules/main.c). The next text that is run takes the note back.
+    """
+    exec('')

@@ -314,6 +314,47 @@ def test_a_signal_leaves_no_child(number: signal.Signals, whom: str, repository:
     assert b'Traceback' not in out + err, err
 
 
+ASKED_TO_END = """
+import os, signal
+from ros2cc_extract.cli import diff, main
+def run(*_):
+    HEARD
+diff.run = run
+main.entry_point()
+"""
+HEARD = 'os.kill(os.getpid(), signal.NUMBER)'
+
+
+@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+@pytest.mark.parametrize(
+    'where',
+    [HEARD, f'exec("{HEARD}")'],
+    ids=['in our code', 'where a class is made'],  # as dataclasses does
+)
+def test_a_signal_ends_a_module_by_its_status(
+    number: signal.Signals, where: str, folder: Path
+) -> None:
+    heard = where.replace('NUMBER', number.name)
+    (folder / 'ended.py').write_text(ASKED_TO_END.replace('HEARD', heard))
+    command = [sys.executable, '-m', 'ended', 'diff', 'node.py', 'clean.py']
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        preexec_fn=hears_all,
+    )
+    assert (done.returncode, done.stdout) == (128 + number, '')
+    assert done.stderr == 'ros2cc-extract: interrupted\n'
+
+
+def hears_all() -> None:
+    """What a shell runs in the background does not hear SIGINT."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize('program', ['git', 'verifyta'])
 def test_a_program_that_was_called_ends_with_us(program: str, folder: Path) -> None:
     """One that never ends by itself."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from io import StringIO
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from tests.support.packages import DEADLOCK
 from tests.support.repositories import commit, make_repository
 
 
+@pytest.mark.skipif(shutil.which('git') is None, reason='git is not installed')
 def test_the_revision_takes_half_at_most_and_the_rest_is_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
