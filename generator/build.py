@@ -39,11 +39,13 @@ __all__ = [
     'IN_DOUBT',
     'Family',
     'Freedom',
+    'ModelAlone',
     'Profile',
     'Query',
     'RenderedModel',
     'Text',
     'render',
+    'render_alone',
 ]
 
 #: What compact texts let move; docs/model.md shows that more would change no verdict.
@@ -76,6 +78,19 @@ class Freedom:
     made: int | None = None
     nested: int | None = None
     observed: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelAlone:
+    """
+    A model to be asked, and what to ask.
+
+    :param xml: the model without its queries, which a large unit has by the hundred thousand.
+    """
+
+    name: str
+    xml: str
+    queries: tuple[Query, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,26 +127,57 @@ def render(
     :param freedom: of profile rclpy; what verdicts need where it is left out.
     :raises ValueError: when ``max_cycle`` is below 1.
     """
-    if max_cycle is not None and max_cycle < 1:
-        raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
-    whole = number_unit(closed, max_cycle)
-    numbered = replace(whole, activities=())  # the published model has none
+    whole = _numbered(closed, max_cycle)
+    numbered = _shown(whole, Profile.PAPER)
     published = paper_queries(numbered)
-    unit = _with_threads_that_run(whole) if profile is Profile.RCLPY else numbered
+    unit = _shown(whole, profile)
     queries = rclpy_queries(unit) if profile is Profile.RCLPY else published
+    features = _features(unit, freedom or _least_freedom(unit), closed.spec.rclpy)
     return RenderedModel(
         name=unit.name,
-        xml=_write_xml(
-            unit,
-            queries,
-            profile,
-            text,
-            _features(unit, freedom or _least_freedom(unit), closed.spec.rclpy),
-        ),
+        xml=_write_xml(unit, queries, profile, text, features),
         queries=queries,
         q=write_query_file(queries),
         published=_write_published_files(numbered, published),
     )
+
+
+def render_alone(
+    closed: ClosedSpec,
+    *,
+    profile: Profile = Profile.PAPER,
+    text: Text = Text.PLAIN,
+    max_cycle: int | None = 1,
+) -> ModelAlone:
+    """
+    Write the model of ``closed`` for somebody who asks the queries without reading them there.
+
+    :param max_cycle: as for ``render``.
+    :raises ValueError: when ``max_cycle`` is below 1.
+    """
+    unit = _shown(_numbered(closed, max_cycle), profile)
+    features = _features(unit, _least_freedom(unit), closed.spec.rclpy)
+    return ModelAlone(
+        name=unit.name,
+        xml=_write_xml(unit, (), profile, text, features),
+        queries=_queries_of(unit, profile),
+    )
+
+
+def _numbered(closed: ClosedSpec, max_cycle: int | None) -> Unit:
+    if max_cycle is not None and max_cycle < 1:
+        raise ValueError(f'max_cycle must be at least 1, not {max_cycle}')
+    return number_unit(closed, max_cycle)
+
+
+def _shown(whole: Unit, profile: Profile) -> Unit:
+    """What a profile shows of a unit; the published model has no activities."""
+    is_rclpy = profile is Profile.RCLPY
+    return _with_threads_that_run(whole) if is_rclpy else replace(whole, activities=())
+
+
+def _queries_of(unit: Unit, profile: Profile) -> tuple[Query, ...]:
+    return rclpy_queries(unit) if profile is Profile.RCLPY else paper_queries(unit)
 
 
 def _least_freedom(unit: Unit) -> Freedom:
@@ -143,10 +189,7 @@ def queries_of(
     closed: ClosedSpec, *, profile: Profile = Profile.PAPER, max_cycle: int | None = 1
 ) -> tuple[Query, ...]:
     """List the queries of ``closed``, without its model."""
-    numbered = number_unit(closed, max_cycle)
-    if profile is Profile.RCLPY:
-        return rclpy_queries(_with_threads_that_run(numbered))
-    return paper_queries(replace(numbered, activities=()))
+    return _queries_of(_shown(number_unit(closed, max_cycle), profile), profile)
 
 
 def _with_threads_that_run(unit: Unit) -> Unit:

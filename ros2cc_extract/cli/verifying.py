@@ -265,6 +265,8 @@ def _kept(verification: Verification, with_runs: bool) -> Verification:
 
 
 def _kept_result(result: QueryResult, with_runs: bool) -> QueryResult:
+    if not result.run and not result.seconds:
+        return result  # as most of a hundred thousand may be, and to copy them takes its time
     if with_runs:
         return replace(result, seconds=0.0, run=result.evidence)
     return replace(result, seconds=0.0, run=NotKept.RUN if result.run else None)

@@ -119,7 +119,7 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
 
 
 def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> CheckResult:
-    rendered = build.render(
+    rendered = build.render_alone(
         part, profile=build.Profile.RCLPY, text=build.Text.COMPACT, max_cycle=None
     )
     asked = next(

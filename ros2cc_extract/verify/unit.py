@@ -175,20 +175,20 @@ def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryRe
     return replace(result, formula=query.formula, words=words, callbacks=query.callbacks)
 
 
-def _render(closed: ClosedSpec, options: Options) -> build.RenderedModel:
-    return build.render(
+def _render(closed: ClosedSpec, options: Options) -> build.ModelAlone:
+    return build.render_alone(
         closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
     )
 
 
-def _read(closed: ClosedSpec, options: Options) -> tuple[build.RenderedModel, Model]:
+def _read(closed: ClosedSpec, options: Options) -> tuple[build.ModelAlone, Model]:
     """Render and read; the last one is kept, as several searches ask the same in turn."""
     last = known_of(options)
     if last.get('closed') is not closed:
         rendered = _render(closed, options)
         model = read_model(rendered.xml, f'{rendered.name}.xml')
         last |= {'closed': closed, 'read': (rendered, model)}
-    read: tuple[build.RenderedModel, Model] = last['read']
+    read: tuple[build.ModelAlone, Model] = last['read']
     return read
 
 
@@ -399,7 +399,7 @@ def ask_unit(
     """
     options = replace(options, limits=options.limits.begun())
     with limited_reading(options.limits, Path(closed.spec.name)) as has_begun:
-        rendered = build.render(
+        rendered = build.render_alone(
             closed, profile=options.profile, text=build.Text.PLAIN, max_cycle=options.max_cycle
         )
         model = read_model(rendered.xml, f'{rendered.name}.xml')

@@ -30,7 +30,7 @@ def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
 
     :raises InputError: when it cannot be read or is no run of that model.
     """
-    rendered = build.render(
+    rendered = build.render_alone(
         closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
     )
     model = read_model(rendered.xml, f'{rendered.name}.xml')

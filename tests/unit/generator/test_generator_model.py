@@ -1,10 +1,11 @@
 import re
+from collections.abc import Callable
 from xml.etree import ElementTree
 
 import pytest
 from generator_units import closed_unit
 
-from ros2cc_extract.generator.build import Text, render
+from ros2cc_extract.generator.build import Profile, Text, render, render_alone
 
 ARM = closed_unit('tick:TMR:a scan:SUB:b add:SRV:b', 'a:EXCLUSIVE b:REENTRANT', 2)
 ALONE = closed_unit('tick:TMR:g', 'g:EXCLUSIVE', 1)
@@ -89,9 +90,18 @@ def test_published_files_do_not_depend_on_the_text():
     assert render(ARM, text=Text.PLAIN).published == render(ARM, text=Text.COMPACT).published
 
 
-def test_a_bound_on_arrivals_below_one_is_refused():
+@pytest.mark.parametrize('write', [render, render_alone])
+def test_a_bound_on_arrivals_below_one_is_refused(write: Callable[..., object]) -> None:
     with pytest.raises(ValueError, match='max_cycle must be at least 1, not 0'):
-        render(ALONE, max_cycle=0)
+        write(ALONE, max_cycle=0)
+
+
+@pytest.mark.parametrize('profile', Profile)
+def test_a_model_alone_is_the_same_without_its_queries(profile: Profile) -> None:
+    whole = render(ARM, profile=profile, text=Text.COMPACT)
+    alone = render_alone(ARM, profile=profile, text=Text.COMPACT)
+    assert alone.xml == re.sub(r'(?s)\t\t<query>.*</query>\n', '', whole.xml)
+    assert (alone.name, alone.queries) == (whole.name, whole.queries)
 
 
 def test_without_a_bound_there_is_nothing_to_paste_into_the_published_template():
