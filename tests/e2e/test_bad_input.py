@@ -108,7 +108,8 @@ def test_unreadable_file(run: Run, tmp_path: Path) -> None:
 def test_empty_file_holds_no_node(run: Run, tmp_path: Path) -> None:
     (tmp_path / 'nothing.py').write_text('')
     outcome = run('nothing.py')
-    assert (outcome.status, outcome.err) == (0, '')
+    told = 'nothing was judged: no rclpy node with a callback found\n'
+    assert (outcome.status, outcome.err) == (0, told)
 
 
 def test_five_megabytes_of_generated_code(run: Run, tmp_path: Path) -> None:
