@@ -178,6 +178,19 @@ def _remember(
     world.outside.append(wait)
 
 
+def note_interruptible(world: World, name: str, on: Value | None) -> None:
+    """
+    Remember an event on which the main program may wait for the signal that ends it.
+
+    What nobody can set as it has no name, or what stands where an interruption is caught.
+    Source: CPython 3.12, ``signal`` (SIGINT raises ``KeyboardInterrupt`` in the main thread).
+    """
+    if name != 'Event.wait' or not isinstance(on, Instance) or world.in_thread:
+        return
+    if world.tries or on.hint is None:
+        world.interruptible.add(id(on))
+
+
 def forget_awaits(world: World, told: int) -> None:
     """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
     late = [each for each in world.diagnostics[told:] if each.slug != _ASYNCIO_AWAIT]
@@ -235,6 +248,8 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
     name = thing.hint or thing.class_name
     words = frozenset({Word.PUT if wait.call == 'Queue.get' else Word.SET})
     wakings = [each for each in world.wakings.get(id(thing), ()) if each.word in words]
+    if not wakings and id(thing) in world.interruptible:
+        return
     if id(thing) in world.given or uncalled_wakers(world, name, words, thing.place):
         return
     doers = [waking.by for waking in wakings]

@@ -217,6 +217,8 @@ def run_callbacks(machine: Interpreter) -> None:
     for state in activities.followed(machine.world):
         _tell(machine, state)
         _run_new_callbacks(machine)
+    for state in machine.world.signal_handlers:
+        _tell(machine, state)
 
 
 def _run_new_callbacks(machine: Interpreter) -> None:

@@ -348,6 +348,8 @@ class UnitWaits:
         unsure = unsure or why_no_thread(mine, doer, self._name)
         if unsure is not None:
             found = list(_unsure(found))
+        if not mine and reference.number in self._world.interruptible:
+            found = [Waker(by=OUTSIDE, source=raw.source)]
         why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer, self._world)
         return found, why
 

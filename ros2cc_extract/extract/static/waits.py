@@ -82,6 +82,7 @@ class Waits(Machine):
             return
         if deeds is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
+            outside_waits.note_interruptible(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if deeds is None:
             self._note_in_set_up(block, thing, place)

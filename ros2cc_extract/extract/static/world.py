@@ -502,6 +502,8 @@ class World:
     decorated_classes: list[Class] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
     exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
+    signal_handlers: list[ActivityState] = field(default_factory=list)
+    interruptible: set[int] = field(default_factory=set)
     instances: list[Instance] = field(default_factory=list)
     subclasses: dict[Class, list[Class]] = field(default_factory=dict)
     made_of: Counter[Class] = field(default_factory=Counter)

@@ -29,6 +29,7 @@ from ros2cc_extract.verify.unit import Verdict
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
+_OF_MAIN = frozenset({'Event.wait', 'signal.pause', 'signal.sigwait', 'input'})
 _FOREIGN = frozenset({'await', 'unknown wait'})
 _NOBODY_KNOWN = 'it is not known who ends it'
 _WAKES_NOBODY = (
@@ -120,9 +121,13 @@ def _is_for_spinning(wait: AnyWait) -> bool:
     """
     A thread that waits for the end of one that spins lives as long as the program.
 
-    So does one that goes round until a signal comes, or until the program ends.
+    So does one that goes round until a signal comes, or until the program ends, and the main
+    program that waits until somebody wants it to end.
     """
-    is_end = isinstance(wait.caller, Activity) and wait.block.call in _TO_THE_END
+    if not isinstance(wait.caller, Activity) or wait.block.answer_to is not None:
+        return False
+    is_main = wait.caller.kind is ActivityKind.MAIN and not wait.block.held
+    is_end = wait.block.call in _TO_THE_END or (is_main and wait.block.call in _OF_MAIN)
     return is_end and _ends_outside(wait.block)
 
 

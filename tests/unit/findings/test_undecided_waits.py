@@ -78,6 +78,17 @@ def test_what_nobody_here_sends_meanwhile_rests_on_other_programs() -> None:
     )
 
 
+def test_the_main_program_may_wait_until_somebody_wants_it_to_end() -> None:
+    wait = Blocking(call='Event.wait', source=at(70), resource='done', wakers=(Waker(by=OUTSIDE),))
+    spec = unit(threads(2), timer('feed'))
+    main = Activity(name='main', kind=ActivityKind.MAIN, blocking=(wait,))
+    assert found(replace(spec, activities=(main,))) == []
+    held = replace(main, blocking=(replace(wait, held=('lock',)),))
+    assert found(replace(spec, activities=(held,))) == ['CC121:70 note']
+    thread = replace(main, kind=ActivityKind.THREAD)
+    assert found(replace(spec, activities=(thread,))) == ['CC121:70 note']
+
+
 def test_those_of_the_unit_that_end_it_too_are_named() -> None:
     (wait,) = calls(None, call='Condition.wait')
     wait = replace(wait, wakers=(Waker(by='drain', after=0), Waker(by=OUTSIDE)))
