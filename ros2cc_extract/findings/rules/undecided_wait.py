@@ -29,7 +29,6 @@ from ros2cc_extract.verify.unit import Verdict
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
-_OF_MAIN = frozenset({'Event.wait', 'signal.pause', 'signal.sigwait', 'input'})
 _FOREIGN = frozenset({'await', 'unknown wait'})
 _NOBODY_KNOWN = 'it is not known who ends it'
 _WAKES_NOBODY = (
@@ -55,7 +54,7 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for block, reason in _open(caller.blocking, ends[caller.name]):
             wait = AnyWait(caller, block, kind_of(block))
             is_settled = not is_outside and surely_ends(wait, context)
-            is_none = is_settled or block.call == WORKING_LOOP or _is_for_spinning(wait)
+            is_none = is_settled or block.call == WORKING_LOOP or _is_for_spinning(wait, context)
             is_none = is_none or is_used_up(block, caller, context)
             is_none = is_none or _holds_nobody_up(wait, context)
             if _ends_outside(block) is is_outside and not is_none:
@@ -117,33 +116,35 @@ def _ends_outside(block: Blocking) -> bool:
     return block.escapes is None and OUTSIDE in wakers and block.unread is None
 
 
-def _is_for_spinning(wait: AnyWait) -> bool:
+def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
     """
     A thread that waits for the end of one that spins lives as long as the program.
 
-    So does one that goes round until a signal comes, or until the program ends, and the main
-    program that waits until somebody wants it to end.
+    So does one that goes round until a signal comes, or until the program ends; and the main
+    program, where no other thread needs it, waits until somebody wants it to go on or to end.
     """
     if not isinstance(wait.caller, Activity) or wait.block.answer_to is not None:
         return False
-    is_main = wait.caller.kind is ActivityKind.MAIN and not wait.block.held
-    is_end = wait.block.call in _TO_THE_END or (is_main and wait.block.call in _OF_MAIN)
-    return is_end and _ends_outside(wait.block)
+    is_main = wait.caller.kind is ActivityKind.MAIN and not _is_needed(wait, context)
+    return (is_main or wait.block.call in _TO_THE_END) and _ends_outside(wait.block)
 
 
 def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
     """
     Whether a thread waits in code that is not followed, and nobody needs it to go on.
 
-    A server on a loop of its own does nothing else. Whoever waits for the thread, for what it
-    signals, or for a lock that it holds meanwhile needs it.
+    A server on a loop of its own does nothing else.
     """
-    block = wait.block
-    if not _is_foreign(block) or not isinstance(wait.caller, Activity) or block.held:
-        return False
+    is_thread = _is_foreign(wait.block) and isinstance(wait.caller, Activity)
+    return is_thread and not _is_needed(wait, context)
+
+
+def _is_needed(wait: AnyWait, context: Context) -> bool:
+    """Whether others wait for its caller, for what that signals, or for a lock that it holds."""
     name = wait.caller.name
     others = (each for doer in context.doers if doer.name != name for each in doer.blocking)
-    return not any(waker.by == name for each in others for waker in each.wakers)
+    is_waker = any(waker.by == name for each in others for waker in each.wakers)
+    return bool(wait.block.held) or is_waker
 
 
 def _is_foreign(block: Blocking) -> bool:

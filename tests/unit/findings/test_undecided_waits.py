@@ -85,6 +85,9 @@ def test_the_main_program_may_wait_until_somebody_wants_it_to_end() -> None:
     assert found(replace(spec, activities=(main,))) == []
     held = replace(main, blocking=(replace(wait, held=('lock',)),))
     assert found(replace(spec, activities=(held,))) == ['CC121:70 note']
+    needing = replace(wait, source=at(80), resource='go', wakers=(Waker(by='main', after=1),))
+    needed = unit(threads(2), timer('feed', blocking=(needing,)))
+    assert 'CC121:70 note' in found(replace(needed, activities=(main,)))
     thread = replace(main, kind=ActivityKind.THREAD)
     assert found(replace(spec, activities=(thread,))) == ['CC121:70 note']
 
