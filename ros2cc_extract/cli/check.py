@@ -85,6 +85,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.config import load_config
     from ros2cc_extract.cli.pipeline import check_paths
+    from ros2cc_extract.cli.sources import has_unread
 
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
@@ -110,7 +111,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if outcome.interrupted:
         print('interrupted: what was not verified by then is undecided', file=stderr)
         return termination.status
-    if not outcome.units:
+    if not outcome.units and not has_unread(outcome.extraction.diagnostics):
         _tell_nothing_judged(outcome.extraction.files_seen, stderr)
     return _status(args, outcome)
 

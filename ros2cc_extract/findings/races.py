@@ -304,10 +304,17 @@ def _torn(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
             if sent.name == change.name
             and change.update
             and not sent.update
-            and not keep_apart(sent.locks, change.locks)
-            and not comes_before(change, changer, sender)
-            and not comes_before(sent, sender, changer)
+            and _may_meet(Use(sender, sent), Use(changer, change))
         )
+
+
+def _may_meet(first: Use, second: Use) -> bool:
+    """Whether no common lock keeps them apart, and neither is over before the other begins."""
+    return not (
+        keep_apart(first.access.locks, second.access.locks)
+        or comes_before(second.access, second.doer, first.doer)
+        or comes_before(first.access, first.doer, second.doer)
+    )
 
 
 # Their loops notice a change of size; those over a list see more or less, and raise nothing.
@@ -325,9 +332,7 @@ def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                     if write.name == read.name
                     and write.in_place
                     and not write.keeps_size
-                    and not keep_apart(read.locks, write.locks)
-                    and not comes_before(write, changer, looper)
-                    and not comes_before(read, looper, changer)
+                    and _may_meet(Use(looper, read), Use(changer, write))
                 )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.values import Call, Instance, Path, Value
-from ros2cc_extract.extract.static.wakings import Hold, Waking
+from ros2cc_extract.extract.static.wakings import Hold, Waking, Word
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
 from ros2cc_extract.spec.model import ActivityKind
@@ -85,6 +85,7 @@ class ActivityState:
     :param turns: equal for those that have one thread between them.
     :param pool: whose threads run it.
     :param site: equal for one start that is met again.
+    :param wakes: what it does to end waits, as it was seen in the set-up.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     """
 
@@ -109,6 +110,7 @@ class ActivityState:
     nodes: set[int] = field(default_factory=set)
     things: set[int] = field(default_factory=set)
     site: object = None
+    wakes: list[tuple[Value, Word, Place]] = field(default_factory=list)
     thread: int = 0
     on_loop: bool = False
     turns: object = None

@@ -273,7 +273,9 @@ class Waits(Machine):
     def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
         world = self.world
-        if world.activity is not None and world.deeds is None:
+        activity = world.activity
+        if activity is not None and world.deeds is None and not activity.is_executor:
+            activity.wakes.append((thing, word, place))  # it may be followed once more
             return
         for option in options_of(thing):
             wakings = world.wakings.setdefault(id(option), [])

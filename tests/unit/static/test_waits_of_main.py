@@ -1,4 +1,4 @@
-"""What handlers of signals set ends waits; the main program may wait for a signal alone."""
+"""What ends waits of the main program: handlers of signals, threads around their spin, Ctrl-C."""
 
 from __future__ import annotations
 
@@ -76,3 +76,41 @@ def test_a_handler_is_no_waker_that_may_be_left_out() -> None:
     (main,) = (each for each in unit.activities if each.name == 'main')
     (timer,) = unit.callbacks
     assert [[waker.by for waker in block.wakers] for block in main.blocking] == [[timer.name]]
+
+
+SPINS = """\
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+
+rclpy.init()
+node = rclpy.create_node('robot')
+node.create_timer(0.1, lambda: None)
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+ready, done = threading.Event(), threading.Event()
+
+def spin():
+    ready.set()
+    try:
+        executor.spin()
+    finally:
+        done.set()
+
+threading.Thread(target=spin, daemon=True).start()
+ready.wait()
+done.wait()
+"""
+
+
+def test_what_a_thread_sets_around_its_spin_ends_waits() -> None:
+    extraction = scan_text(SPINS)
+    (unit,) = extraction.units
+    (main,) = (each for each in unit.activities if each.name == 'main')
+    assert [[waker.by for waker in block.wakers] for block in main.blocking] == [[OUTSIDE]] * 2
+    assert extraction.diagnostics == ()
+
+
+def test_what_only_somebody_else_sets_is_told() -> None:
+    extraction = scan_text(SPINS.replace('ready.set()', 'pass').replace('done.set()', 'pass'))
+    assert [each.slug for each in extraction.diagnostics] == ['nobody-spins'] * 2
