@@ -85,6 +85,19 @@ def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool |
     return holds, heard.note_test(machine.world, node.test, place, names, repeats=True)
 
 
+def note_rounds(loop: ast.While, frame: Frame) -> None:
+    """In a later round, names that the loop rebinds hold what the round before has left."""
+    frame.copies = frame.copies | noted_on(loop, 'rebound', _rebound)
+
+
+def _rebound(loop: ast.AST) -> frozenset[str]:
+    return frozenset(
+        part.id
+        for part in walk(loop)
+        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+    )
+
+
 def evaluate_copied(
     machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
 ) -> Value:

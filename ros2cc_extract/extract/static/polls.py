@@ -37,8 +37,9 @@ from ros2cc_extract.extract.static.values import (
 from ros2cc_extract.extract.static.wait_table import WAITS
 from ros2cc_extract.extract.static.wakings import DataRef, ResourceRef
 from ros2cc_extract.extract.static.wiped_out import sent_by_now, sent_up_to
+from ros2cc_extract.extract.static.world import World
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, Blocking
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
 
 POLL = POLLING_LOOP
 _LEAVES = (ast.Break, ast.Return, ast.Raise)
@@ -195,6 +196,7 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
         _note_spinning(machine, loop, frame)
         return
     _note_asked(machine, loop, deeds, before, frame)
+    _note_own_end(machine.world, loop, deeds, before, frame)
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = deeds.blocking[before.waits :]
     if _is_told(machine, loop, deeds, before) or any(_is_guarded(b, asked) for b in inside):
@@ -214,6 +216,19 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     if names & (written | set(deeds.own[before.own :])):
         return
     _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
+
+
+def _note_own_end(world: World, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame) -> None:
+    """A thread that works until it has set itself what it tests waits for nobody."""
+    place, lines = frame.place(loop), range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
+    for number, block in enumerate(deeds.blocking[before.waits :], before.waits):
+        if block.call != WORKING_LOOP or not isinstance(block.resource, ResourceRef):
+            continue
+        wakings = world.wakings.get(block.resource.number, ())
+        own_places = [waking.place for waking in wakings if waking.by is world.activity]
+        if any(each.file == place.file and each.line in lines for each in own_places):
+            own = Unknown('the loop sets itself what ends it', place)
+            deeds.blocking[number] = replace(block, seconds=block.seconds or own)
 
 
 def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:

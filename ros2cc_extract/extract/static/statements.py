@@ -397,6 +397,7 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
         heard.in_loop(machine.world, asked),
     ):
         answers.assume(machine.world, told, holds=True)
+        changing.note_rounds(node, frame)
         flow = _round(machine, node.body, frame)
         ends = [] if holds else [ready | (told.fails if told is not None else answers.NOTHING)]
         after = answers.of_all([*ends, *frame.known_at_break] or [ready])
