@@ -11,6 +11,13 @@ from ros2cc_extract.extract.static import loops
 from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.containers import Sequence
+from ros2cc_extract.extract.static.done_callbacks import (
+    add_done_callback,
+    begin_anew,
+    cancel,
+    complete,
+    may_be_done,
+)
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.pools import WORKERS
@@ -27,13 +34,11 @@ from ros2cc_extract.extract.static.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.wait_table import AWAITED
+from ros2cc_extract.extract.static.waited_on import OF_POOL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import PlainState
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind
-
-FUTURE = 'pool'
-"""Kind of a future that waits when it is asked."""
 
 LOOP = '__loop__'
 """Slot of a loop of asyncio for where it begins."""
@@ -43,19 +48,21 @@ _FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
 
 def submit(machine: Machine, receiver: Value, call: Call) -> Value:
     """``pool.submit(function, …)``, ``asyncio.to_thread(function, …)``."""
-    future = machine.future(call.place, FUTURE)
+    future = machine.future(call.place, OF_POOL)
     if call.args:
         inner = Call(call.place, call.args[1:], call.keywords, call.more)
         turns = _one_thread(receiver)
         pool = _pool(receiver)
         begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns, pool=pool)
     _keep(machine, receiver, future)
+    if is_pool(receiver):
+        may_be_done(machine, future)
     return future
 
 
 def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
     """``loop.run_in_executor(pool, function, …)``."""
-    future = machine.future(call.place, FUTURE)
+    future = machine.future(call.place, OF_POOL)
     if len(call.args) > 1:
         inner, pool = Call(call.place, call.args[2:]), _pool(call.args[0])
         begin(machine, ActivityKind.POOL, call.args[1], inner, future, pool=pool)
@@ -65,7 +72,7 @@ def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
     """``asyncio.run_coroutine_threadsafe(coroutine, loop)``: the thread of the loop runs it."""
-    future = machine.future(call.place, FUTURE)
+    future = machine.future(call.place, OF_POOL)
     coroutine = call.args[0] if call.args else NONE
     target: Value = coroutine
     inner = Call(call.place)
@@ -77,6 +84,7 @@ def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
     loop = call.argument(1, 'loop')
     turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
     begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
+    may_be_done(machine, future)
     return future
 
 
@@ -106,7 +114,7 @@ def _keep(machine: Machine, pool: Value, future: Value) -> None:
 
 def _map(machine: Machine, receiver: Value, call: Call) -> Value:
     """Its results wait for all calls, when somebody goes over them."""
-    results = machine.future(call.place, FUTURE)
+    results = machine.future(call.place, OF_POOL)
     results.hint = 'map'
     if call.args:
         items = [loops.items_in(machine, each, call.place) for each in call.args[1:]]
@@ -164,11 +172,6 @@ def _for_all(name: str, position: int | None) -> Handler:
     return handler
 
 
-def _set(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_wake(receiver, Word.SET, call.place)
-    return NONE
-
-
 def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.SET, call)
 
@@ -200,12 +203,14 @@ TABLE = Library(
         'concurrent.futures.ThreadPoolExecutor': _POOL,
         'concurrent.futures.ProcessPoolExecutor': _POOL,
         'concurrent.futures.Future': LibraryClass(
-            state=lambda machine, instance: PlainState(FUTURE, place=instance.place),
+            state=lambda machine, instance: PlainState(OF_POOL, place=instance.place),
             init=lambda machine, receiver, call: NONE,
+            again=begin_anew,
             methods={
-                'set_result': _set,
-                'set_exception': _set,
-                'cancel': _set,
+                'add_done_callback': add_done_callback,
+                'set_result': complete,
+                'set_exception': complete,
+                'cancel': cancel,
                 'done': _asked,
                 'cancelled': _cancelled,
                 'running': _running,

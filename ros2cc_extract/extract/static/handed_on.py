@@ -33,10 +33,19 @@ Tokens = frozenset[object]
 
 def note_met(world: World, owner: Heaped, name: str, held: Value | None) -> None:
     """The running callback reads ``owner.name``, which others assign."""
-    objects = _objects(held)
-    if objects:
-        known = world.met.get((owner, name), frozenset())
-        world.met[(owner, name)] = known | objects
+    if _objects(held):
+        note_found(world, owner, name, held)
+
+
+def note_found(world: World, owner: Heaped, name: str, held: Value | None) -> None:
+    """The same where it matters too that nobody has assigned anything yet."""
+    known = world.met.get((owner, name), frozenset())
+    world.met[(owner, name)] = known | _objects(held)
+
+
+def is_same_text(one: Value, other: Value) -> bool:
+    """Whether both are functions of one text on one object."""
+    return one is other or (_token(one) is not None and _token(one) == _token(other))
 
 
 def _objects(held: object) -> Tokens:

@@ -84,6 +84,7 @@ class Libraries(Machine):
         instance = known or Instance(function, call.place)
         again.remember(self.world, function, call.place, instance)
         if known is not None:
+            self._begin_anew(known, rows)
             return known
         instance.path = self.world.path
         self.prepare(instance)
@@ -93,6 +94,11 @@ class Libraries(Machine):
             init(self, instance, call)
         self.world.instances.append(instance)
         return instance
+
+    def _begin_anew(self, known: Instance, rows: list[LibraryClass]) -> None:
+        for row in rows:
+            if row.again is not None:
+                row.again(self, known)
 
     def unknown_result(self, function: Value, call: Call) -> Value:
         """The result of a library call that nothing is known of."""

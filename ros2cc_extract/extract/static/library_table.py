@@ -21,10 +21,12 @@ class LibraryClass:
 
     :param state: makes what an instance has beyond its attributes.
     :param init: what ``__init__`` does; the receiver is the instance.
+    :param again: what holds for an instance that is made again, by who made it before.
     """
 
     state: StateFactory | None = None
     init: Handler | None = None
+    again: Callable[[Machine, Instance], None] | None = None
     bases: tuple[str, ...] = ()
     methods: dict[str, Handler] = field(default_factory=dict)
     properties: dict[str, Property] = field(default_factory=dict)

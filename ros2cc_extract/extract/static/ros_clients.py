@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.activities import begin
 from ros2cc_extract.extract.static.answers import answer, cancelled, running
+from ros2cc_extract.extract.static.done_callbacks import (
+    add_done_callback,
+    begin_anew,
+    cancel,
+    complete,
+    init_future,
+)
 from ros2cc_extract.extract.static.ending import CANCEL, note_end, note_published, note_use
-from ros2cc_extract.extract.static.futures_library import FUTURE
 from ros2cc_extract.extract.static.heard import note_begun
 from ros2cc_extract.extract.static.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.machine import Machine
 from ros2cc_extract.extract.static.ros_clocks import note_sleep
 from ros2cc_extract.extract.static.ros_executors import (
-    add_task,
     node_executor_property,
 )
 from ros2cc_extract.extract.static.ros_nodes import NODE, mark_destroyed
@@ -24,11 +28,12 @@ from ros2cc_extract.extract.static.values import (
     Value,
 )
 from ros2cc_extract.extract.static.values import Library as Name
+from ros2cc_extract.extract.static.waited_on import OF_POOL
 from ros2cc_extract.extract.static.wakings import Word
 from ros2cc_extract.extract.static.world import Cut, EntityState, PlainState, note_once
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import CANCELS, Act
-from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
+from ros2cc_extract.spec.model import When
 
 
 def _blocking(name: str, position: int | None) -> Handler:
@@ -57,25 +62,6 @@ UNKNOWN_CLIENT: dict[str, Handler] = {
     'send_goal_async': _goal_of_unknown,
 }
 """Methods by which a value that could not be followed is known to be a client."""
-
-
-def _add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
-    """Done-callbacks run as tasks of the executor, in no group (measured)."""
-    assert isinstance(receiver, Instance)
-    state = receiver.state
-    if isinstance(state, PlainState) and state.kind == FUTURE and call.args:
-        # Who ends the task runs it, in a thread of the pool.
-        begin(machine, ActivityKind.POOL, call.args[0], Call(call.place, [receiver]))
-    if not isinstance(state, PlainState) or state.kind == FUTURE:
-        return NONE
-    source = state.of.state if isinstance(state.of, Instance) else None
-    node = source.node if isinstance(source, EntityState) else None
-    callback = call.argument(0, 'callback')
-    key = source.key if isinstance(source, EntityState) else None
-    task = add_task(machine, node, callback, call.place, EntityKind.DONE_CALLBACK, key)
-    if task is not None:
-        task.argument = receiver
-    return NONE
 
 
 def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -119,14 +105,14 @@ def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    if receiver.state.kind == FUTURE:
+    if receiver.state.kind == OF_POOL:
         machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
     return result_of(machine, receiver, call.place)
 
 
 def _future_exception(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    if receiver.state.kind == FUTURE:
+    if receiver.state.kind == OF_POOL:
         timeout = call.argument(0, 'timeout')
         machine.note_blocking('Future.exception', receiver, timeout, call.place)
     return machine.mystery('exception of a future', call.place, 'exception()')
@@ -142,11 +128,6 @@ def _future_cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _future_running(machine: Machine, receiver: Value, call: Call) -> Value:
     return running(receiver, call)
-
-
-def _set_result(machine: Machine, receiver: Value, call: Call) -> Value:
-    machine.note_wake(receiver, Word.SET, call.place)
-    return NONE
 
 
 def result_of(machine: Machine, future: Instance, place: Place) -> Value:
@@ -176,16 +157,18 @@ def future_class(kind: str) -> LibraryClass:
     """rclpy's futures."""
     return LibraryClass(
         state=lambda machine, instance: PlainState(kind, place=instance.place),
+        init=init_future,
+        again=begin_anew,
         methods={
-            'add_done_callback': _add_done_callback,
+            'add_done_callback': add_done_callback,
             'result': _future_result,
             'exception': _future_exception,
             'done': _future_done,
             'cancelled': _future_cancelled,
             'running': _future_running,
-            'cancel': _set_result,
-            'set_result': _set_result,
-            'set_exception': _set_result,
+            'cancel': cancel,
+            'set_result': complete,
+            'set_exception': complete,
         },
     )
 

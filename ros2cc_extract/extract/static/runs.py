@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.changing import holds_objects
 from ros2cc_extract.extract.static.containers import Collection
 from ros2cc_extract.extract.static.cuts import note_cut
 from ros2cc_extract.extract.static.doing import ActivityState, Deeds
+from ros2cc_extract.extract.static.done_callbacks import add_left
 from ros2cc_extract.extract.static.ends import note_ends
 from ros2cc_extract.extract.static.entries import Entry
 from ros2cc_extract.extract.static.exit_hooks import run_exit_hooks
@@ -209,6 +210,14 @@ def run_callbacks(machine: Interpreter) -> None:
     followed again after them, and once more for what they hand on to each other; and those that
     met an object where others put another one, as long as there are such.
     """
+    _run_all_callbacks(machine)
+    if machine.world.left_callbacks:
+        place = machine.world.left_callbacks[0].place
+        guarded(machine, lambda: add_left(machine), place)
+        _run_all_callbacks(machine)
+
+
+def _run_all_callbacks(machine: Interpreter) -> None:
     _run_new_callbacks(machine)
     while again := next_round(machine.world):
         for entity in again:

@@ -6,8 +6,11 @@ from ros2cc_extract.extract.static.values import Instance, Value
 from ros2cc_extract.extract.static.world import PlainState
 
 OF_LOOP = 'loop future'
+OF_POOL = 'pool'
+"""Kind of a future that waits when it is asked."""
+
 SETTABLE = frozenset(
-    {'event', 'future', OF_LOOP, 'condition', 'queue', 'semaphore', 'barrier', 'pool'}
+    {'event', 'future', OF_LOOP, 'condition', 'queue', 'semaphore', 'barrier', OF_POOL}
 )
 
 

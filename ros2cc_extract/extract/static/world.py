@@ -358,6 +358,8 @@ class World:
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
+    :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
+        ``completed`` the identities of those futures that somebody completes.
     :param activity: the thread or the part of the main program that is followed.
     :param activities: all of them, in the order of their start.
     :param told: how many of them were followed for what they do.
@@ -520,6 +522,8 @@ class World:
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
+    left_callbacks: list[Any] = field(default_factory=list)
+    completed: set[int] = field(default_factory=set)
     callback_path: Path = ()
     shutting_down: bool = False
     followed: int = 0
