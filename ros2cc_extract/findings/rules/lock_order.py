@@ -178,7 +178,6 @@ class Arm(Node):
             self.plan = None
 """,
     mend='Take locks in the same order everywhere; use a `threading.RLock` where a function that '
-    'holds a lock calls another one that takes it. Complete a future, and add a done-callback, '
-    'when the lock is given back: the callback may run at once.',
+    'holds a lock calls another one that takes it.',
     find=find,
 )
