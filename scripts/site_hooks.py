@@ -1,13 +1,16 @@
-"""What `make site` does beside MkDocs: nodes in their places, rules in the navigation."""
+"""What `make site` does beside MkDocs: nodes in their places, rules, and the playground."""
 
 from __future__ import annotations
 
 import re
+import shutil
+import sys
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from mkdocs.exceptions import PluginError
+from playground_parts import ROOT, LeftOutError, make_parts
 from shown_nodes import expanded
 
 from ros2cc_extract.findings.registry import RULES
@@ -21,6 +24,7 @@ RULE_KINDS = {
     '5': 'What was not followed',
     '6': 'Demands of your own',
 }
+PARTS = ROOT / 'build' / 'playground'
 FENCE_OF_A_FILE = re.compile(r'^```(\w+) ([\w./-]+)$', re.MULTILINE)
 FROM_THE_NET = re.compile(
     r'<(?:script|img|iframe|source)\b[^>]*\bsrc="?(?:https?:)?//'
@@ -35,7 +39,21 @@ def on_config(config: Any) -> Any:
         pages = [{f'{rule.code} {rule.slug}': f'rules/{rule.code}.md'} for rule in members]
         rules['Rules'].append({RULE_KINDS[kind]: pages})
     config.copyright = f'ros2cc-extract {__version__}, Apache-2.0'
+    shutil.rmtree(PARTS, ignore_errors=True)
+    try:
+        make_parts(PARTS)
+    except LeftOutError as error:
+        print(f'the playground is left out: {error}', file=sys.stderr)
+        config.nav = [part for part in config.nav if 'Playground' not in part]
     return config
+
+
+def on_files(files: Any, **_: Any) -> Any:
+    """Without its parts the playground has no page."""
+    for file in list(files):
+        if file.src_uri.startswith('playground/') and not PARTS.exists():
+            files.remove(file)
+    return files
 
 
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
@@ -50,3 +68,9 @@ def on_post_page(output: str, page: Any, **_: Any) -> str:
     if asked is not None:
         raise PluginError(f'{page.file.src_uri} loads from the net: {asked[0]}')
     return output
+
+
+def on_post_build(config: Any, **_: Any) -> None:
+    """What the playground loads lies beside its page."""
+    if PARTS.exists():
+        shutil.copytree(PARTS, Path(config.site_dir) / 'playground', dirs_exist_ok=True)

@@ -63,6 +63,7 @@ RULES: tuple[Rule, ...] = (
     foreign_loop.RULE,
     undecided_wait.UNDECIDED,
     undecided_wait.OUTSIDE_WAIT,
+    of_diagnostics.MESSAGE_TAKEN,
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,

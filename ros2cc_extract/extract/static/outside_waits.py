@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.world import (
     NodeState,
     OutsideWait,
     PlainState,
+    Spin,
     World,
 )
 from ros2cc_extract.places import Place
@@ -320,14 +321,20 @@ def _is_same(one: Value | None, other: Value | None) -> bool:
 
 
 def spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
-    """What other threads spin; which thread is which is not told apart."""
+    """The nodes that other threads spin."""
+    for _, nodes in spins_beside(wait, world):
+        yield from nodes
+
+
+def spins_beside(wait: OutsideWait, world: World) -> Iterator[tuple[Spin, tuple[Instance, ...]]]:
+    """The spins of other threads, with their nodes; which thread is which is not told apart."""
     for number, spin in enumerate(world.spins.values()):
         is_later = wait.begun is not None and number >= wait.begun
         is_beside = (spin.in_thread or wait.in_thread) and not is_later
         if is_beside and not is_over(spin, number, wait, world):
-            yield from spin.nodes
-            for entry in spin.executor.slots.get('__nodes__', ()):
-                yield from (o for o in options_of(entry) if isinstance(o, Instance))
+            entries = spin.executor.slots.get('__nodes__', ())
+            added = [each for entry in entries for each in options_of(entry)]
+            yield spin, (*spin.nodes, *(each for each in added if isinstance(each, Instance)))
 
 
 def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic:

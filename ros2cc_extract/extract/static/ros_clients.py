@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static import taken_messages
 from ros2cc_extract.extract.static.answers import answer, cancelled, running
 from ros2cc_extract.extract.static.done_callbacks import (
     add_done_callback,
@@ -203,6 +204,8 @@ def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
     ):
         timeout = None
     machine.note_blocking('wait_for_message', topic, timeout, call.place)
+    node, has_limit = call.argument(1, 'node'), timeout not in (None, NONE)
+    taken_messages.note(machine.world, node, call.place, has_limit=has_limit)
     return machine.mystery('a message at run time', call.place, 'wait_for_message(…)')
 
 

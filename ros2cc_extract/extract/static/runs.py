@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.queue_items import take_back
 from ros2cc_extract.extract.static.relevance import creates_entities, is_test
 from ros2cc_extract.extract.static.ros_called import BUILDING, TRANSITIONS
 from ros2cc_extract.extract.static.spun_twice import note_spun_twice
+from ros2cc_extract.extract.static.taken_messages import note_taken
 from ros2cc_extract.extract.static.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.values import (
@@ -98,6 +99,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
     note_spun_twice(machine.world)
+    note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
     return machine

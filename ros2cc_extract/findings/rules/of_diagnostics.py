@@ -55,6 +55,35 @@ answered.wait()
     mend='Spin a node by the executor that serves it, and by one thread only: where that spins '
     'already, wait for the future by an `Event` that its done-callback sets.',
 )
+MESSAGE_TAKEN = Rule(
+    code='CC122',
+    slug='message-taken',
+    severity=Severity.WARNING,
+    title='Message waited for that an executor may take',
+    what='`wait_for_message` is called with a node that an executor spins meanwhile: by `main` or '
+    'a thread beside the spin, by a callback of another executor, or by one that lets the pool '
+    'run the default group of the node. Where the group is closed meanwhile, or the only thread '
+    'waits itself, the executor takes nothing.',
+    why='`wait_for_message` makes a subscription of the node, and looks at it by a wait set of '
+    'its own. The executor that spins the node sees the subscription too, and who comes first '
+    'takes the message. `wait_for_message` then gives `(False, None)`, long before any time-out, '
+    'or waits for the next message; of a latched topic none comes. Measured: `main` read twelve '
+    'latched topics by a node that a thread spun, and hung in four of four runs (after one to '
+    'nine of them, when it was killed after 25 s); by a node that nobody spun it got all. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `wait_for_message.py`, `executors.py` '
+    '(`_take_subscription`).',
+    bad="""\
+threading.Thread(target=rclpy.spin, args=(node,)).start()
+got, grid = wait_for_message(OccupancyGrid, node, 'map')
+""",
+    good="""\
+threading.Thread(target=rclpy.spin, args=(node,)).start()
+probe = rclpy.create_node('probe')       # nobody spins it
+got, grid = wait_for_message(OccupancyGrid, probe, 'map', time_to_wait=10.0)
+""",
+    mend='Wait with a node of its own that nobody spins, or before the spin begins; or subscribe '
+    'and wait for an `Event` that the callback sets.',
+)
 UNREADABLE = Rule(
     code='CC500',
     slug='unreadable',
