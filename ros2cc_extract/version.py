@@ -1,3 +1,4 @@
-"""The version of the tool; a leaf, so that nothing has to import the package for it."""
+"""Name and version of the tool; a leaf, so that nothing has to import the package for them."""
 
+PROGRAM = 'ros2cc-extract'
 __version__ = '0.1.0'

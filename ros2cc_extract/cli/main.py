@@ -1,9 +1,4 @@
-"""
-The command line: finds the subcommand, loads only that one, and turns errors into one line.
-
-Exit status: 0 clean, 1 findings or a violated requirement, 2 usage, input or tool error,
-3 a verdict stayed undecided (with ``--strict`` also: something stayed unresolved).
-"""
+"""The command line: finds the subcommand, loads only that one, and turns errors into one line."""
 
 from __future__ import annotations
 
@@ -18,15 +13,19 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Protocol, TextIO, cast
 
-from ros2cc_extract.cli.missing_parts import tell_what_is_missing
-from ros2cc_extract.cli.streams import as_utf_8, silence, with_streams
-from ros2cc_extract.cli.termination import Termination, forget_interrupt, termination_as_interrupt
+from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR, EXIT_INTERRUPTED
+from ros2cc_extract.cli.shared.native_parts import tell_what_is_missing
+from ros2cc_extract.cli.shared.streams import as_utf_8, silence, with_streams
+from ros2cc_extract.cli.shared.termination import (
+    Termination,
+    forget_interrupt,
+    termination_as_interrupt,
+)
 from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
 from ros2cc_extract.places import Place
 from ros2cc_extract.shown import Shown, raw
-from ros2cc_extract.version import __version__
+from ros2cc_extract.version import PROGRAM, __version__
 
-PROGRAM = 'ros2cc-extract'
 DEFAULT_COMMAND = 'check'
 COMMANDS = {
     'check': 'extract, model, verify and tell (the default: `ros2cc-extract my_node.py`)',
@@ -43,8 +42,6 @@ COMMANDS = {
     'init': 'write the test file, hook and job that guard a ROS 2 package',
     'merge': 'join a specification from source with one from a live run',
 }
-EXIT_CLEAN, EXIT_FINDINGS, EXIT_ERROR, EXIT_UNDECIDED = 0, 1, 2, 3
-EXIT_INTERRUPTED = 130
 WRITES_DATA = ('spec', 'merge')
 HEARS_ITSELF = ('check', 'run', 'attach')
 """Requests to end: they tell what is known by then, or hand them on to what they have begun."""
@@ -52,7 +49,7 @@ LONGEST_MESSAGE = 300
 
 
 class Command(Protocol):
-    """What a module in this folder offers."""
+    """What a module in `commands/` offers."""
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         """Declare the arguments; must not import anything slow."""
@@ -120,7 +117,7 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     name = argv.pop(0) if argv[0] in COMMANDS else DEFAULT_COMMAND
     if name == DEFAULT_COMMAND and argv:
         _ask_for_the_command(argv[0])
-    command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.{name}'))
+    command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.commands.{name}'))
     parser = argparse.ArgumentParser(
         prog=f'{PROGRAM} {name}',
         description=COMMANDS[name],

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.report.github import workflow_commands
-from ros2cc_extract.report.html import html_report
-from ros2cc_extract.report.json_report import check_data, to_text
-from ros2cc_extract.report.junit import junit
-from ros2cc_extract.report.sarif import sarif
+from ros2cc_extract.report.html.page import html_report
+from ros2cc_extract.report.machine.github import workflow_commands
+from ros2cc_extract.report.machine.json_report import check_data, to_text
+from ros2cc_extract.report.machine.junit import junit
+from ros2cc_extract.report.machine.sarif import sarif
 from ros2cc_extract.report.unit_mermaid import units_diagram
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.unit import Verification

@@ -6,7 +6,7 @@ from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.report.spec_text import describe_executor
+from ros2cc_extract.report.text.spec import describe_executor
 from ros2cc_extract.shown import printable
 from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec
 

@@ -13,18 +13,18 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ros2cc_extract.cli.config import load_config, read_config
-from ros2cc_extract.cli.main import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS
-from ros2cc_extract.cli.output import write_atomically
-from ros2cc_extract.cli.pipeline import Outcome, check_paths
-from ros2cc_extract.cli.streams import with_streams
+from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR, EXIT_FINDINGS
+from ros2cc_extract.cli.shared.output import write_atomically
+from ros2cc_extract.cli.shared.streams import with_streams
 from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
 from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.report.findings_text import print_findings
-from ros2cc_extract.report.junit import junit
-from ros2cc_extract.report.style import console_for
-from ros2cc_extract.ros.packages import package_name, python_files
+from ros2cc_extract.packages.manifest import package_name, python_files
+from ros2cc_extract.pipeline.check import Outcome, check_paths
+from ros2cc_extract.pipeline.config import load_config, read_config
+from ros2cc_extract.report.machine.junit import junit
+from ros2cc_extract.report.text.findings import print_findings
+from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
 
 

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits
-from ros2cc_extract.cli.config import Config, assumptions_of
-from ros2cc_extract.cli.pipeline import Job
-from ros2cc_extract.cli.sources import read_input
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.findings.baseline import read_baseline
+from ros2cc_extract.pipeline.check import Job
+from ros2cc_extract.pipeline.config import Config, assumptions_of
+from ros2cc_extract.pipeline.sources import read_input
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.verify.unit import Options
 

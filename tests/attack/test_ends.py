@@ -316,7 +316,8 @@ def test_a_signal_leaves_no_child(number: signal.Signals, whom: str, repository:
 
 ASKED_TO_END = """
 import os, signal
-from ros2cc_extract.cli import diff, main
+from ros2cc_extract.cli import main
+from ros2cc_extract.cli.commands import diff
 def run(*_):
     HEARD
 diff.run = run

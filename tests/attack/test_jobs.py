@@ -12,14 +12,14 @@ import pytest
 import yaml
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.ros import origin
-from ros2cc_extract.ros.origin import pinned_source
+from ros2cc_extract.packages import origin
+from ros2cc_extract.packages.origin import pinned_source
 from tests.support.repositories import environment
 
 CLASS = 'CI jobs'
 
 ROOT = Path(__file__).parents[2]
-SNIPPETS = ROOT / 'ros2cc_extract' / 'ros' / 'snippets'
+SNIPPETS = ROOT / 'ros2cc_extract' / 'packages' / 'snippets'
 JOBS = (ROOT / 'action.yml', SNIPPETS / 'github-workflow.yml', SNIPPETS / 'gitlab-ci.yml')
 COMMIT, DIGEST = '0123456789' * 4, 'ab' * 32
 REMOTE = 'https://example.org/somebody/ros2cc-extract'

@@ -18,12 +18,12 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from ros2cc_extract.cli.config import load_config
 from ros2cc_extract.cli.main import main
-from ros2cc_extract.cli.pipeline import Outcome, check_paths
-from ros2cc_extract.report.check_text import print_check
+from ros2cc_extract.pipeline.check import Outcome, check_paths
+from ros2cc_extract.pipeline.config import load_config
 from ros2cc_extract.report.formats import WRITERS, Checked, write
-from ros2cc_extract.report.style import console_for
+from ros2cc_extract.report.text.check import print_check
+from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
 from ros2cc_extract.shown import Shown, json_text, one_line, printable
 from ros2cc_extract.spec.yaml_io import read_specs, write_specs

@@ -18,10 +18,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ros2cc_extract.cli.sources import load_units
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Trace, read_traces
 from ros2cc_extract.conform.unit import Comparison, compare, pair_units
+from ros2cc_extract.pipeline.sources import load_units
 from ros2cc_extract.spec.model import Spec
 from tests.conformance.programs import EVENTS, Program, draw
 from tests.conformance.sources import source_of

@@ -10,7 +10,7 @@ import pytest
 
 from tests.e2e.conftest import EXAMPLES, ROOT, Run
 
-SCHEMA = json.loads((ROOT / 'ros2cc_extract/report/assets/check.schema.json').read_text())
+SCHEMA = json.loads((ROOT / 'ros2cc_extract/report/machine/check.schema.json').read_text())
 NODES = (
     EXAMPLES / 'pool_exhaustion' / 'node.py',
     EXAMPLES / 'paper_case2' / 'node.py',

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from ros2cc_extract.packages.manifest import read_package
 from ros2cc_extract.ros.doctor import CallbackCheck, Counts, checked_folder
-from ros2cc_extract.ros.packages import read_package
 from tests.e2e.conftest import ROOT, Run
 from tests.support.packages import DEADLOCK, MENDED, make_package
 from tests.support.repositories import BIN, commit, environment, git, make_repository
@@ -94,7 +94,7 @@ def test_published_hooks_are_a_valid_manifest(tmp_path: Path) -> None:
 
 def test_written_hooks_differ_from_the_published_ones_only_in_their_language() -> None:
     (local,) = yaml.safe_load(
-        (ROOT / 'ros2cc_extract/ros/snippets/pre-commit-config.yaml').read_text()
+        (ROOT / 'ros2cc_extract/packages/snippets/pre-commit-config.yaml').read_text()
     )['repos']
     published = [{**hook, 'language': 'system'} for hook in yaml.safe_load(HOOKS.read_text())]
     for hook in published:

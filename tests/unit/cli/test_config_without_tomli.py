@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.cli.config import Config, load_config
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.pipeline.config import Config, load_config
 
 
 @pytest.fixture(autouse=True)

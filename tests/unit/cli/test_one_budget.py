@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.cli import pipeline
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.deadline import Deadline, deadline_in
+from ros2cc_extract.pipeline import check
 from tests.support.packages import DEADLOCK
 from tests.support.repositories import commit, make_repository
 
@@ -28,7 +28,7 @@ def test_the_revision_takes_half_at_most_and_the_rest_is_left(
         given.append((seconds, of))
         return deadline_in(seconds, of)
 
-    monkeypatch.setattr(pipeline, 'deadline_in', note)
+    monkeypatch.setattr(check, 'deadline_in', note)
     monkeypatch.chdir(tmp_path)
     out, err = StringIO(), StringIO()
     options = ['--no-cache', '--max-seconds', '300', '--diff-base', 'HEAD']

@@ -12,8 +12,8 @@ from report_samples import CALL, NOTE, RACE
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.report.check_text import print_check
-from ros2cc_extract.report.style import console_for
+from ros2cc_extract.report.text.check import print_check
+from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.unit import Options, Verification, verify_unit

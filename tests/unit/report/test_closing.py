@@ -11,10 +11,10 @@ from pathlib import Path
 from report_samples import RACE, RUN
 from rich.console import Console
 
-from ros2cc_extract.report.findings_text import print_findings
-from ros2cc_extract.report.html import html_report
-from ros2cc_extract.report.json_report import check_data
-from ros2cc_extract.report.sarif import sarif
+from ros2cc_extract.report.html.page import html_report
+from ros2cc_extract.report.machine.json_report import check_data
+from ros2cc_extract.report.machine.sarif import sarif
+from ros2cc_extract.report.text.findings import print_findings
 
 ENDS = 'nothing moves any more: drive waits on thread_0 for client; no thread is left'
 FINDING = replace(RACE, run=replace(RUN, cycle_from=None, closing=ENDS, left_out=8))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from report_samples import CALL, NOTE, RACE, at
 
-from ros2cc_extract.report.github import MOST_ROWS, step_summary, workflow_commands
+from ros2cc_extract.report.machine.github import MOST_ROWS, step_summary, workflow_commands
 
 
 def test_an_annotation_is_one_escaped_line() -> None:

@@ -11,7 +11,7 @@ import pytest
 from report_samples import FINDINGS
 from test_html import ARM, SOURCES
 
-from ros2cc_extract.report.html import html_report
+from ros2cc_extract.report.html.page import html_report
 
 CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
 FLAGS = (

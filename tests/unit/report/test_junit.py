@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from report_samples import FINDINGS, NOTE
 
-from ros2cc_extract.report.junit import junit
+from ros2cc_extract.report.machine.junit import junit
 
 FILES = ['src/arm node.py', 'other.py', 'clean.py']
 

@@ -10,8 +10,8 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.report.style import console_for
-from ros2cc_extract.report.sweep_text import print_sweep
+from ros2cc_extract.report.text.style import console_for
+from ros2cc_extract.report.text.sweep import print_sweep
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.verify.sweep import points, run_sweep
 from ros2cc_extract.verify.unit import Options

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.report.style import console_for
-from ros2cc_extract.report.verdict_text import MOST_ROWS, ROWS_OF_A_KIND, print_table
+from ros2cc_extract.report.text.style import console_for
+from ros2cc_extract.report.text.verdicts import MOST_ROWS, ROWS_OF_A_KIND, print_table
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.yaml_io import load_specs
 from ros2cc_extract.verify.results import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.checker.api import Query, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.report.json_report import evidence_data
+from ros2cc_extract.report.machine.json_report import evidence_data
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import (
     Callback,

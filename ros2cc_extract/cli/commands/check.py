@@ -1,0 +1,246 @@
+"""``ros2cc-extract PATH…``: the whole job, from the source to verdicts and findings."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ros2cc_extract.cli.shared.arguments import (
+    add_paths,
+    add_search_arguments,
+    add_unit_arguments,
+    number_of_seconds,
+    options_of,
+    policy_of,
+)
+from ros2cc_extract.cli.shared.exit_status import (
+    EXIT_CLEAN,
+    EXIT_ERROR,
+    EXIT_FINDINGS,
+    EXIT_UNDECIDED,
+)
+from ros2cc_extract.cli.shared.termination import Termination, termination_as_interrupt
+
+if TYPE_CHECKING:
+    from ros2cc_extract.pipeline.check import Job, Outcome
+    from ros2cc_extract.pipeline.config import Config
+    from ros2cc_extract.report.formats import Checked
+
+DEFAULT_SECONDS = 20.0
+DEFAULT_MAX_SECONDS = 120.0
+WITH_RUNS = ('json', 'html')
+"""Formats that show the run behind every verdict."""
+LAUNCH_SUFFIXES = ('.launch.py', '_launch.py')
+FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_paths(parser)
+    parser.add_argument(
+        '-o', '--output', type=Path, metavar='DIR', help='keep specification, model and queries'
+    )
+    parser.add_argument(
+        '--strict',
+        action='store_true',
+        help='exit 3 when a fact is unresolved or a wait undecided',
+    )
+    parser.add_argument('--output-format', choices=FORMATS, default='text')
+    parser.add_argument(
+        '--tables',
+        action='store_true',
+        help="text: every unit's verdicts, and every note with its line, however many",
+    )
+    parser.add_argument(
+        '--assume',
+        action='append',
+        default=[],
+        metavar='FACT',
+        help='fill a hole: threads=4, executor=MultiThreadedExecutor, group.NAME=REENTRANT',
+    )
+    only_new = parser.add_argument_group('only what is new')
+    only_new.add_argument('--baseline', type=Path, metavar='FILE', help='accept what it lists')
+    only_new.add_argument(
+        '--write-baseline', type=Path, metavar='FILE', help='accept all of today, into FILE'
+    )
+    only_new.add_argument(
+        '--diff-base', metavar='REV', help='accept what was there where the change left REV of git'
+    )
+    add_unit_arguments(parser)
+    add_search_arguments(parser, seconds=DEFAULT_SECONDS)
+    parser.add_argument(
+        '--max-seconds',
+        type=number_of_seconds,
+        default=DEFAULT_MAX_SECONDS,
+        metavar='S',
+        help='scan and verify all together for S seconds at most (default %(default)g); what '
+        'is open then is undecided',
+    )
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.pipeline.check import check_paths
+    from ros2cc_extract.pipeline.config import load_config
+    from ros2cc_extract.pipeline.sources import has_unread
+
+    config = load_config(min(args.paths, key=Path.absolute))
+    job = _job(args, config)
+    termination, begun = Termination(), time.monotonic()
+    try:
+        with termination_as_interrupt(termination):
+            known = _known(args, config, job, stderr)
+            job = replace(job, known=known, spent_s=time.monotonic() - begun)
+            outcome = check_paths(job, stderr)
+    except KeyboardInterrupt:  # before there was anything to tell
+        if not termination.is_asked:
+            raise
+        print('interrupted', file=stderr)
+        return termination.status
+    if outcome.interrupted and args.write_baseline is not None:
+        raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
+    if args.output is not None:
+        _keep(args, outcome, stderr)
+    if args.write_baseline is not None:
+        _write_baseline(args.write_baseline, outcome, job, stderr)
+        return EXIT_CLEAN
+    _tell(args, outcome, job, stdout)
+    if outcome.interrupted:
+        print('interrupted: what was not verified by then is undecided', file=stderr)
+        return termination.status
+    if not outcome.units and not has_unread(outcome.extraction.diagnostics):
+        _tell_nothing_judged(outcome.extraction.files_seen, stderr)
+    return _status(args, outcome)
+
+
+def _job(args: argparse.Namespace, config: Config) -> Job:
+    from ros2cc_extract.pipeline.check import Job
+    from ros2cc_extract.pipeline.config import assumptions_of
+
+    options = options_of(args)
+    if config.timeout is not None and args.timeout == DEFAULT_SECONDS:
+        options = replace(options, limits=replace(options.limits, seconds=config.timeout))
+    return Job(
+        paths=args.paths,
+        config=config,
+        policy=policy_of(args),
+        options=options,
+        assumptions=assumptions_of(config, args.assume),
+        root=config.root.resolve(),
+        cached=not args.no_cache,
+        keeps_runs=args.output_format in WITH_RUNS,
+        max_seconds=args.max_seconds,
+    )
+
+
+def _known(args: argparse.Namespace, config: Config, job: Job, stderr: TextIO) -> frozenset[str]:
+    """Collect the fingerprints that are accepted already."""
+    from ros2cc_extract.findings.baseline import read_baseline
+    from ros2cc_extract.pipeline.sources import read_input
+
+    known: frozenset[str] = frozenset()
+    baseline = args.baseline or config.baseline
+    if baseline is not None and args.write_baseline is None:
+        known = read_baseline(read_input(baseline), str(baseline))
+    if args.diff_base is not None:
+        from ros2cc_extract.pipeline.base_revision import fingerprints_at
+
+        known |= fingerprints_at(args.diff_base, job, stderr)
+    return known
+
+
+def _keep(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> None:
+    from ros2cc_extract.cli.commands.model import model_files, unit_folders
+    from ros2cc_extract.cli.shared.output import write_atomically
+    from ros2cc_extract.generator.build import render
+    from ros2cc_extract.spec.yaml_io import write_specs
+
+    options = options_of(args)
+    folders = unit_folders([unit.name for unit in outcome.units], args.output)
+    for unit, closed, folder in zip(outcome.units, outcome.closed, folders, strict=True):
+        write_atomically(folder / f'{unit.name}.spec.yaml', write_specs([unit]))
+        rendered = render(
+            closed, profile=options.profile, text=options.text, max_cycle=options.max_cycle
+        )
+        for name, text in model_files(rendered).items():
+            write_atomically(folder / name, text)
+    print(f'kept {len(outcome.units)} units in {args.output}', file=stderr)
+
+
+def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> None:
+    from ros2cc_extract.cli.shared.output import write_atomically
+    from ros2cc_extract.findings.baseline import write_baseline
+
+    write_atomically(path, write_baseline(outcome.findings, job.root.as_posix()))
+    print(f'wrote {path}; use it with --baseline {path}', file=stderr)
+
+
+def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) -> None:
+    form = args.output_format
+    if form == 'text':
+        from ros2cc_extract.report.text.check import print_check
+        from ros2cc_extract.report.text.style import console_for
+
+        verified = list(zip(outcome.units, outcome.verifications, strict=True))
+        console = console_for(stdout)
+        print_check(verified, outcome.findings, outcome.summary, console, tables=args.tables)
+        return
+    from ros2cc_extract.report.formats import Checked, write
+
+    checked = Checked(
+        units=outcome.units,
+        verifications=outcome.verifications,
+        findings=outcome.findings,
+        summary=outcome.summary,
+        files=outcome.extraction.files_seen,
+        sources=outcome.sources,
+        root=job.root.as_posix(),
+        package=job.root.name,
+        docs_url=job.config.docs_url,
+    )
+    stdout.write(write(checked, form))
+    if form == 'github':
+        _append_step_summary(checked)
+
+
+def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:
+    """Zero problems of nothing may read as safe."""
+    told = 'nothing was judged: no rclpy node with a callback found'
+    if any(file.endswith(LAUNCH_SUFFIXES) for file in files):
+        told += '; launch files are not followed, name the Python files of their nodes'
+    print(told, file=stderr)
+
+
+def _append_step_summary(checked: Checked) -> None:
+    """GitHub names the file in which a step's summary is kept."""
+    from ros2cc_extract.report.machine.github import step_summary
+
+    name = os.environ.get('GITHUB_STEP_SUMMARY')
+    if name:
+        with Path(name).open('a', encoding='utf-8') as stream:
+            stream.write(step_summary(checked.findings, checked.summary, root=checked.root))
+
+
+def _status(args: argparse.Namespace, outcome: Outcome) -> int:
+    from ros2cc_extract.pipeline.sources import has_barred, nothing_read
+
+    if nothing_read(args.paths, outcome.extraction):
+        return EXIT_ERROR
+    if outcome.has_findings:
+        return EXIT_FINDINGS
+    if args.strict and has_barred(outcome.extraction.diagnostics):
+        return EXIT_ERROR
+    unresolved = args.strict and _is_unresolved(outcome)
+    return EXIT_UNDECIDED if unresolved or outcome.is_undecided else EXIT_CLEAN
+
+
+def _is_unresolved(outcome: Outcome) -> bool:
+    """Whether a unit has an open fact or wait, or was left out, or a file was not read."""
+    from ros2cc_extract.pipeline.sources import NOT_FOLLOWED, has_unread
+
+    noticed = outcome.extraction.diagnostics
+    of_units = any(unit.unresolved for unit in outcome.units) or bool(outcome.undecided_waits)
+    return of_units or has_unread(noticed) or any(d.slug == NOT_FOLLOWED for d in noticed)

@@ -1,0 +1,233 @@
+"""The whole job without its telling: scan, close, verify, find, and take out what is accepted."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TextIO
+
+from ros2cc_extract.cachefile import default_cache_folder
+from ros2cc_extract.deadline import Deadline, Patience, deadline_in
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.source import SIZE_LIMIT_BYTES
+from ros2cc_extract.files import DISK, Files
+from ros2cc_extract.findings.across import findings_across
+from ros2cc_extract.findings.baseline import compare
+from ros2cc_extract.findings.collect import all_findings, is_unread
+from ros2cc_extract.findings.joined import without_what_is_told
+from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.requirements import check_requirements
+from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
+from ros2cc_extract.findings.selection import select
+from ros2cc_extract.findings.suppress import suppress
+from ros2cc_extract.pipeline.config import Config
+from ros2cc_extract.pipeline.progress import bar
+from ros2cc_extract.pipeline.sources import scan_sources
+from ros2cc_extract.pipeline.unit_jobs import Examined, Task, examine_all, joined_task
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.assume import Assumptions, assume
+from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.rates import with_arrivals
+from ros2cc_extract.verify.unit import Options, Verification
+
+SCANNING = 0.75
+"""Share of the time after which nothing more is scanned."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """
+    What to check, and how.
+
+    :param known: fingerprints of findings that are accepted already.
+    :param root: repository to which fingerprints are relative.
+    :param keeps_runs: the run behind every verdict is wanted.
+    :param max_seconds: for scanning all files and verifying all units together.
+    :param spent_s: of these seconds, on what was checked before.
+    :param files: those of the disk, or of another revision.
+    :param noticed: what is known already, such as folders that cannot be looked into.
+    """
+
+    paths: Sequence[Path]
+    config: Config
+    policy: Policy
+    options: Options
+    assumptions: Assumptions
+    root: Path
+    known: frozenset[str] = frozenset()
+    cached: bool = True
+    keeps_runs: bool = False
+    max_seconds: float | None = None
+    spent_s: float = 0.0
+    files: Files = DISK
+    noticed: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """
+    What came out.
+
+    :param sources: text of the scanned files and of those that findings lead to, by path.
+    :param accepted: how many findings a comment or the baseline accepts.
+    :param interrupted: somebody has ended it before all units were verified.
+    """
+
+    extraction: Extraction
+    units: tuple[Spec, ...]
+    closed: tuple[ClosedSpec, ...]
+    verifications: tuple[Verification, ...]
+    findings: tuple[Finding, ...]
+    accepted: int
+    sources: Mapping[str, str]
+    interrupted: bool = False
+
+    @property
+    def summary(self) -> dict[str, int]:
+        """Counts for the last line, in its order."""
+        verdicts = Counter(r.verdict.value for v in self.verifications for r in v.results)
+        severities = Counter(finding.severity for finding in self.findings)
+        return {
+            'files': len(self.extraction.files_seen),
+            'units': len(self.units),
+            'callbacks': sum(len(unit.callbacks) for unit in self.units),
+            'satisfied': verdicts['satisfied'],
+            'not_satisfied': verdicts['not satisfied'],
+            'undecided': verdicts['undecided'],
+            'errors': severities[Severity.ERROR],
+            'warnings': severities[Severity.WARNING],
+            'notes': severities[Severity.NOTE] - len(self.undecided_waits),
+            'undecided_waits': len(self.undecided_waits),
+            'accepted': self.accepted,
+        }
+
+    @property
+    def is_undecided(self) -> bool:
+        """True when a limit left a verdict open, or a file."""
+        return bool(self.extraction.cut) or any(
+            verification.is_undecided for verification in self.verifications
+        )
+
+    @property
+    def undecided_waits(self) -> tuple[Finding, ...]:
+        """Waits of which it is open whether they end."""
+        return tuple(finding for finding in self.findings if finding.code == UNDECIDED_WAIT)
+
+    @property
+    def has_findings(self) -> bool:
+        """True when something weighs more than a note, and is not that a file was not read."""
+        return any(
+            finding.severity is not Severity.NOTE and not is_unread(finding)
+            for finding in self.findings
+        )
+
+
+def _has_callbacks(unit: Spec) -> bool:
+    """Whether there is any that somebody wrote, or that somebody waits for."""
+    waited = waited_for(unit)
+    return any(not each.builtin or each.name in waited for each in unit.callbacks)
+
+
+def check_paths(job: Job, stderr: TextIO) -> Outcome:
+    """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
+    left_s = None if job.max_seconds is None else max(0.0, job.max_seconds - job.spent_s)
+    deadline = None if left_s is None else deadline_in(left_s, job.max_seconds or left_s)
+    extraction = scan_sources(
+        job.paths,
+        stderr,
+        cached=job.cached,
+        lists_builtin=job.policy.builtin,
+        files=job.files,
+        patience=_patience(deadline, left_s),
+    )
+    units = tuple(
+        assume(unit, job.assumptions)
+        for unit in extraction.units
+        if job.policy.builtin or _has_callbacks(unit)
+    )
+    closed = tuple(close(unit, job.policy) for unit in units)
+    tasks = [
+        Task(unit, each, job.options, job.keeps_runs)
+        for unit, each in zip(with_arrivals(units), closed, strict=True)
+    ]
+    with bar(stderr, 'verifying') as meter:
+        folder = default_cache_folder() if job.cached else None
+        is_over = extraction.interrupted
+        more = [joined_task(each, job.policy, job.options) for each in extraction.joined]
+        examination = examine_all([*tasks, *more], folder, meter, deadline, interrupted=is_over)
+    examined, together = examination.units[: len(tasks)], examination.units[len(tasks) :]
+    own = [each.findings for each in examined]
+    across = without_what_is_told(
+        (finding for each in together for finding in each.findings),
+        (finding for found in own for finding in found),
+    )
+    defects = tuple(_defects(units, examined))
+    noticed = (*job.noticed, *extraction.diagnostics, *defects)
+    extraction = replace(extraction, diagnostics=noticed)
+    findings = (
+        *all_findings(
+            [*own, findings_across(units), across],
+            extraction.diagnostics,
+            {unit.rclpy for unit in units},
+        ),
+        *check_requirements(job.config.requirements, units, [each.judged for each in examined]),
+    )
+    root = job.root.as_posix()
+    selected = select(findings, job.config.selection, root)
+    sources = _sources(job.files, {*extraction.files_seen, *_files_shown(selected)})
+    suppressed = suppress(selected, sources, extraction.files_seen)
+    compared = compare(suppressed.kept, job.known, root)
+    return Outcome(
+        extraction=extraction,
+        units=units,
+        closed=closed,
+        verifications=tuple(each.shown for each in examined),
+        findings=compared.new,
+        accepted=len(suppressed.accepted) + len(compared.known),
+        sources=sources,
+        interrupted=examination.interrupted,
+    )
+
+
+def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:
+    """Scanning leaves some time to verify what was found."""
+    if deadline is None or seconds is None:
+        return Patience(keeps_interrupted=True)
+    scanning = replace(deadline, at=deadline.at - (1 - SCANNING) * seconds)
+    return Patience(scanning, keeps_interrupted=True)
+
+
+def _defects(units: Sequence[Spec], examined: Sequence[Examined]) -> Iterator[Diagnostic]:
+    """Tell which units could not be verified because something is wrong here."""
+    for unit, each in zip(units, examined, strict=True):
+        if each.shown.defect:
+            yield Diagnostic(
+                severity=Severity.ERROR,
+                slug='defect',
+                place=unit.executor.source
+                or Place(unit.sources[0] if unit.sources else unit.name),
+                message=f'unit {unit.name} is not verified: {each.shown.defect}',
+                help='this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where',
+            )
+
+
+def _files_shown(findings: Sequence[Finding]) -> set[str]:
+    """Files that findings lead to, also those that a checked file only imports."""
+    remarks = [remark for finding in findings for remark in (*finding.chain, *finding.related)]
+    places = [*(finding.place for finding in findings), *(remark.place for remark in remarks)]
+    return {place.file for place in places}
+
+
+def _sources(files: Files, names: Collection[str]) -> dict[str, str]:
+    texts = {}
+    for name in sorted(names):
+        try:
+            data = files.read(Path(name), SIZE_LIMIT_BYTES)
+        except (OSError, ValueError):  # not there, or no name that a file can have
+            continue
+        texts[name] = data.decode(errors='replace').replace('\r\n', '\n').replace('\r', '\n')
+    return texts
