@@ -1,8 +1,9 @@
 """
 Flags by which callbacks keep each other out, as far as they do.
 
-The scanner notes who has found a flag down and put it up (``extract/static/flags.py``). That
-keeps others out where nobody else writes the flag, and where no two can find it down at once.
+The scanner notes who has found a flag down and put it up
+(``extract/static/concurrency/accesses/flag_locks.py``). That keeps others out where nobody
+else writes the flag, and where no two can find it down at once.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from ros2cc_extract.cachefile import default_cache_folder
 from ros2cc_extract.deadline import Deadline, Patience, deadline_in
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.source import SIZE_LIMIT_BYTES
+from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.baseline import compare

@@ -8,9 +8,9 @@ from pathlib import Path
 from ros2cc_extract.crew import usable_cores
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.limits import scanning_limits
-from ros2cc_extract.extract.static.project import Project
-from ros2cc_extract.extract.static.scanning import Progress, scan_project
+from ros2cc_extract.extract.static.program.project import Project
+from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
+from ros2cc_extract.extract.static.scan.scanning import Progress, scan_project
 from ros2cc_extract.files import DISK, Files
 
 
@@ -60,7 +60,7 @@ def _scan_cached(
     patience: Patience,
 ) -> Extraction:
     # Imported here: most scans go without, and its libraries take longer than a small scan.
-    from ros2cc_extract.extract.static.cache import ScanCache
+    from ros2cc_extract.extract.static.program.scan_cache import ScanCache
 
     entry = ScanCache(folder, project)
     known = entry.load()

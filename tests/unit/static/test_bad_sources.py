@@ -12,7 +12,7 @@ import pytest
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.api import scan, scan_text
-from ros2cc_extract.extract.static.newer_python import needs_newer_python
+from ros2cc_extract.extract.static.program.newer_syntax import needs_newer_python
 
 HEAD = 'import rclpy\n'
 SPIN = 'rclpy.spin(rclpy.create_node("a"))\n'

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros2cc_extract.extract.static import runs
 from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.extract.static.scan import runs
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import close

@@ -7,8 +7,8 @@ import weakref
 
 import pytest
 
-from ros2cc_extract.extract.static import limits
-from ros2cc_extract.extract.static.limits import scanning_limits
+from ros2cc_extract.extract.static.program import runtime_limits
+from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 
 
 def test_the_collector_is_on_again_and_nothing_is_kept_from_it() -> None:
@@ -49,7 +49,7 @@ class Ring:
 def test_what_earlier_scans_left_behind_is_freed_once_it_is_much(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(limits, '_MUCH', 1_000)
+    monkeypatch.setattr(runtime_limits, '_MUCH', 1_000)
     with scanning_limits():
         left_behind = [weakref.ref(ring) for ring in [Ring() for _ in range(2_000)]]
     with scanning_limits():
@@ -59,8 +59,8 @@ def test_what_earlier_scans_left_behind_is_freed_once_it_is_much(
 def test_what_a_program_left_behind_is_freed_before_the_next_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(limits, '_MUCH', 1_000)
+    monkeypatch.setattr(runtime_limits, '_MUCH', 1_000)
     with scanning_limits():
         left_behind = [weakref.ref(ring) for ring in [Ring() for _ in range(2_000)]]
-        limits.forget_programs()
+        runtime_limits.forget_programs()
         assert not any(ring() for ring in left_behind)

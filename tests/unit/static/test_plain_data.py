@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static import runs
 from ros2cc_extract.extract.static.api import scan
+from ros2cc_extract.extract.static.scan import runs
 from ros2cc_extract.places import Unknown
 
 NAMES = [f'read_{number}' for number in range(20)]

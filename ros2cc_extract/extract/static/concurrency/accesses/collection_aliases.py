@@ -1,0 +1,54 @@
+"""
+Collections under several names: each is known by the attribute that held it first.
+
+A dictionary that is handed to a helper or to a thread is one object under two names, and what
+changes it under the one is seen under the other.
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.program.relevance import reassigned_attributes
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.containers import Collection
+from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
+
+Home = tuple[Instance, str]
+_FIXED = ('tuple', 'frozenset')
+
+
+def note_held(world: World, owner: Value, attribute: str, value: Value, shown: str) -> None:
+    """``owner`` holds ``value`` from here on; ``shown`` names the attribute."""
+    if not isinstance(value, Collection) or getattr(value, 'kind', '') in _FIXED:
+        return
+    if isinstance(owner, Instance) and not is_reassigned(owner, attribute):
+        world.homes.setdefault(value, (owner, shown))
+
+
+def home_of(world: World, owner: Value, attribute: str) -> Home | None:
+    """Who held first the collection that an attribute holds for good, and how it is called."""
+    if not isinstance(owner, Instance) or not world.homes:
+        return None
+    held = owner.slots.get(attribute)
+    if not isinstance(held, Collection) or is_reassigned(owner, attribute):
+        return None
+    return world.homes.get(held)
+
+
+def homes_of(world: World, value: Value) -> list[Home]:
+    """The same of the collections that a local variable may hold."""
+    known = (world.homes.get(v) for v in options_of(value) if isinstance(v, Collection))
+    return [home for home in known if home is not None]
+
+
+def object_name(owner: Instance | Class, cls: Class) -> str:
+    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
+    is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
+    return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
+
+
+def is_reassigned(owner: Instance, attribute: str) -> bool:
+    """Whether a method stores another one there: then the names part, nobody knows when."""
+    return any(
+        isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)
+        for cls in owner.mro
+    )

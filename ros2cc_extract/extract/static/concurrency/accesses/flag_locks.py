@@ -1,0 +1,239 @@
+"""
+Flags by which a callback keeps others out: ``if self.busy: return``, then ``self.busy = True``.
+
+Whoever has found a flag down and put it up holds it, as a lock, until it is put down again; a
+done-callback takes over what its maker holds, and the execute callback of an action server what
+the goal callback holds wherever it accepts; where that has only found a flag down, the execute
+callback may put it up. Whether the test and the setting are one piece, and
+nobody else puts the flag down, is for the reader of the accesses to say.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+
+from ros2cc_extract.extract.static.python.machine.dependences import Reading
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.python.values.values import NONE, Call, Const, Value, options_of
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
+from ros2cc_extract.spec.model import EntityKind
+
+_THEN, _ELSE, _AFTER = 0, 1, -1
+_LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+_REFUSING = 'REJECT'
+_Asked = tuple[str, bool, str]
+Constant = Callable[[ast.expr], str | None]
+"""Gives ``text_of`` what an expression stands for."""
+
+
+def note_test(
+    reading: Reading, node: ast.If, found: Iterable[str], place: Place, constant: Constant
+) -> None:
+    """
+    An ``if`` tells where the flags are down that it asks for, alone or each for itself.
+
+    A state may stand for a flag: who has found that it is a constant, and stores another one, or
+    the other way round.
+    """
+    names: dict[str, list[str]] = {}
+    for name in found:
+        names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
+    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
+    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
+    steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
+    for attribute, down_if, value in _flags_of(node.test, constant):
+        meant = names.get(attribute, [])
+        for step in steps[down_if] if len(meant) == 1 else ():
+            known = reading.down.get((place, step), frozenset())
+            reading.down[place, step] = known | set(meant)
+            reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
+
+
+def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
+    """The flags that are down where all of ``test`` holds, or where nothing of it does."""
+    if isinstance(test, ast.BoolOp):
+        down_if = isinstance(test.op, ast.And)
+        parts = [asked for value in test.values for asked in _flags_of(value, constant)]
+        yield from (asked for asked in parts if asked[1] is down_if)
+        return
+    yield from _asked(test, constant)
+
+
+def _asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
+    """The flag that a test asks for, what it gives where that is down, and what it holds then."""
+    if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        inner = _asked(test.operand, constant)
+        yield from ((name, not down_if, value) for name, down_if, value in inner)
+    elif isinstance(test, ast.Compare) and len(test.ops) == 1:
+        is_same = _SAME.get(type(test.ops[0]))
+        right, name = test.comparators[0], _name_of(test.left)
+        if is_same is None or name is None:
+            return
+        if isinstance(right, ast.Constant) and right.value is None:
+            if isinstance(test.ops[0], (ast.Is, ast.IsNot)):
+                yield name, is_same, FOUND_NONE
+            return
+        text = constant(right)
+        if text is not None:
+            yield name, is_same, FOUND_THIS + text
+            yield name, not is_same, FOUND_OTHER + text
+    elif _name_of(test) is not None:
+        yield _name_of(test) or '', False, FOUND_FALSE
+
+
+_SAME: dict[type[ast.cmpop], bool] = {
+    ast.Is: True,
+    ast.Eq: True,
+    ast.IsNot: False,
+    ast.NotEq: False,
+}
+
+
+def _name_of(test: ast.expr) -> str | None:
+    if isinstance(test, ast.Attribute):
+        return test.attr
+    return test.id if isinstance(test, ast.Name) else None
+
+
+def text_of(value: Value) -> str | None:
+    """The same for constants that are equal, ``None`` for what is no constant."""
+    known = isinstance(value, Const) and value.value is not None
+    return repr(value.value) if known else None  # type: ignore[attr-defined]
+
+
+def put_up(world: World, name: str) -> None:
+    """``name`` is stored; who has found it down and stores something holds it from here."""
+    flag = name + FLAG
+    is_down = flag in _found_down(world) or (flag in world.still_down and not _has_waited(world))
+    if is_down and flag not in world.held and _is_up(world, name):
+        world.held = (*world.held, flag)
+        world.flag_tests.setdefault(name, set()).update(_states_found(world, name)[-1:])
+
+
+def _has_waited(world: World) -> bool:
+    return world.deeds is not None and world.deeds.behind is not None
+
+
+def put_down(world: World, name: str) -> None:
+    """``name`` was stored; who has put down its flag holds it no more."""
+    stored = world.reading.stored
+    states = world.flag_tests.get(name)
+    if states:
+        is_down = not all(_is_up_for(stored, each) for each in states)
+    else:
+        is_down = isinstance(stored, Const) and not stored.value and not _is_up(world, name)
+    if is_down:
+        world.held = tuple(held for held in world.held if held != name + FLAG)
+
+
+def _is_up(world: World, name: str) -> bool:
+    """Whether the test finds it up now; one for ``None`` takes every other value for that."""
+    stored = world.reading.stored
+    states = _states_found(world, name)
+    if states:
+        return _is_up_for(stored, states[-1])
+    if stored is None or NONE in options_of(stored):
+        return False
+    found = (
+        world.reading.found.get(step, {}).get(name) for step in world.reading.behind(world.path)
+    )
+    return FOUND_NONE in found or not isinstance(stored, Const) or bool(stored.value)
+
+
+def _states_found(world: World, name: str) -> list[str]:
+    """What tests on the path have found it to be, or not to be, of constants."""
+    found = (world.reading.found.get(step, {}).get(name, '') for step in world.path)
+    return [each for each in found if each.startswith((FOUND_THIS, FOUND_OTHER))]
+
+
+def _is_up_for(stored: Value | None, found: str) -> bool:
+    """Whether who finds so by a test does not find it when ``stored`` is there."""
+    texts = [text_of(option) for option in options_of(stored)] if stored is not None else [None]
+    if found.startswith(FOUND_THIS):
+        return None not in texts and found.removeprefix(FOUND_THIS) not in texts
+    return all(text == found.removeprefix(FOUND_OTHER) for text in texts)
+
+
+def after_block(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...]:
+    """What is held after a ``with``: its locks are given back, and flags stay as they are."""
+    kept = [held for held in before if not held.endswith(FLAG) or held in now]
+    return (*kept, *(held for held in now if held.endswith(FLAG) and held not in kept))
+
+
+def leave(world: World, frame: Frame, *, goes_on: bool) -> None:
+    """A function ends: a flag that it holds on some ways out only is not held for certain."""
+    ways = [held for held, _, _ in frame.left]
+    world.held = _by_all(world.held, ways)
+    accepting = [(held, down) for held, down, refuses in frame.left if not refuses]
+    accepting += [(world.held, _found_down(world))] if goes_on else []
+    helds = [held for held, _ in accepting]
+    world.accepted = _by_all(helds[0], helds) if accepting else ()
+    downs = [down for _, down in accepting]
+    world.found_down = downs[0].intersection(*downs) if downs else frozenset()
+
+
+def _found_down(world: World) -> frozenset[str]:
+    reading = world.reading
+    known = (reading.down.get(step, ()) for step in reading.behind(world.path))
+    return frozenset(flag for flags in known for flag in flags)
+
+
+def _by_all(held: tuple[str, ...], ways: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
+    ways = tuple(ways)
+    return tuple(
+        lock for lock in held if not lock.endswith(FLAG) or all(lock in way for way in ways)
+    )
+
+
+def note_return(world: World, frame: Frame, node: ast.Return, found: Iterable[str]) -> None:
+    """One way out of a function, and whether it turns a goal down; ``found`` was read for it."""
+    refuses = _refuses(node.value)
+    if refuses or (isinstance(node.value, ast.IfExp) and _may_refuse(node.value)):
+        world.reading.refuse(world.path, () if refuses else found)
+    frame.left.append((world.held, _found_down(world), refuses))
+
+
+def _refuses(value: ast.expr | None) -> bool:
+    return isinstance(value, ast.Attribute) and value.attr == _REFUSING
+
+
+def _may_refuse(value: ast.IfExp) -> bool:
+    return _refuses(value.body) or _refuses(value.orelse)
+
+
+def hand_over(world: World, to: EntityState) -> None:
+    """What a callback makes runs after it, and holds what it holds."""
+    if world.deeds is not None:
+        held = tuple(lock for lock in world.held if lock.endswith(FLAG))
+        to.held = held if to.held is None else tuple(lock for lock in to.held if lock in held)
+        world.held = tuple(lock for lock in world.held if lock not in held)
+
+
+def call(machine: Machine, entity: EntityState, callback: Value, arguments: Call) -> Value:
+    """Call what an entity runs, holding what was handed over to it."""
+    world = machine.world
+    served = (entity.node, entity.place)
+    world.still_down = frozenset()
+    if entity.kind is EntityKind.ACTION_EXECUTE:
+        world.held = world.admitted.get(served, ())
+        world.still_down = world.open_to.get(served, frozenset())
+    else:
+        world.held = entity.held or ()
+    result = machine.run_if_coroutine(machine.call(callback, arguments), entity.place)
+    if callback in options_of(entity.goal_callback or NONE):
+        _note_admission(world)
+        world.admitted[served] = tuple(held for held in world.accepted if held.endswith(FLAG))
+        is_one_piece = not entity.defers and not _has_waited(world)
+        world.open_to[served] = world.found_down if is_one_piece else frozenset()
+    return result
+
+
+def _note_admission(world: World) -> None:
+    """What the goal callback has read, and turned goals down for."""
+    deeds, names = world.deeds, world.reading.refusing
+    if deeds is not None and names:
+        deeds.reads[:] = [replace(r, admits=r.name in names) for r in deeds.reads]

@@ -1,0 +1,231 @@
+"""
+Objects that are changed piece by piece and published as a whole, as a message is.
+
+``self.state.position[wheel] = x`` leaves ``self.state`` the same object. ``publish(self.state)``
+copies all its fields at once under the global lock of CPython (rclpy 7.1.6 and 9.1.2,
+``publisher.py``; generated ``*_s.c`` of the message packages), so that a message is torn where
+another thread stands between two changes. An object that is made anew each time is none of these.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from ros2cc_extract.extract.static.concurrency.accesses import collection_aliases
+from ros2cc_extract.extract.static.program.relevance import noted_on, unmangled, walk
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds, Piece
+from ros2cc_extract.extract.static.python.machine.world import RECENT, EntityState, World
+from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
+from ros2cc_extract.extract.static.python.values.values import (
+    Class,
+    Instance,
+    Mystery,
+    Native,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Access
+
+_SENDS = 'publish'
+_DEPTH = 8
+
+
+def note_changed(machine: Machine, target: ast.expr, frame: Frame, how: str = '') -> None:
+    """An attribute or item of an object is stored, or a collection in it changes in place."""
+    if machine.world.deeds is None or not isinstance(target, (ast.Attribute, ast.Subscript)):
+        return
+    whole = _whole(machine, target.value, frame)
+    if whole is not None:
+        again = _goes_over_items(target, frame)
+        _note(machine, whole, frame.place(target), ast.unparse(target) + how, again=again)
+
+
+def note_sent(machine: Machine, function: Value, node: ast.Call, frame: Frame) -> None:
+    """``publisher.publish(self.state)``: all of the object is read."""
+    is_sent = isinstance(function, Native) and function.name.rpartition('.')[2] == _SENDS
+    if machine.world.deeds is None or not is_sent or len(node.args) != 1:
+        return
+    whole = _object(machine, node.args[0], frame)
+    if whole is not None:
+        _note(machine, whole, frame.place(node), '')
+
+
+def note_held(world: World, owner: Instance, attribute: str, value: Value, shown: str) -> None:
+    """An attribute holds an object for good, by which it is known under other names."""
+    if isinstance(value, Mystery) and not collection_aliases.is_reassigned(owner, attribute):
+        world.objects.setdefault(value, shown)
+
+
+def pieces_of(doer: EntityState | ActivityState, world: World) -> tuple[Access, ...]:
+    """What ``doer`` publishes and others change piece by piece, or the other way round."""
+    mine = (doer.deeds or Deeds()).pieces
+    if not mine:
+        return ()
+    doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
+    others = [each.deeds.pieces for each in doers if each is not doer and each.deeds is not None]
+    sent = {piece.access.name for pieces in others for piece in pieces if not piece.part}
+    changed = {name for pieces in others for name in _torn(pieces)}
+    told = _torn(mine) & sent
+    return tuple(
+        dict.fromkeys(
+            piece.access
+            for piece in mine
+            if piece.access.name in (told if piece.part else changed)
+        )
+    )
+
+
+def _torn(pieces: list[Piece]) -> set[str]:
+    """Names of objects that are changed in more than one piece by one run."""
+    changes = [piece for piece in pieces if piece.part]
+    return {
+        one.access.name
+        for number, one in enumerate(changes)
+        if one.again or any(_are_two(one, other) for other in changes[:number])
+    }
+
+
+def _are_two(one: Piece, other: Piece) -> bool:
+    is_one = one.access.name != other.access.name or one.part == other.part
+    return not is_one and not exclusive(one.path, other.path)
+
+
+def _note(machine: Machine, whole: str, place: Place, part: str, *, again: bool = False) -> None:
+    world, deeds = machine.world, machine.world.deeds
+    assert deeds is not None
+    access = Access(
+        name=whole,
+        source=place,
+        locks=world.held,
+        update=bool(part),
+        in_place=bool(part),
+        chain=world.chain[1:],
+    )
+    piece = Piece(access, part, world.path, again)
+    if piece not in deeds.pieces[-RECENT:]:
+        deeds.pieces.append(piece)
+
+
+def _object(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
+    """The attribute that holds the object of ``node``."""
+    if isinstance(node, ast.Attribute):
+        return _attribute(machine, node, frame)
+    if isinstance(node, ast.Name):
+        named = _alias(node, frame)
+        if isinstance(named, ast.Attribute):
+            return _attribute(machine, named, frame)
+        return _known(machine, node, frame)
+    return None
+
+
+def _whole(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
+    """The attribute that holds the object of ``node``, or one of which it is a part."""
+    for _ in range(_DEPTH):
+        if isinstance(node, ast.Subscript):
+            node = node.value
+        elif isinstance(node, ast.Attribute):
+            found = _attribute(machine, node, frame)
+            if found is not None:
+                return found
+            node = node.value
+        elif isinstance(node, ast.Name):
+            named = _alias(node, frame)
+            if named is None:
+                return _known(machine, node, frame)
+            node = named
+        else:
+            return None
+    return None
+
+
+def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> str | None:
+    """``Class.attribute`` of an object of the program, where another kind of object is in it."""
+    for owner in options_of(_evaluated(machine, node.value, frame)):
+        if isinstance(owner, Instance) and isinstance(owner.cls, Class):
+            held = owner.slots.get(frame.attribute_name(node.attr))
+            options = options_of(held) if isinstance(held, Value) else ()
+            is_own = owner.born is machine.world.deeds
+            if not is_own and any(isinstance(option, Mystery) for option in options):
+                name = unmangled(frame.attribute_name(node.attr), owner.cls.name)
+                return f'{collection_aliases.object_name(owner, owner.cls)}.{name}'
+    return None
+
+
+def _known(machine: Machine, node: ast.Name, frame: Frame) -> str | None:
+    if not machine.world.objects or not isinstance(node.ctx, ast.Load):
+        return None
+    values = options_of(_evaluated(machine, node, frame))
+    return next((machine.world.objects[v] for v in values if v in machine.world.objects), None)
+
+
+def _evaluated(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+    noted, machine.world.deeds = machine.world.deeds, None
+    before = machine.world.changing
+    try:
+        with machine.world.reading.apart():
+            return machine.evaluate(node, frame)
+    finally:
+        machine.world.deeds, machine.world.changing = noted, before
+
+
+def _alias(node: ast.Name, frame: Frame) -> ast.expr | None:
+    """What a local variable is another name for, where it is assigned once."""
+    if frame.function is None:
+        return None
+    return noted_on(frame.function.node, 'aliases', _aliases).get(node.id)
+
+
+def _aliases(function: ast.AST) -> dict[str, ast.expr]:
+    """
+    Names that are assigned once, an attribute or an item of something.
+
+    Not so where that attribute gets another object there: ``old = self.msg; self.msg = Msg()``.
+    """
+    parts = list(walk(function))
+    stored = [part.id for part in parts if _is_stored(part) and isinstance(part, ast.Name)]
+    anew = {part.attr for part in parts if _is_stored(part) and isinstance(part, ast.Attribute)}
+    return {
+        part.targets[0].id: part.value
+        for part in parts
+        if isinstance(part, ast.Assign)
+        and len(part.targets) == 1
+        and isinstance(part.targets[0], ast.Name)
+        and isinstance(part.value, (ast.Attribute, ast.Subscript))
+        and stored.count(part.targets[0].id) == 1
+        and anew.isdisjoint(_attributes(part.value))
+    }
+
+
+def _is_stored(part: ast.AST) -> bool:
+    return isinstance(getattr(part, 'ctx', None), (ast.Store, ast.Del))
+
+
+def _attributes(node: ast.expr) -> Iterator[str]:
+    return (part.attr for part in ast.walk(node) if isinstance(part, ast.Attribute))
+
+
+def _goes_over_items(target: ast.Attribute | ast.Subscript, frame: Frame) -> bool:
+    """Whether a loop of the function stores one item after the other: ``msg.data[k] = …``."""
+    if frame.function is None:
+        return False
+    keys = {
+        name.id
+        for part in ast.walk(target)
+        if isinstance(part, ast.Subscript)
+        for name in ast.walk(part.slice)
+        if isinstance(name, ast.Name)
+    }
+    return not keys.isdisjoint(noted_on(frame.function.node, 'loop_names', _loop_names))
+
+
+def _loop_names(function: ast.AST) -> frozenset[str]:
+    return frozenset(
+        name.id
+        for part in walk(function)
+        if isinstance(part, ast.For)
+        for name in ast.walk(part.target)
+        if isinstance(name, ast.Name)
+    )

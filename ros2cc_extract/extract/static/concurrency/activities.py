@@ -1,0 +1,217 @@
+"""
+Threads of the program's own, and the main program beside a thread that spins.
+
+What such code sets up is followed where it is started; what it does beside the callbacks is
+followed once more after the set-up, as callbacks are, when it has met all that the set-up makes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
+from ros2cc_extract.extract.static.python.machine.machine import THING_STEPS, Machine
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
+from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Function,
+    Instance,
+    Native,
+    Partial,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import ActivityKind, When
+
+
+def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
+    """Follow what another thread sets up; it holds no lock of ours and is no callback."""
+    world = machine.world
+    if world.retelling:
+        return
+    saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
+    path, chain, thread = world.path, world.chain, world.thread
+    loops, ready, holds = (world.times, world.round), world.ready, world.holds
+    tries, world.tries = world.tries, 0
+    world.threads += 1
+    world.thread = world.threads
+    world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
+    world.times, world.round = 1, ()
+    world.ready = frozenset()
+    try:
+        result = machine.call(target, call)
+        machine.run_if_coroutine(result, call.place)
+    finally:
+        world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
+        world.stopped = False
+        world.path, world.chain, world.thread = path, chain, thread
+        (world.times, world.round), world.holds = loops, holds
+        world.ready, world.tries = ready, tries
+
+
+def begin(
+    machine: Machine,
+    kind: ActivityKind,
+    target: Value | None,
+    call: Call,
+    runner: Value | None = None,
+    *,
+    daemon: bool | None = False,
+    on_loop: bool = False,
+    turns: object = None,
+    pool: Instance | None = None,
+) -> None:
+    """
+    Start an activity.
+
+    :param runner: the thread or future that stands for it.
+    :param turns: as of an ``ActivityState``, and ``pool`` too.
+    """
+    world = machine.world
+    text = (call.place, _code_of(target, call))
+    site = (text, world.chain, id(world.activity or world.current))
+    known = _own_text(world, text) or next((e for e in world.activities if e.site == site), None)
+    state = known or ActivityState(
+        kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
+    )
+    state.is_daemon, state.pool = daemon, pool
+    _note_start(machine, state, runner)
+    note_begun(world, call.place)
+    if known is not None:
+        _note_again(world, known)
+        known.count = known.count if world.again or runner in known.runners else _more(known)
+        return
+    machine.charge(THING_STEPS)
+    state.path, state.count = world.path, _count(world, call.place)
+    state.thread, state.on_loop = world.threads + 1, on_loop
+    state.spins = world.main_spins
+    world.activities.append(state)
+    outer, world.activity = world.activity, state
+    try:
+        for option in options_of(target) if target is not None else ():
+            run_in_thread(machine, option, call)
+        if state.is_executor:  # it is not followed once more
+            for thing, word, place in state.wakes:
+                machine.note_wake(thing, word, place)
+    finally:
+        world.activity = outer
+    if state.serves:
+        _go_on_beside(machine, call.place)
+
+
+def _note_again(world: World, known: ActivityState) -> None:
+    """
+    It starts itself anew; what leads there from its own function is told.
+
+    Only where it is followed beside the callbacks are tests open on what others change.
+    """
+    is_sure = world.retelling and known is world.activity and world.path == known.path
+    if is_sure and known.again is None:
+        known.again = world.chain[1] if len(world.chain) > 1 else known.place
+
+
+def _own_text(world: World, text: object) -> ActivityState | None:
+    """That one which starts itself anew, itself or by others."""
+    each: object = world.activity
+    while isinstance(each, ActivityState):
+        if isinstance(each.site, tuple) and each.site[0] == text:
+            return each
+        each = each.starts[0].by if each.starts else None
+    return None
+
+
+def _more(known: ActivityState) -> int | Unknown:
+    return known.count + 1 if isinstance(known.count, int) else known.count
+
+
+def _count(world: World, place: Place) -> int | Unknown:
+    if world.when is not When.CALLBACK or world.activity is not None:
+        return world.count
+    return Unknown('started each time the callback runs', place)
+
+
+def _note_start(machine: Machine, state: ActivityState, runner: Value | None) -> None:
+    world = machine.world
+    doer = world.activity or world.current
+    behind = world.deeds.behind if world.deeds is not None else None
+    conditional = bool(doer) and world.path != world.callback_path
+    place = state.place
+    if not any(start.by is doer and start.place == place for start in state.starts):
+        state.starts.append(Waking(Word.SET, doer, place, behind, conditional))
+    if runner is not None and runner not in state.runners:
+        state.runners.append(runner)
+        world.kept.append(runner)
+        world.wakings.setdefault(id(runner), []).append(Waking(Word.END, state, place))
+
+
+def _go_on_beside(machine: Machine, place: Place) -> None:
+    """From here on the main program runs beside an executor that a thread of its own spins."""
+    world = machine.world
+    is_main = world.current is None and world.activity is None and world.deeds is None
+    if not is_main or world.when is not When.START or world.after_spin or not world.is_program:
+        return
+    state = ActivityState(ActivityKind.MAIN, place, path=world.path)
+    world.activities.append(state)
+    world.activity, world.deeds, world.callback_path = state, state.deeds, world.path
+
+
+def spins(world: World, *, for_ever: bool) -> None:
+    """The code that is followed spins an executor from here on."""
+    activity = world.activity
+    if activity is None:
+        return
+    activity.serves = True
+    activity.is_executor = activity.is_executor or for_ever
+    if for_ever and activity.kind is ActivityKind.MAIN:
+        world.activity = world.deeds = None
+
+
+def _code_of(target: Value | None, call: Call) -> object:
+    """Equal for what runs one text on one object, for the same objects and functions."""
+    given = (option for v in (*call.args, *call.keywords.values()) for option in options_of(v))
+    arguments = tuple(_text_of(v) for v in given if isinstance(v, (Instance, *_CODE)))
+    return tuple(_text_of(option) for option in options_of(target or NONE)), arguments
+
+
+_CODE = (Bound, Function, Partial)
+
+
+def _text_of(target: Value) -> object:
+    if isinstance(target, Partial):
+        return _text_of(target.function)
+    if isinstance(target, Bound):
+        return id(target.receiver), id(target.function.node)
+    if isinstance(target, Native):
+        return target
+    return id(target.node) if isinstance(target, Function) else id(target)
+
+
+def followed(world: World) -> Iterator[ActivityState]:
+    """Those that have not been followed for what they do."""
+    while world.told < len(world.activities):
+        state = world.activities[world.told]
+        world.told += 1
+        if state.kind is not ActivityKind.MAIN and not state.is_executor:
+            yield state
+
+
+def begin_telling(world: World, state: ActivityState) -> None:
+    """What is followed from here on is what ``state`` does."""
+    starters = [start.by for start in state.starts]
+    world.activity, world.deeds = state, state.deeds
+    world.current = next((by for by in starters if by is not None and not is_activity(by)), None)  # type: ignore[assignment]
+    world.when, world.count = When.CALLBACK, 1
+    world.path = world.callback_path = state.path
+    world.again = world.retelling = True
+    world.after_spin = False
+    world.asked, world.ready = set(), frozenset()
+
+
+def is_activity(doer: object) -> bool:
+    """Whether it is a thread or the main program, and no callback."""
+    return isinstance(doer, ActivityState)

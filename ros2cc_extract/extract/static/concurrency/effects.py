@@ -1,0 +1,412 @@
+"""What a callback does while it is followed: it locks, reads, writes, publishes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ros2cc_extract.extract.static.concurrency.accesses import (
+    collection_aliases,
+    flag_locks,
+    lost_notifies,
+    torn_updates,
+)
+from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
+from ros2cc_extract.extract.static.concurrency.waits import cleared_events
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
+from ros2cc_extract.extract.static.program.relevance import reassigned_attributes, unmangled
+from ros2cc_extract.extract.static.python.machine.machine import Frame
+from ros2cc_extract.extract.static.python.machine.world import (
+    RECENT,
+    AccessKind,
+    ExecutorState,
+    PlainState,
+    note_once,
+)
+from ros2cc_extract.extract.static.python.objects.element_keys import note_item
+from ros2cc_extract.extract.static.python.values.containers import (
+    Collection,
+    Sequence,
+    collection_class,
+)
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Instance,
+    Library,
+    Module,
+    Mystery,
+    Native,
+    Scope,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
+from ros2cc_extract.spec.model import When
+
+_CODE = (Module, Library, Class, Function)
+_OF_CONTENT = (AccessKind.READ, AccessKind.UPDATE_IN_PLACE)
+_RE_ENTRANT = ('rlock', 'condition')
+_LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
+
+
+class Effects(Waits):
+    """Notes for the callback or activity that is being followed; nothing while there is none."""
+
+    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """
+        An attribute is touched.
+
+        Methods, entities and locks are no shared data, and neither is an object that this
+        callback has made.
+        """
+        if self.world.deeds is None and kind is AccessKind.WRITE:
+            self._note_other_write(owner, name, place)
+        if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
+            return
+        if self.world.activity is not None and isinstance(owner, Instance):
+            touch(self.world.activity, owner)
+        cls = owner.cls if isinstance(owner, Instance) else owner
+        if not isinstance(cls, Class) or self._is_behaviour(owner, name):
+            return
+        attribute = unmangled(name, cls.name)
+        shown = f'{collection_aliases.object_name(owner, cls)}.{attribute}'
+        is_own = isinstance(owner, Instance) and owner.born is self.world.deeds
+        home = collection_aliases.home_of(self.world, owner, name) if kind in _OF_CONTENT else None
+        if home is not None and home[1] != shown:
+            shown, is_own = self._seen_at(home), False
+        if kind is AccessKind.WITHIN or (is_own and kind is not AccessKind.READ):
+            self.world.deeds.own.append(shown)
+        elif not is_own:
+            self._note_access(shown, kind, place, attribute)
+
+    def _seen_at(self, home: collection_aliases.Home) -> str:
+        """Who touches a collection touches what held it first."""
+        owner, shown = home
+        if self.world.activity is not None:
+            touch(self.world.activity, owner)
+        return shown
+
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """An attribute has got a value: a collection is known by the first one that holds it."""
+        if isinstance(owner, Instance) and isinstance(owner.cls, Class):
+            whose = collection_aliases.object_name(owner, owner.cls)
+            shown = f'{whose}.{unmangled(name, owner.cls.name)}'
+            collection_aliases.note_held(self.world, owner, name, value, shown)
+            torn_updates.note_held(self.world, owner, name, value, shown)
+
+    def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
+        """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
+        world = self.world
+        cls = owner.cls if isinstance(owner, Instance) else owner
+        if not isinstance(cls, Class) or not (world.when is When.LATER or world.after_spin):
+            return
+        function = self.stack[0].name if self.stack else ''
+        by = function if world.when is When.LATER else None
+        shown = f'{collection_aliases.object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
+        world.other_writes.setdefault(shown, (by, place))
+
+    def _note_access(
+        self, name: str, kind: AccessKind, place: Place, attribute: str | None = None
+    ) -> None:
+        deeds = self.world.deeds
+        if deeds is None:
+            return
+        is_read, reading = kind is AccessKind.READ, self.world.reading
+        is_stored = kind is AccessKind.WRITE
+        if is_read:
+            reading.read.add(name)
+        at = place, attribute or name.rpartition('.')[2]
+        is_content = kind is AccessKind.UPDATE_IN_PLACE
+        flows = name in reading.flowing
+        chosen = is_content and (flows or name in reading.choices.get(at, ()))
+        rests = reading.governs(name, self.world.path) or flows or chosen
+        is_used = rests and is_read and at in reading.used
+        if kind is AccessKind.WRITE:
+            flag_locks.put_up(self.world, name)
+        access = Access(
+            name=name,
+            source=place,
+            locks=self.world.held,
+            update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
+            in_place=is_content,
+            whole=not is_content
+            and not is_read
+            and reading.is_in_one_piece(name, self.world.path),
+            keeps_size=self.world.refilling,
+            moves=self.world.moves,
+            iterates=self.world.iterating,
+            item=reading.items.get(at),
+            chosen=chosen,
+            rests=is_used or (rests and not is_read),
+            compared=is_read and at in reading.compared,
+            later=is_used and reading.has_called_since(name, self.world.path),
+            clears=is_stored and reading.stored == NONE,
+            lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
+            found=reading.found_of(name, self.world.path) if is_stored else None,
+            constant=is_stored and rests and isinstance(reading.stored, Const),
+            chain=self.world.chain[1:],
+        )
+        accesses = deeds.reads if is_read else deeds.writes
+        if access.iterates is not None:
+            plain = replace(access, iterates=None)
+            if plain in accesses[-RECENT:]:
+                accesses.remove(plain)
+        note_once(accesses, access)
+        if kind is AccessKind.WRITE:
+            flag_locks.put_down(self.world, name)
+            reading.forget(name, self.world.path)
+        if not is_read:
+            is_open = self.world.path != self.world.callback_path
+            deeds.written.setdefault((name, place), (deeds.behind, is_open))
+            for hold in lost_notifies.holds_of(self.world):
+                deeds.stored.setdefault(hold, set()).add(name)
+
+    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
+        """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
+        if self.world.deeds is None:
+            return
+        for target in _iterated(node):
+            noted, self.world.deeds = self.world.deeds, None
+            values = options_of(self.evaluate(target, frame))
+            self.world.deeds = noted
+            kinds = [collection_class(v) for v in values if isinstance(v, Collection)]
+            self.world.iterating = kinds[0] if kinds else None
+            if kinds:
+                self.note_update(target, frame, AccessKind.READ)
+            self.world.iterating = None
+
+    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
+        """The object in a name or attribute gets a new content or value from its old one."""
+        if self.world.deeds is None:
+            return
+        place = frame.place(target)
+        if isinstance(target, ast.Subscript):
+            note_item(self, target.value, target.slice, frame)
+            self.note_update(target.value, frame, kind)
+        elif isinstance(target, ast.Attribute):
+            for owner in options_of(self.evaluate(target.value, frame)):
+                self.note_attribute(owner, frame.attribute_name(target.attr), kind, place)
+        elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
+            self.note_global(frame.module, target.id, kind, place)
+        elif isinstance(target, ast.Name) and kind in _OF_CONTENT and self.world.homes:
+            noted, self.world.deeds = self.world.deeds, None
+            held = self.evaluate(target, frame)
+            self.world.deeds = noted
+            for home in collection_aliases.homes_of(self.world, held):
+                self._note_access(self._seen_at(home), kind, place, target.id)
+
+    def _is_global(self, name: str, frame: Frame) -> bool:
+        scope: Scope | None = frame.scope
+        while scope is not None:
+            if name in scope.slots and name not in scope.global_names:
+                return False
+            scope = scope.parent
+        return name in frame.module.slots
+
+    def _is_behaviour(self, owner: Instance | Class, name: str) -> bool:
+        """Methods, entities and locks are no shared data."""
+        value = owner.slots.get(name)
+        if value is None:
+            cls = owner.cls if isinstance(owner, Instance) else owner
+            held = [
+                c.slots[name]
+                for c in getattr(cls, 'mro', ())
+                if isinstance(c, Class) and name in c.slots
+            ]
+            if not held:
+                return not _is_assigned(cls, name)
+            return isinstance(held[0], (Function, Native, Class))
+        return any(
+            isinstance(option, (Bound, Function, Native, Class))
+            or (isinstance(option, Instance) and option.state is not None)
+            for option in options_of(value)
+        )
+
+    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
+        """A global is touched; only those count that some function changes."""
+        if self.world.deeds is None or name not in self.changed_globals(module):
+            return
+        if kind is AccessKind.WITHIN:
+            self.world.deeds.own.append(f'{module.name}.{name}')
+            return
+        value = module.slots.get(name)
+        if isinstance(value, Instance) and value.state is not None:
+            return
+        options = [o for o in options_of(value) if o != NONE] if isinstance(value, Value) else []
+        if options and all(isinstance(option, _CODE) for option in options):
+            return
+        self._note_access(f'{module.name}.{name}', kind, place)
+
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A lock is taken; with a time-out it may not be."""
+        for option in map(lock_of, options_of(lock)):
+            if (
+                isinstance(option, Instance)
+                and isinstance(option.state, PlainState)
+                and option.state.kind in _LOCKS
+                and not is_counter(self.world, option)
+            ):
+                name = self._lock_name(option, option.state.kind)
+                if name in self.world.held and option.state.kind in _RE_ENTRANT:
+                    self.world.held = (*self.world.held, name)
+                    continue  # its holder takes it once more and waits for nobody
+                act = Act(
+                    name=name,
+                    source=place,
+                    chain=self.world.chain[1:],
+                    held=() if may_fail else self._held_meanwhile(name, option.state.kind),
+                    tries=may_fail,
+                )
+                self.world.held = (*self.world.held, name)
+                self.world.loops_at[name] = self.world.open_loops
+                lost_notifies.begin_hold(self.world, name)
+                if self.world.deeds is not None:
+                    note_once(self.world.deeds.locks, act)
+
+    def _lock_name(self, lock: Instance, kind: str) -> str:
+        """The name it is stored under; a second lock of that name gets a number."""
+        hint = lock.hint or kind
+        known = self.world.locks.setdefault(hint, [])
+        if lock not in known:
+            known.append(lock)
+        number = known.index(lock)
+        return hint if number == 0 else f'{hint}#{number + 1}'
+
+    def _held_meanwhile(self, name: str, kind: str) -> tuple[str, ...]:
+        """
+        The locks that are kept while this one is waited for.
+
+        Source: ``threading.py``; only ``Lock`` waits for its own holder, and a ``Condition``
+        holds an ``RLock``.
+        """
+        held = (lock for lock in self.world.held if not lock.endswith((SHARED, FLAG)))
+        return tuple(dict.fromkeys(lock for lock in held if lock != name or kind == 'lock'))
+
+    def note_release(self, lock: Value) -> None:
+        """A lock is given back."""
+        for option in map(lock_of, options_of(lock)):
+            if isinstance(option, Instance) and isinstance(option.state, PlainState):
+                given_back = self._lock_name(option, option.state.kind)
+                held = [name for name in self.world.held if name != given_back]
+                self.world.held = tuple(held)
+
+    def note_lock_method(self, owner: Value, name: str) -> None:
+        """``owner.acquire…`` or ``release…`` of a class of the program that holds a lock."""
+        if not isinstance(owner, Instance) or not _holds_lock(owner):
+            return
+        lock = self._lock_name(owner, owner.class_name)
+        if name.startswith(('acquire', '__enter__')):
+            is_shared = 'read' in name or 'shared' in name
+            self.world.held = (*self.world.held, lock + SHARED if is_shared else lock)
+        elif name.startswith('release'):
+            given_back = (lock, lock + SHARED)
+            self.world.held = tuple(held for held in self.world.held if held not in given_back)
+
+    def note_publish(self, publisher: Value, place: Place) -> None:
+        """A message is published."""
+        deeds = self.world.deeds
+        if deeds is None or not isinstance(publisher, Instance):
+            return
+        key = publisher.state.key if isinstance(publisher.state, PlainState) else None
+        name: str | Unknown = Unknown('topic that could not be followed', place)
+        if isinstance(key, Const):
+            name = str(key.value)
+        elif isinstance(key, Mystery):
+            name = key.unknown
+        is_open = self.world.path != self.world.callback_path
+        deeds.written.setdefault((name, place), (deeds.behind, is_open))
+        cleared_events.note_sent(deeds, str(name))
+        lost_notifies.note_begun(self.world, place)
+        note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
+
+    def note_change(self, what: str, node: Instance, place: Place) -> None:
+        """A callback changes which executor serves ``node``."""
+        if self.world.deeds is not None:
+            act = Act(name=what, source=place, chain=self.world.chain[1:])
+            note_once(self.world.deeds.changes, act)
+
+    def enter_context(self, value: Value, place: Place) -> Value:
+        """What ``with value as x`` binds to ``x``; locks are held inside."""
+        if isinstance(value, Instance):
+            if isinstance(value.state, (PlainState, ExecutorState)):
+                if _is_semaphore(value):
+                    self.note_blocking('Semaphore.acquire', value, None, place)
+                elif is_counter(self.world, value):
+                    self.note_blocking('Lock.acquire', value, None, place)
+                self.note_acquire(value, place)
+                return value
+            method = self.attribute(value, '__enter__', place)
+            if isinstance(method, Bound):
+                entered = self.call(method, Call(place))
+                self.note_lock_method(value, '__enter__')
+                return entered
+            return value
+        return self._enter_generator(value, place)
+
+    def _enter_generator(self, value: Value, place: Place) -> Value:
+        """
+        A generator under ``contextmanager`` stops at its ``yield`` until the block is left.
+
+        Source: ``contextlib.py``. It is run to its end here, so its locks were given back.
+        """
+        if isinstance(value, Coroutine):
+            value = self.run_if_coroutine(value, place)
+        made, held = self.world.yielding or (None, ())
+        if value is not made or not isinstance(value, Sequence):
+            return value
+        self.world.held = tuple(dict.fromkeys((*self.world.held, *held)))
+        return choice(list(value.items)) if value.items else value
+
+
+_VIEWS = frozenset({'items', 'keys', 'values'})
+_PASSING_ON = frozenset({'enumerate', 'zip', 'reversed', 'iter', 'map', 'filter'})
+
+
+def _iterated(node: ast.expr) -> Iterator[ast.expr]:
+    """What a loop over ``node`` goes over, by the names it is known under."""
+    if isinstance(node, (ast.Attribute, ast.Name)):
+        yield node
+    elif isinstance(node, ast.Call):
+        function = node.func
+        if isinstance(function, ast.Attribute) and function.attr in _VIEWS:
+            yield from _iterated(function.value)
+        elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
+            for argument in node.args:
+                yield from _iterated(argument)
+
+
+def _is_false(stored: Value | None) -> bool:
+    return isinstance(stored, Const) and not stored.value
+
+
+def _is_semaphore(value: Instance) -> bool:
+    return isinstance(value.state, PlainState) and value.state.kind == 'semaphore'
+
+
+def _holds_lock(owner: Instance) -> bool:
+    return owner.state is None and any(
+        isinstance(option, Instance)
+        and isinstance(option.state, PlainState)
+        and option.state.kind in _LOCKS
+        for held in owner.slots.values()
+        if isinstance(held, Value)
+        for option in options_of(held)
+    )
+
+
+def _is_assigned(cls: Value, name: str) -> bool:
+    """Whether a method assigns the attribute that nobody has made yet."""
+    return any(
+        name in reassigned_attributes(base.node)
+        for base in getattr(cls, 'mro', ())
+        if isinstance(base, Class)
+    )

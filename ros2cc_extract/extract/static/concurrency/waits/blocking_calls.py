@@ -1,0 +1,475 @@
+"""What may hold a thread while it is followed, and what ends the waits of others."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
+from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
+from ros2cc_extract.extract.static.concurrency.waits import waits_outside_callbacks
+from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
+    sent_before,
+    sent_before_clear,
+)
+from ros2cc_extract.extract.static.concurrency.waits.clock_durations import slept
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
+from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
+    CLOCKS,
+    called_name,
+    timeout_of,
+    unknown_wait,
+)
+from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
+    INITIAL,
+    NO_ROW,
+    SPIN_UNTIL,
+    WAITS,
+    WaitRow,
+)
+from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import SETTABLE, is_of_loop
+from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import is_ready as is_ready_for
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
+    ActivityState,
+    Deeds,
+    way_of,
+)
+from ros2cc_extract.extract.static.python.machine.wake_operations import (
+    ClockRef,
+    DataRef,
+    EntityRef,
+    ResourceRef,
+    SettableRef,
+    TopicRef,
+    Waking,
+    Word,
+)
+from ros2cc_extract.extract.static.python.machine.world import (
+    RECENT,
+    EntityState,
+    ExecutorState,
+    NodeState,
+    PlainState,
+    World,
+)
+from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption, default_of
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Coroutine,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.units import set_up_waits
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
+from ros2cc_extract.spec.model import ActivityKind, When
+
+
+class Waits(Machine):
+    """Notes for the callback or activity that is being followed."""
+
+    def note_endless(self, node: ast.While, place: Place) -> None:
+        """A loop was followed that nothing but the end of the program ends."""
+        world = self.world
+        is_telling = world.activity is not None and world.deeds is not None
+        if (
+            is_telling
+            and waits_outside_callbacks.is_endless(node)
+            and world.path == world.callback_path
+        ):
+            state = world.activity
+            assert state is not None
+            state.loops = True
+            if waits_outside_callbacks.minds_nothing(node):
+                state.endless = place
+
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+        world, deeds = self.world, self.world.deeds
+        row = WAITS.get(name, NO_ROW)
+        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
+        if is_ready and row.rival is None:
+            return
+        if deeds is None or _is_main(world.activity):
+            self._note_outside(name, on, seconds, place)
+            waits_outside_callbacks.note_interruptible(world, name, on)
+        block, thing = self._block(name, on, seconds, place)
+        if deeds is None:
+            self._note_in_set_up(block, thing, place)
+            return
+        touch(world.activity, thing)
+        if thing is not None:
+            self.store.show(thing)
+        deeds.behind = way_of(block)
+        if world.open_loops:
+            deeds.looped.add(way_of(block))
+        _note_round(deeds, block, world.round)
+
+    def _block(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> tuple[Blocking, Instance | None]:
+        """The wait, with references to what it waits on, and the one object that this is."""
+        world, row = self.world, WAITS.get(name, NO_ROW)
+        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
+        thing, why = _one_object(on, place)
+        block = Blocking(
+            call=name,
+            source=place,
+            on=self._waited_for(on if thing is None or why is not None else thing),
+            seconds=_seconds(seconds, place),
+            assumed=_assumed_seconds(seconds),
+            chain=world.chain[1:],
+            held=held_over(world, on),
+            resource=self._resource(name, thing, row, asked=is_ready),
+            needs=row.needs,
+            escapes=why if row is not NO_ROW else None,
+            conditional=world.path != world.callback_path,
+            only_if=only_if(world),
+            repeats=_is_in_a_loop_of_a_hold(world),
+            times=world.times,
+        )
+        return block, thing
+
+    def note_loop_on_data(
+        self,
+        name: str,
+        on: DataRef | ClockRef | Unknown,
+        seconds: Unknown | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """A loop goes on until somebody else has written what its test reads."""
+        world, deeds = self.world, self.world.deeds
+        block = Blocking(
+            call=name,
+            source=place,
+            on=on,
+            seconds=seconds,
+            chain=world.chain[1:],
+            held=held_over(world, None),
+            resource=None if isinstance(on, Unknown) else on,
+            escapes=on if isinstance(on, Unknown) else None,
+            conditional=world.path != world.callback_path,
+        )
+        if deeds is None:
+            self._note_in_set_up(block, None, place, spun)
+            return
+        deeds.behind = way_of(block)
+        if block not in deeds.blocking[-RECENT:]:
+            deeds.blocking.append(block)
+
+    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
+        """Somebody waits for time that ``clock`` moves."""
+        if self.world.deeds is not None:
+            reference = ClockRef('/clock')
+            reference.number = id(clock)
+            self.note_loop_on_data(name, reference, None, place)
+
+    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
+        """Something that could not be followed is called, perhaps by the name of a wait."""
+        waking = waking_of(call.text)
+        if waking is not None:
+            places = self.world.lost_wakes.setdefault(waking, [])
+            if call.place not in places:
+                places.append(call.place)
+        clock = CLOCKS.get(called_name(call))
+        if clock is not None:
+            self.note_blocking(clock, None, slept(call), call.place)
+            return
+        why = unknown_wait(function, call, self.world.trees)
+        if why is not None:
+            self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
+
+    def _resource(
+        self, name: str, thing: Instance | None, row: WaitRow, *, asked: bool
+    ) -> ResourceRef | None:
+        if thing is None or not row.ended_by or _is_of_entity(thing):
+            return None
+        reference = ResourceRef(thing.hint or thing.class_name)
+        reference.number = id(thing)
+        reference.ended_by = row.ended_by
+        reference.asked = asked
+        reference.is_kept = row.needs is Needs.ONCE
+        if self.world.deeds is not None:
+            reference.sent = sent_before(self.world.deeds, thing)
+            answered = sent_before_clear(self.world.deeds, thing)
+            reference.answered = answered if reference.is_kept else frozenset()
+        reference.initial = _initial(thing, row)
+        reference.made, reference.is_own = thing.place, thing.born is not None
+        if Word.ARRIVE in row.ended_by:
+            reference.parties = _number(thing.slots.get(INITIAL))
+        reference.like = self._made_there(thing)
+        if name in lost_notifies.CONDITION_WAITS:
+            reference.guard = lost_notifies.guard_of(self.world, thing)
+        return reference
+
+    def _made_there(self, thing: Instance) -> list[int]:
+        """Identities of what was made where ``thing`` was made, itself among them."""
+        alike = self.world.made_at.setdefault((thing.cls, thing.place), [])
+        if id(thing) not in alike:
+            alike.append(id(thing))
+            self.world.kept.append(thing)
+        return alike
+
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+        self._note_outside(name, on, seconds, place, spun)
+        if on is not None and (self.world.deeds is None or _is_main(self.world.activity)):
+            call = name if name in WAITS else SPIN_UNTIL
+            block, thing = self._block(call, on, seconds, place)
+            self._note_in_set_up(block, thing, place, spun)
+
+    def _note_in_set_up(
+        self,
+        block: Blocking,
+        thing: Instance | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        caller = self.stack[0].name if self.stack else ''
+        set_up_waits.note(self.world, block, thing, place, spun, caller)
+
+    def _note_outside(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        if isinstance(on, Instance) and seconds in (None, NONE):
+            waits_outside_callbacks.note(self.world, name, on, place, spun)
+
+    def _waited_for(self, value: Value | None) -> str | Unknown | None:
+        if value is None or value == NONE:
+            return None
+        if isinstance(value, Mystery):
+            return value.unknown
+        if isinstance(value, Instance):
+            state = value.state
+            source = state.of if isinstance(state, PlainState) and state.of else value
+            if isinstance(source, Instance) and isinstance(source.state, EntityState):
+                return EntityRef.to_object(source.state, source.state.kind.value)
+            if isinstance(state, PlainState) and state.kind == 'topic':
+                return _topic(state.key, value.place)
+            if isinstance(state, PlainState) and state.kind in SETTABLE:
+                return SettableRef.to_object(value, value.hint or value.class_name)
+            if isinstance(value.state, (NodeState, ExecutorState)):
+                return EntityRef.to_object(value, value.hint or value.class_name)
+            return value.hint or value.class_name
+        return None
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """A callback awaits ``value``; awaiting its own coroutine is only a call."""
+        if is_of_loop(value):
+            self.world.awaited_of_loops.append(value)
+        if not isinstance(value, (Coroutine, Const)):
+            self.note_blocking(
+                'asyncio await' if self.world.on_loop else 'await', value, None, place
+            )
+
+    def note_turn(self, place: Place) -> None:
+        """A coroutine lets the executor run others and goes on by itself."""
+        if self.world.deeds is not None and self.world.in_callback:
+            self.note_blocking(TURN, None, Const(0), place)
+
+    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
+        """Something is done to ``thing`` that may end a wait for it."""
+        world = self.world
+        activity = world.activity
+        if activity is not None and world.deeds is None and not activity.is_executor:
+            activity.wakes.append((thing, word, place))  # it may be followed once more
+            return
+        for option in options_of(thing):
+            wakings = world.wakings.setdefault(id(option), [])
+            waking = self._waking(option, word, place, is_sign=is_sign)
+            if not any(_is_same_waking(waking, other) for other in wakings):
+                wakings.append(waking)
+                if isinstance(option, Instance):
+                    self._made_there(option)
+            touch(world.activity, option)
+
+    def _waking(self, thing: Value, word: Word, place: Place, *, is_sign: bool) -> Waking:
+        world = self.world
+        doer = world.activity or (world.current if world.deeds is not None else None)
+        is_uncalled = doer is None and world.when is When.LATER
+        return Waking(
+            word,
+            doer,
+            place,
+            behind=world.deeds.behind if world.deeds is not None else None,
+            conditional=world.path != world.callback_path if doer else bool(world.path),
+            after_spin=world.after_spin,
+            spins=0 if world.spun_in_loop else world.main_spins,
+            uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
+            held=held_over(world, thing),
+            is_counted=not world.path and world.count == 1,
+            in_loop=world.open_loops > 0,
+            unless_done=doer is not None and _only_unless_done(world, thing, word),
+            repeats=bool(world.reading.loops),
+            told=frozenset(access.name for access in (world.deeds or Deeds()).writes),
+            holds=lost_notifies.holds_of(world),
+            is_sign=is_sign,
+        )
+
+    def note_nested_spin(
+        self,
+        how: str,
+        node: Instance | None,
+        executor: Value,
+        future: tuple[Value | None, Value | None],
+        place: Place,
+        change: str = '',
+    ) -> bool:
+        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
+        if not self.world.in_callback:
+            return False
+        awaited, timeout = future
+        spun = executor if node is None else node
+        self.note_blocking(how, spun, timeout if awaited is None else None, place)
+        if awaited is not None:
+            self.note_blocking('spin for future', awaited, timeout, place)
+        if node is not None:
+            self.note_change(change, node, place)
+        return True
+
+
+def _is_in_a_loop_of_a_hold(world: World) -> bool:
+    loops = world.open_loops
+    return any(loops > world.loops_at.get(lock, loops) for lock in world.held)
+
+
+def _only_unless_done(world: World, thing: Value, word: Word) -> bool:
+    """Whether no branch skips what is done to ``thing`` but where it has been done before."""
+    more = world.path[len(world.callback_path) :]
+    return all((thing, word) in world.skipped_if.get(step, ()) for step in more)
+
+
+def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:
+    if isinstance(name, Const) and isinstance(name.value, str):
+        return TopicRef(name.value)
+    unknown = Unknown('topic that could not be followed', place)
+    return name.unknown if isinstance(name, Mystery) else unknown
+
+
+def _is_main(activity: ActivityState | None) -> bool:
+    return activity is not None and activity.kind is ActivityKind.MAIN
+
+
+def _one_object(on: Value | None, place: Place) -> tuple[Instance | None, Unknown | None]:
+    """The one object that is waited on, or why it is not known which one that is."""
+    options = [option for option in options_of(on) if option != NONE] if on is not None else []
+    things = [option for option in options if isinstance(option, Instance)]
+    if len(things) == 1 and len(options) == 1:
+        return things[0], None
+    if len(things) > 1 and len(things) == len(options):
+        return None, Unknown('one of several objects, depending on a branch', place)
+    unknown = next((option.unknown for option in options if isinstance(option, Mystery)), None)
+    return (things[0] if len(things) == 1 else None), unknown
+
+
+def _initial(thing: Instance, row: WaitRow) -> int | None:
+    """How many waits end by themselves: the value of a semaphore, the room in a queue."""
+    if row.rival is not Word.PUT and Word.RELEASE not in row.ended_by:
+        return 0
+    return _number(thing.slots.get(INITIAL))
+
+
+def _number(value: object) -> int | None:
+    number = value.value if isinstance(value, Const) else None
+    return number if isinstance(number, int) else None
+
+
+def _is_of_entity(thing: Instance) -> bool:
+    """Whether an entity of a node ends it, as the client of a request does."""
+    of = thing.state.of if isinstance(thing.state, PlainState) else thing
+    return isinstance(of, Instance) and isinstance(of.state, EntityState)
+
+
+def touch(activity: ActivityState | None, thing: Value | None) -> None:
+    """An activity belongs to the nodes of what it touches."""
+    if activity is None or not isinstance(thing, Instance):
+        return
+    state = thing.state
+    of = state.of if isinstance(state, PlainState) and state.of is not None else thing
+    if isinstance(of, Instance) and isinstance(of.state, EntityState):
+        activity.nodes.add(id(of.state.node))
+    elif isinstance(of, Instance) and isinstance(of.state, NodeState):
+        activity.nodes.add(id(of))
+    activity.things.add(id(thing))
+
+
+def _is_same_waking(one: Waking, other: Waking) -> bool:
+    return (
+        one.word is other.word
+        and one.by is other.by
+        and one.place == other.place
+        and one.uncalled == other.uncalled
+    )
+
+
+def _note_round(deeds: Deeds, block: Blocking, current: tuple[int, ...]) -> None:
+    """A wait that is met again in another round of a loop is waited once more."""
+    number = len(deeds.blocking)
+    for known in range(number - 1, max(0, number - RECENT) - 1, -1):
+        other = deeds.blocking[known]
+        if _is_same_wait(block, replace(other, times=block.times)):
+            rounds = deeds.rounds.setdefault(known, set())
+            rounds.add(current)
+            deeds.blocking[known] = replace(other, times=len(rounds) * block.times)
+            return
+    deeds.rounds[number] = {current}
+    deeds.blocking.append(block)
+
+
+def _is_same_wait(one: Blocking, other: Blocking) -> bool:
+    """References to two objects are equal as texts."""
+    if one != other:
+        return False
+    for here, there in ((one.on, other.on), (one.resource, other.resource)):
+        are_references = isinstance(here, EntityRef) and isinstance(there, EntityRef)
+        if are_references and here.number != there.number:  # type: ignore[union-attr]
+            return False
+    return True
+
+
+def _seconds(value: Value | None, place: Place) -> float | Unknown | None:
+    if value is None or value == NONE:
+        return None
+    if isinstance(value, Const) and isinstance(value.value, (int, float)):
+        return float(value.value)
+    if isinstance(value, Mystery):
+        default = _default_seconds(value)
+        return value.unknown if default is None else default
+    return Unknown('a duration that could not be followed', place)
+
+
+def _default_seconds(value: Mystery) -> float | None:
+    """A duration that is the default of a parameter."""
+    default = default_of(value)
+    known = default.value if isinstance(default, Const) else None
+    if not isinstance(known, (int, float)) or isinstance(known, bool):
+        return None
+    return float(known) if known >= 0 else None
+
+
+def _assumed_seconds(value: Value | None) -> str | None:
+    if not isinstance(value, Mystery) or _default_seconds(value) is None:
+        return None
+    return assumption('duration', value)

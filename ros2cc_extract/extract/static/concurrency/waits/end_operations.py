@@ -1,0 +1,96 @@
+"""
+Notes of what callbacks and threads end.
+
+``ends_while_served.py`` tells what becomes of whom they serve.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import (
+    RECENT,
+    End,
+    EntityState,
+    ExecutorState,
+)
+from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
+from ros2cc_extract.places import Place, Unknown
+
+SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
+DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
+CANCEL = 'cancel'
+DESTROY_PUBLISHER, PUBLISHED = 'destroy_publisher', 'publish'
+RAISES = 'raise'
+USED = 'used when rclpy was shut down'
+OF_RATE = 'rclpy.create_rate'
+# Of base classes, and of generators; a Ctrl-C is not for an executor.
+_NO_END = frozenset({'NotImplementedError', 'StopIteration', 'KeyboardInterrupt'})
+
+
+def note_use(machine: Machine, what: str, place: Place) -> None:
+    """The middleware is used; it fails where the callback has surely shut rclpy down before."""
+    world = machine.world
+    current = world.current
+    at = current.node.slots.get(_slot(current)) if current is not None else None
+    if current is not None and isinstance(at, Mystery) and at.unknown.at:
+        world.ends.append(End(USED, current.node, current, at.unknown.at, f'{what} ({place})'))
+
+
+def note_published(machine: Machine, publisher: Value, place: Place) -> None:
+    """A message goes out by a publisher, which nobody may destroy meanwhile."""
+    if isinstance(publisher, Instance):
+        latest = machine.world.ends[-RECENT:]
+        if not any(
+            (end.kind, end.what, end.place) == (PUBLISHED, publisher, place) for end in latest
+        ):
+            note_end(machine, PUBLISHED, publisher, place)
+
+
+def note_shutdown(machine: Machine, place: Place) -> None:
+    """The callback that is followed shuts rclpy down."""
+    current = machine.world.current
+    if current is not None:
+        machine.store.write(
+            current.node, _slot(current), Mystery(Unknown('rclpy is shut down', place))
+        )
+    note_end(machine, SHUTDOWN, None, place)
+
+
+def note_end(
+    machine: Machine,
+    kind: str,
+    what: Instance | EntityState | None,
+    place: Place,
+    text: str = '',
+) -> None:
+    """A callback, or a thread of the program's own, ends something."""
+    world = machine.world
+    if world.retelling:
+        return
+    doer = world.activity or (world.current if world.in_callback else None)
+    if doer is not None and not world.shutting_down and not world.after_spin:
+        behind = world.deeds.behind if world.deeds is not None else None
+        world.ends.append(End(kind, what, doer, place, text, behind=behind, locks=world.held))
+
+
+def note_raised(machine: Machine, error: ast.expr, place: Place) -> None:
+    """A callback raises, and nothing in it catches that."""
+    called = error.func if isinstance(error, ast.Call) else error
+    name = called.attr if isinstance(called, ast.Attribute) else getattr(called, 'id', '')
+    if name[:1].isupper() and name not in _NO_END and machine.world.tries == 0:
+        note_end(machine, RAISES, None, place, name)
+
+
+def _slot(entity: EntityState) -> str:
+    return f'__shut_down__{entity.number}'
+
+
+def executor_of(node: Instance) -> Instance | None:
+    """The one executor that serves a node in the end."""
+    owner = node.slots.get('__owner__')
+    known = options_of(owner) if isinstance(owner, Value) else ()
+    found = [each for each in known if isinstance(each, Instance)]
+    is_known = len(found) == 1 and isinstance(found[0].state, ExecutorState)
+    return found[0] if is_known and found[0].state.unknown is None else None

@@ -1,0 +1,255 @@
+"""
+Threads that the set-up joins while nobody serves whoever would end what they wait for.
+
+At the end of many programs a flag is cleared and the thread is joined that asks for it; but the
+thread stands in a wait that only callbacks end, and the spin that served them is over.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, way_of
+from ros2cc_extract.extract.static.python.machine.wake_operations import (
+    EntityRef,
+    ResourceRef,
+    Waking,
+    Word,
+)
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    OutsideWait,
+    Over,
+    Spin,
+    World,
+)
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
+
+JOIN = 'Thread.join'
+RATE = 'Rate.sleep'
+
+
+def note_join(world: World, thread: Value, place: Place) -> None:
+    """The program, which no executor runs, waits for the end of ``thread``."""
+    is_set_up = world.deeds is None or world.activity is not None
+    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
+        is_late = world.after_spin or bool(world.spins)
+        wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
+        world.outside.append(replace(wait, path=world.path))
+
+
+def note_over(world: World, what: Value | None) -> None:
+    """The program has shut ``what`` down, or waited for its end."""
+    if what is None or isinstance(what, Instance):
+        world.over.append(Over(what, world.path, len(world.spins)))
+
+
+def is_over(spin: Spin, number: int, wait: OutsideWait, world: World) -> bool:
+    """Whether ``spin``, the one of that number, has ended for sure before the wait."""
+    return any(_ends(over, spin, number, world) for over in _certain(wait))
+
+
+def _certain(wait: OutsideWait) -> list[Over]:
+    return [over for over in wait.over if wait.path[: len(over.path)] == over.path]
+
+
+def _ends(over: Over, spin: Spin, number: int, world: World) -> bool:
+    if number >= over.spins:
+        return False
+    if over.what is None or over.what is spin.executor:
+        return True
+    doers = (each for each in world.activities if over.what in each.runners)
+    return any(doer.thread == spin.thread for doer in doers)
+
+
+def never_joined(
+    wait: OutsideWait, world: World, spun: Sequence[Instance]
+) -> Iterator[Diagnostic]:
+    """
+    The waits of a joined thread that nobody ends who is still there.
+
+    :param spun: the nodes that other threads spin meanwhile.
+    """
+    for state in world.activities:
+        if not any(wait.client is runner for runner in state.runners) or state.serves:
+            continue
+        loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.deeds.blocking}
+        for block in state.deeds.blocking:
+            # A loop that does nothing but sleep is one that polls.
+            goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
+            goes_round = goes_round or comes_back(block, state, world)
+            goes_round = goes_round and not has_told_of_it(block, state, wait, world)
+            if goes_round or not wait.is_late:
+                why = why_for_ever(block, state, wait, world, spun)
+                if why is not None:
+                    yield _told(wait, block, why)
+                    return
+
+
+def has_told_of_it(block: Blocking, state: ActivityState, wait: OutsideWait, world: World) -> bool:
+    """
+    Whether the thread was behind the wait ``block`` by then, for good.
+
+    So it is where the program has waited before for what nobody but this thread ends, outside
+    its loops and behind ``block``, as for a future that it makes done at its end.
+    """
+    behind = [way_of(each) for each in state.deeds.blocking]
+    at = behind.index(way_of(block))
+
+    def comes_later(waking: Waking) -> bool:
+        is_once = waking.by is state and not (waking.in_loop or waking.repeats or state.loops)
+        return is_once and waking.behind in behind and behind.index(waking.behind) >= at
+
+    known = (world.wakings.get(id(thing), ()) for thing in _awaited_before(wait, world))
+    ends = ([w for w in wakings if w.word in (Word.SET, Word.DONE)] for wakings in known)
+    return any(wakings and all(map(comes_later, wakings)) for wakings in ends)
+
+
+def _awaited_before(wait: OutsideWait, world: World) -> Iterator[Instance]:
+    """What the program has waited for on its way to ``wait`` whatever branches it took."""
+    for each in world.outside[: world.outside.index(wait)]:
+        is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
+        is_sure = wait.path[: len(each.path)] == each.path
+        thing = each.client
+        if is_before and is_sure and isinstance(thing, Instance) and id(thing) not in world.given:
+            yield thing
+
+
+def comes_back(block: Blocking, state: ActivityState, world: World) -> bool:
+    """
+    Whether the thread stands in the wait again when it has been woken.
+
+    One that may leave its loop is taken to stay where nothing that is put looks like a sign.
+    """
+    if state.loops:
+        return True
+    resource = block.resource
+    is_queue = isinstance(resource, ResourceRef) and resource.ended_by == {Word.PUT}
+    if not is_queue or way_of(block) not in state.deeds.looped or not _leaves(state):
+        return False
+    wakings = world.wakings.get(resource.number, ())  # type: ignore[union-attr]
+    return not any(waking.is_sign for waking in wakings if waking.word is Word.PUT)
+
+
+def why_for_ever(
+    block: Blocking,
+    state: ActivityState,
+    wait: OutsideWait,
+    world: World,
+    spun: Sequence[Instance],
+) -> str | None:
+    """Why nobody ends the wait ``block`` of the thread; ``None`` where somebody may."""
+    if block.seconds is not None:
+        return None
+    if block.call == RATE:
+        return _why_asleep(block, wait, world)
+    resource = block.resource
+    if not isinstance(resource, ResourceRef) or resource.asked:
+        return None
+    mine = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
+    served = [w.by.node for w in mine if isinstance(w.by, EntityState)]
+    others = [w for w in mine if not isinstance(w.by, EntityState)]
+    is_open = resource.number in world.given or uncalled_wakers(
+        world, str(resource), resource.ended_by, resource.made
+    )
+    if is_open or not mine or any(node is each for node in served for each in spun):
+        return None
+    if others and not _have_given(others, state, wait):
+        return None
+    return _NOT_SPUN if served else 'and the thread that would end that has ended'
+
+
+def _why_asleep(block: Blocking, wait: OutsideWait, world: World) -> str | None:
+    """A rate wakes by a timer of its node, and where rclpy is shut down, which a signal does."""
+    on = block.on
+    timer = next(
+        (e for e in world.entities if isinstance(on, EntityRef) and id(e) == on.number), None
+    )
+    if timer is None or timer.destroyed or id(timer) in world.given:
+        return None
+    if any(over.what is None for over in wait.over):
+        return None
+    stopped = [over.what for over in _certain(wait) if isinstance(over.what, Instance)]
+    serving = [spin for spin in world.spins.values() if _serves(spin, timer.node)]
+    is_stopped = all(
+        _waits_itself(s, wait) or any(s.executor is each for each in stopped) for s in serving
+    )
+    return _NOT_SPUN if serving and is_stopped else None
+
+
+def _waits_itself(spin: Spin, wait: OutsideWait) -> bool:
+    """Whether who spins is who waits, and that spin ends while rclpy is there still."""
+    is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
+    return is_main and not spin.for_ever and spin.how.endswith('spin_until_future_complete')
+
+
+def _serves(spin: Spin, node: Instance) -> bool:
+    entries = spin.executor.slots.get('__nodes__', ())
+    has = (option for entry in entries for option in options_of(entry))
+    return any(each is node for each in (*spin.nodes, *has))
+
+
+def _have_given(wakings: Sequence[Waking], taker: ActivityState, wait: OutsideWait) -> bool:
+    """
+    Whether those who give are over, and what they gave last need not be for the end.
+
+    So it is where both are ended by what their loops ask for: one that leaves its loop by itself
+    may do so for an item, or put one first that says so.
+    """
+    over = [each.what for each in _certain(wait)]
+    if not all(w.in_loop and isinstance(w.by, ActivityState) for w in wakings):
+        return False
+    givers = {w.by for w in wakings if isinstance(w.by, ActivityState)}
+    is_one = len({w.place for w in wakings}) == len(givers)
+    are_over = all(giver.runners and all(r in over for r in giver.runners) for giver in givers)
+    return is_one and are_over and not any(map(_leaves, (*givers, taker)))
+
+
+def _leaves(state: ActivityState) -> bool:
+    """Whether its text has another end than that of its loop, or is not known."""
+    target = state.target
+    function = target.function if isinstance(target, Bound) else target
+    if not isinstance(function, Function):
+        return True
+    return any(isinstance(part, (ast.Break, ast.Return)) for part in ast.walk(function.node))
+
+
+_NOT_SPUN = 'and nobody spins the node whose callback would end that'
+
+
+def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
+    at = f' ({block.source})' if block.source is not None else ''
+    when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
+    may = 'it may wait' if wait.is_late else 'it waits'
+    awaited = 'a timer' if block.call == RATE else block.resource
+    return Diagnostic(
+        severity=Severity.WARNING if wait.is_late else Severity.ERROR,
+        slug='nobody-spins',
+        place=wait.place,
+        message=f'{JOIN} waits for a thread that waits in {block.call} for {awaited}{at}, '
+        f'{why}{when}: {may} for ever',
+        help=_help(wait, block),
+    )
+
+
+def _help(wait: OutsideWait, block: Blocking) -> str:
+    if block.call == RATE:
+        return 'join it while the executor is still spun, and shut that down behind'
+    if not wait.is_late:
+        return 'join it after the spin, and wake it before'
+    return (
+        'wake the thread before you join it: by a last item, by a notify after its flag has '
+        'changed; or give its wait a time-out'
+    )

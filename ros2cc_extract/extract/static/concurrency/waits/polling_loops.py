@@ -1,0 +1,481 @@
+"""
+Loops that do nothing but wait until somebody else has changed plain data.
+
+``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; who writes what the test
+reads ends it.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import WAITS
+from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks import (
+    awaits_each_round,
+    call_of_loop,
+    is_endless,
+    is_idle,
+    note_loop,
+    only_waits,
+    spins,
+)
+from ros2cc_extract.extract.static.program.relevance import walk
+from ros2cc_extract.extract.static.python.machine.dependences import Asked
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.wake_operations import DataRef, ResourceRef
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Function,
+    Heaped,
+    Mystery,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
+
+POLL = POLLING_LOOP
+_LEAVES = (ast.Break, ast.Return, ast.Raise)
+_INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
+_NEUTRAL = frozenset(
+    ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
+)
+_CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
+_OF_SERVICES = frozenset(['wait_for_service', 'service_is_ready', 'server_is_ready'])
+_ASKED = _OF_SERVICES | {'done', 'is_set', 'is_alive'}
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How much had been noted when a loop began."""
+
+    waits: int
+    writes: int
+    own: int
+    order: int
+
+
+def mark(machine: Machine) -> Mark | None:
+    """Before the loop; ``None`` where nothing is noted."""
+    deeds = machine.world.deeds
+    return (
+        None
+        if deeds is None
+        else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own), len(deeds.order))
+    )
+
+
+def begin(machine: Machine, loop: ast.While, frame: Frame, told: Told | None) -> None:
+    """
+    A ``while`` loop begins; one that only waits for a future is a busy wait.
+
+    A coroutine that awaits in each round gives its thread back, as one that awaits the future.
+
+    :param told: what its test tells.
+    """
+    world = machine.world
+    if world.deeds is None and not is_idle(loop):
+        return
+    place = frame.place(loop)
+    is_known = told is not None and _note_things(machine, loop, frame, told)
+    if not is_known:
+        is_known = _note_by_name(machine, loop, frame)
+    if world.in_callback and not is_known and spins(loop):
+        # How many callbacks run before it ends is not one.
+        reason = f'what ends the loop: {ast.unparse(loop.test)}'
+        machine.note_blocking('busy wait', machine.mystery(reason, place), None, place)
+
+
+def _note_by_name(machine: Machine, loop: ast.While, frame: Frame) -> bool:
+    """Whether the test asks something by the name of such a method; what it asks is told."""
+    is_known = False
+    for part in ast.walk(loop.test):
+        if (
+            isinstance(part, ast.Call)
+            and isinstance(part.func, ast.Attribute)
+            and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
+        ):
+            is_known = True
+            if part.func.attr in ('done', 'is_set'):
+                owner = machine.evaluate(part.func.value, frame)
+                _note_busy(machine, loop, owner, None, frame)
+    return is_known
+
+
+def _note_busy(
+    machine: Machine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
+) -> None:
+    own = call_of_loop(loop, 'busy wait', machine.world.activity)
+    call = 'await' if _gives_back(machine, loop) else own
+    machine.note_blocking(call, on, seconds, frame.place(loop))
+
+
+def _gives_back(machine: Machine, loop: ast.While) -> bool:
+    """Whether a coroutine that an executor runs gives its thread back in each round."""
+    frees = machine.world.in_callback and not machine.world.on_loop
+    return frees and awaits_each_round(loop)
+
+
+def _note_things(machine: Machine, loop: ast.While, frame: Frame, told: Told) -> bool:
+    """Whether what happens to objects makes the test fail; the loop waits for that."""
+    tests = list(_exit_tests(loop))
+    place = frame.place(loop)
+    why = Unknown('the loop also ends otherwise', place)
+    is_timed = any(_ends_otherwise(machine, test, loop, frame) for test in tests)
+    seconds = Mystery(why) if is_timed else None
+    needed, any_of_them = _things(told.fails), _things(told.breaks)
+    if told.is_either and any_of_them:
+        _note_busy(machine, loop, choice(any_of_them), seconds, frame)
+    elif needed or len(any_of_them) == 1:
+        for thing in needed or any_of_them:
+            _note_busy(machine, loop, thing, seconds, frame)
+    elif any_of_them:
+        first = machine.mystery('it waits for the first of several', place)
+        _note_busy(machine, loop, first, seconds, frame)
+    return bool(any_of_them)
+
+
+def _things(facts: Facts) -> list[Value]:
+    """In the order in which they were made."""
+    found = dict.fromkeys(thing for thing, _ in facts)
+    return sorted(found, key=lambda thing: thing.serial if isinstance(thing, Heaped) else 0)
+
+
+def _ends_otherwise(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
+    """Whether a clock or a counter may end the loop as well, beside what is asked of objects."""
+    if isinstance(test, ast.BoolOp):
+        return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
+    if isinstance(test, ast.UnaryOp):
+        return _ends_otherwise(machine, test.operand, loop, frame)
+    return not _tells(machine, test, frame) and _runs_out(test, loop)
+
+
+def _runs_out(test: ast.expr, loop: ast.While) -> bool:
+    """Whether a clock is asked, or what each round of the loop changes."""
+    called = {_name_of(part) for part in walk(test) if isinstance(part, ast.Call)}
+    stored = {name for each in loop.body for part in walk(each) for name in _assigned(part)}
+    names = {part.id for part in walk(test) if isinstance(part, ast.Name)}
+    return not called.isdisjoint(_CLOCKS) or not names.isdisjoint(stored)
+
+
+def _tells(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+    return _asks_object(test) or _told_now(machine, test, frame) is not None
+
+
+def _told_now(machine: Machine, test: ast.expr, frame: Frame) -> Told | None:
+    """What a test tells where it stands, without any note of what it reads."""
+    world = machine.world
+    noted, ready, world.deeds = world.deeds, world.ready, Deeds()
+    try:
+        return told_by(machine.evaluate(test, frame))
+    finally:
+        world.deeds, world.ready = noted, ready
+
+
+def _told_by_exits(machine: Machine, loop: ast.While, frame: Frame) -> Told | None:
+    """What makes a loop end whose test tells of it only after a round, or stands inside."""
+    for test in _exit_tests(loop):
+        told = _told_now(machine, test, frame)
+        if told is not None:
+            return told if test is loop.test else told.negated()
+    return None
+
+
+def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
+    """After one round of ``loop``."""
+    deeds = machine.world.deeds
+    if before is None or deeds is None:
+        _note_set_up(machine, loop, frame)
+        _note_spinning(machine, loop, frame)
+        return
+    _note_asked(machine, loop, deeds, before, frame)
+    _note_own_end(machine.world, loop, deeds, before, frame)
+    asked = machine.world.reading.asked.get(frame.place(loop))
+    inside = deeds.blocking[before.waits :]
+    if _is_told(machine, loop, deeds, before) or any(_is_guarded(b, asked) for b in inside):
+        return
+    told = _told_by_exits(machine, loop, frame)
+    if told is not None and _note_things(machine, loop, frame, told):
+        return
+    tests = list(_exit_tests(loop))
+    if not tests:
+        if is_endless(loop) and machine.world.in_callback and not _leaves(loop):
+            place = frame.place(loop)
+            unknown = Unknown('nothing but the end of the program ends the loop', place)
+            machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
+        return
+    names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
+    written = {access.name for access in deeds.writes[before.writes :]}
+    if names & (written | set(deeds.own[before.own :])):
+        return
+    _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
+
+
+def _note_own_end(world: World, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame) -> None:
+    """A thread that works until it has set itself what it tests waits for nobody."""
+    place, lines = frame.place(loop), range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
+    for number, block in enumerate(deeds.blocking[before.waits :], before.waits):
+        if block.call != WORKING_LOOP or not isinstance(block.resource, ResourceRef):
+            continue
+        wakings = world.wakings.get(block.resource.number, ())
+        own_places = [waking.place for waking in wakings if waking.by is world.activity]
+        if any(each.file == place.file and each.line in lines for each in own_places):
+            own = Unknown('the loop sets itself what ends it', place)
+            deeds.blocking[number] = replace(block, seconds=block.seconds or own)
+
+
+def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:
+    """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
+    is_plain = is_idle(loop) and not _asks_object(loop.test) and not _leaves(loop)
+    if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
+        return
+    names = _read(machine, [loop.test], frame)
+    if names and _holds(machine, loop.test, frame):
+        note_loop(machine.world, names, frame.place(loop.test))
+
+
+def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
+    """Code that no callback runs only spins or sleeps until something has changed."""
+    if is_endless(loop) or not (only_waits(loop) or spins(loop)):
+        return
+    end = getattr(loop, 'end_lineno', None) or loop.lineno
+    place = frame.place(loop)
+    spun = tuple(
+        node
+        for spin in machine.world.spins.values()
+        if spin.place.file == place.file and loop.lineno <= spin.place.line <= end
+        for node in spin.nodes
+    )
+    told = _told_now(machine, loop.test, frame)
+    things = _things(told.fails | told.breaks) if told is not None else []
+    if things:
+        is_timed = _ends_otherwise(machine, loop.test, loop, frame)
+        why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None
+        for thing in things if spun else ():
+            machine.note_outside_wait('busy wait', thing, why, place, spun)
+        return
+    is_foreign = _is_foreign(machine, loop.test, loop, frame)
+    names = _read(machine, [loop.test], frame)
+    if names and only_waits(loop):
+        reason = Unknown('the loop also ends otherwise', place)
+        reference = DataRef(sorted(names)[0])
+        reference.names = frozenset(names)
+        machine.note_loop_on_data(POLL, reference, reason if is_foreign else None, place, spun)
+
+
+def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+    """Whether it comes out so for certain, as long as nobody shuts rclpy down."""
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
+        return all(_holds(machine, each, frame) for each in test.values)
+    is_ok = isinstance(test, ast.Call) and _name_of(test) == 'ok'
+    return is_ok or machine.truth(machine.evaluate(test, frame)) is True
+
+
+def _note_asked(
+    machine: Machine, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+) -> None:
+    """A condition is waited on only where the test of the loop has come out so."""
+    for number in range(before.waits, len(deeds.blocking)):
+        block = deeds.blocking[number]
+        if block.call == 'Condition.wait' and _read(machine, [loop.test], frame):
+            deeds.blocking[number] = replace(block, conditional=True)
+
+
+def _note(
+    machine: Machine,
+    loop: ast.While,
+    frame: Frame,
+    tests: list[ast.expr],
+    names: set[str],
+    sent: frozenset[str],
+) -> None:
+    place = frame.place(tests[0])
+    call = call_of_loop(loop, POLL, machine.world.activity)
+    call = 'await' if _gives_back(machine, loop) else call
+    ends_otherwise = any(_is_foreign(machine, test, loop, frame) for test in tests)
+    if names:
+        own = frozenset(
+            (access.name, access.source) for access in (machine.world.deeds or Deeds()).writes
+        )
+        reference = DataRef(sorted(names)[0])
+        reference.names, reference.before = frozenset(names), own
+        reference.sent = sent
+        reference.sent_by_now = sent_by_now(machine.world.deeds or Deeds())
+        reason = Unknown('the loop also ends otherwise', place)
+        machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
+    elif (not ends_otherwise or _is_idle(loop, tests)) and not any(
+        _asks_for_service(test) for test in tests
+    ):
+        text = ' or '.join(ast.unparse(test) for test in tests)
+        unknown = Unknown(f'what ends the loop: {text}', place)
+        machine.note_loop_on_data(call, unknown, None, place)
+
+
+def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
+    """Whether the loop asks, under the lock of a condition, for what it waits on that for."""
+    guard = block.resource.guard if isinstance(block.resource, ResourceRef) else None
+    return guard is not None and asked is not None and guard.hold in asked.holds
+
+
+def _is_idle(loop: ast.While, tests: list[ast.expr]) -> bool:
+    """Whether it only sleeps until something is answered otherwise that no clock tells."""
+    called = {
+        _name_of(part) for test in tests for part in walk(test) if isinstance(part, ast.Call)
+    }
+    return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
+
+
+def _counts(loop: ast.While) -> bool:
+    return any(
+        isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+        for each in loop.body
+        for part in walk(each)
+    )
+
+
+def _is_told(machine: Machine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
+    """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
+    inside = deeds.blocking[before.waits :]
+    others = [block for block in inside if not _is_pause(block.call)]
+    if any(block.call in ('busy wait', 'await') or 'spin' in block.call for block in others):
+        return True
+    return bool(others) and machine.world.activity is None
+
+
+def _is_pause(call: str) -> bool:
+    row = WAITS.get(call)
+    return call == 'Rate.sleep' or (row is not None and row.always == (TIME,))
+
+
+def _exit_tests(loop: ast.While) -> Iterator[ast.expr]:
+    """Tests one of which must come out otherwise for the loop to end."""
+    if not is_endless(loop):
+        yield loop.test
+    for part in _own_parts(loop):
+        if isinstance(part, ast.If) and any(
+            isinstance(each, _LEAVES) for arm in (part.body, part.orelse) for each in arm
+        ):
+            yield part.test
+
+
+def _leaves(loop: ast.While) -> bool:
+    return any(isinstance(part, (*_LEAVES, ast.Yield, ast.Await)) for part in _own_parts(loop))
+
+
+def _own_parts(loop: ast.While) -> Iterator[ast.AST]:
+    """What stands in the body of a loop, and in no function inside of it."""
+    waiting: list[ast.AST] = list(loop.body)
+    while waiting:
+        part = waiting.pop(0)
+        if not isinstance(part, _INNER):
+            yield part
+            waiting.extend(ast.iter_child_nodes(part))
+
+
+def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
+    """Names of the shared data that the tests read."""
+    world = machine.world
+    noted, world.deeds = world.deeds, Deeds()
+    try:
+        for test in tests:
+            machine.evaluate(test, frame)
+        return {access.name for access in world.deeds.reads}
+    finally:
+        world.deeds = noted
+
+
+def _is_foreign(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
+    """Whether something else than shared data may turn out otherwise: a clock, a counter."""
+    parts = [part for each in loop.body for part in walk(each)]
+    assigned = {name for part in parts for name in _assigned(part)}
+    grown = {name for part in parts for name in _grown(part)} - _owners(test)
+    for part in walk(test):
+        if isinstance(part, ast.Name) and part.id in assigned | grown:
+            return True
+        if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not (
+            _is_neutral(part) or _only_looks(machine, part, frame)
+        ):
+            return True
+    return False
+
+
+def _only_looks(machine: Machine, part: ast.expr, frame: Frame) -> bool:
+    """A call of functions of the program that ask nothing else than what they read."""
+    if not isinstance(part, ast.Call):
+        return False
+    world = machine.world
+    noted, world.deeds = world.deeds, Deeds()
+    try:
+        called = options_of(machine.evaluate(part.func, frame))
+    finally:
+        world.deeds = noted
+    functions = [each.function if isinstance(each, Bound) else each for each in called]
+    return bool(functions) and all(map(_asks_nobody, functions))
+
+
+def _asks_nobody(function: Value) -> bool:
+    if not isinstance(function, Function) or function.is_coroutine:
+        return False
+    asking = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
+    parts = walk(function.node)
+    return all(_is_neutral(part) for part in parts if isinstance(part, asking))
+
+
+def _assigned(part: ast.AST) -> Iterator[str]:
+    if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store):
+        yield part.id
+
+
+def _grown(part: ast.AST) -> Iterator[str]:
+    """Names whose object a method, an assignment to an item, or who gets it may change."""
+    if isinstance(part, ast.Call) and _name_of(part) not in _NEUTRAL:
+        yield from (each.id for each in part.args if isinstance(each, ast.Name))
+    target = part.func if isinstance(part, ast.Call) else part
+    is_stored = isinstance(part, ast.Subscript) and isinstance(part.ctx, ast.Store)
+    if (isinstance(part, ast.Call) or is_stored) and isinstance(
+        target, (ast.Attribute, ast.Subscript)
+    ):
+        owner = target.value
+        if isinstance(owner, ast.Name):
+            yield owner.id
+
+
+def _owners(test: ast.expr) -> set[str]:
+    """Names of which the test reads an attribute: that is shared data, and asked as such."""
+    parts = (part.value for part in walk(test) if isinstance(part, ast.Attribute))
+    return {owner.id for owner in parts if isinstance(owner, ast.Name)}
+
+
+def _is_neutral(part: ast.expr) -> bool:
+    return isinstance(part, ast.Call) and _name_of(part) in _NEUTRAL
+
+
+def _name_of(call: ast.Call) -> str:
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
+
+
+def _asks_object(test: ast.expr) -> bool:
+    """What is asked by a method is told where that is noted."""
+    return _calls_one_of(test, _ASKED)
+
+
+def _asks_for_service(test: ast.expr) -> bool:
+    """Whether others are there is a wait of its own."""
+    return _calls_one_of(test, _OF_SERVICES)
+
+
+def _calls_one_of(test: ast.expr, names: frozenset[str]) -> bool:
+    return any(
+        isinstance(part, ast.Call)
+        and isinstance(part.func, ast.Attribute)
+        and part.func.attr in names
+        for part in walk(test)
+    )

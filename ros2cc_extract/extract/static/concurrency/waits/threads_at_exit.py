@@ -1,0 +1,158 @@
+"""
+Threads that keep the program when ``main`` is over, as nobody ends what they wait for.
+
+The interpreter waits at its end for each thread that is no daemon, and for the threads of pools
+whatever they are (CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
+``_python_exit``): it is as if ``main`` joined them. Measured with rclpy 7.1.6: a program whose
+thread stands in ``Queue.get`` outlives Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Sequence
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import executor_of
+from ros2cc_extract.extract.static.concurrency.waits.joined_threads import (
+    JOIN,
+    comes_back,
+    why_for_ever,
+)
+from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
+from ros2cc_extract.extract.static.python.machine.world import EntityState, OutsideWait, World
+from ros2cc_extract.extract.static.python.values.values import Instance
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import ActivityKind
+
+_ENDING_AT_ONCE = frozenset({'_exit', 'abort', 'kill', 'killpg', 'execv'})
+Serving = Callable[[OutsideWait], Sequence[Instance]]
+
+
+def kept_at_exit(world: World, spun_beside: Serving) -> Iterator[Diagnostic]:
+    """
+    Tell of each thread that waits for ever when the program has spun, once.
+
+    :param spun_beside: gives the nodes that threads still spin at a wait of ``main``.
+    """
+    is_followed = world.is_program and world.spins and not world.cut
+    if not is_followed or _ends_at_once(world):
+        return
+    for state in world.activities:
+        if state.again is not None and _is_chain(state, world):
+            yield _goes_on(state, state.again)
+        for runner in state.runners if _is_waited_for(state, world) else ():
+            if not isinstance(runner, Instance):
+                continue
+            if state.endless is not None:
+                yield _endless(state, state.endless)
+                break
+            exit_wait = OutsideWait(
+                JOIN, runner, state.place, in_thread=False, is_late=True, over=tuple(world.over)
+            )
+            block = _stuck_block(state, exit_wait, world, spun_beside(exit_wait))
+            if block is not None:
+                yield _told(state, block)
+                break
+
+
+def _ends_at_once(world: World) -> bool:
+    """Whether a text of the program ends the process without waiting for anybody."""
+    return any(noted_on(tree, 'ends_at_once', _mentions_exit) for tree, _ in world.files)
+
+
+def _mentions_exit(tree: ast.Module) -> bool:
+    attributes = (part for part in walk(tree) if isinstance(part, ast.Attribute))
+    return any(part.attr in _ENDING_AT_ONCE for part in attributes)
+
+
+def _is_waited_for(state: ActivityState, world: World) -> bool:
+    """Whether it is a thread that is no daemon, and that the program does not join itself."""
+    if state.serves or state.on_loop or state.is_daemon is not False:
+        return False
+    joined = [wait.client for wait in world.outside if wait.call == JOIN]
+    is_joined = any(runner is each for runner in state.runners for each in joined)
+    is_pool = state.kind is ActivityKind.POOL
+    is_thread = state.kind is ActivityKind.THREAD and not _inherits(state, world)
+    return not is_joined and (is_pool or is_thread)
+
+
+def _is_chain(state: ActivityState, world: World) -> bool:
+    """
+    Whether it is a timer thread that arms itself for ever, rclpy or no rclpy.
+
+    ``Timer.cancel`` sets an event that is asked for once, before the function (CPython 3.12,
+    ``threading.py``); and a publisher raises when rclpy is shut down, which ends the chain.
+    """
+    is_timer = state.kind is ActivityKind.TIMER and state.is_daemon is False
+    return is_timer and not state.deeds.publishes and not _inherits(state, world)
+
+
+def _inherits(state: ActivityState, world: World) -> bool:
+    """Whether it may be a daemon as the thread that starts it is one."""
+    for start in state.starts:
+        if isinstance(start.by, ActivityState) and start.by.is_daemon is not False:
+            return True
+        if isinstance(start.by, EntityState):
+            executor = executor_of(start.by.node)
+            spins = [s for s in world.spins.values() if s.executor is executor]
+            if not spins or any(spin.in_thread for spin in spins):
+                return True
+    return False
+
+
+def _stuck_block(
+    state: ActivityState, wait: OutsideWait, world: World, spun: Sequence[Instance]
+) -> Blocking | None:
+    waits = (b for b in state.deeds.blocking if b.escapes is None and comes_back(b, state, world))
+    stuck = (b for b in waits if why_for_ever(b, state, wait, world, spun) is not None)
+    return next(stuck, None)
+
+
+def _endless(state: ActivityState, loop: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=state.place,
+        message=f'the program ends only when {_who(state)} has ended; that goes round in a loop '
+        f'({loop}) which nothing ends: the program stays for ever',
+        help=f'ask for rclpy.ok() or a flag in the loop; or {_daemon(state)}',
+    )
+
+
+def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=again,
+        message='this timer thread, no daemon, arms itself anew in each run, and a cancel while '
+        'its function runs ends nothing: the program may stay for ever',
+        help='ask before, under a lock, for a flag that whoever stops it changes under that lock; '
+        'or start it as a daemon',
+    )
+
+
+def _who(state: ActivityState) -> str:
+    is_pool = state.kind is ActivityKind.POOL
+    return 'this task of a pool' if is_pool else 'the thread that is started here, no daemon,'
+
+
+def _daemon(state: ActivityState) -> str:
+    is_pool = state.kind is ActivityKind.POOL
+    return 'run it in a daemon thread' if is_pool else 'start it with daemon=True'
+
+
+def _told(state: ActivityState, block: Blocking) -> Diagnostic:
+    at = f' ({block.source})' if block.source is not None else ''
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=state.place,
+        message=f'the program ends only when {_who(state)} has ended; that waits in '
+        f'{block.call} for {block.resource}{at}, and nobody spins the node whose callback '
+        'would end it any more: the program may stay for ever',
+        help='wake it when the spin is over, by a last item or a flag that it asks for, or give '
+        f'its wait a time-out; or {_daemon(state)}',
+    )

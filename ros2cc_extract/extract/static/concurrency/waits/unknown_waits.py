@@ -1,0 +1,106 @@
+"""Calls that wait by their name, on an object that could not be followed."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static.concurrency.waits.completed_futures import is_done_before
+from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.values.values import Call, Const, Mystery, Value
+from ros2cc_extract.places import Unknown
+
+NAME = 'unknown wait'
+"""How they are called in a specification."""
+
+_ALWAYS = frozenset(
+    ['wait', 'wait_for', 'communicate', 'recv', 'recvfrom', 'recv_multipart', 'accept', 'acquire']
+)
+_WITHOUT_VALUES = frozenset(['join', 'get'])
+_OF_FUTURES = frozenset(['result', 'exception'])
+_TIMEOUT_FIRST = frozenset(['wait', 'join', 'result', 'exception'])
+_KEYWORDS = frozenset(['timeout', 'block', 'blocking'])
+# What has a ``get`` or ``wait`` that does not wait, or waits for a person that looks at it.
+_OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
+_FUTURES_FROM = frozenset(['asyncio', 'concurrent', 'multiprocessing'])
+
+
+CLOCKS = {'sleep_for': 'Clock.sleep_for', 'sleep_until': 'Clock.sleep_until'}
+"""Methods that nothing but a clock has; the clock of a node is not followed."""
+
+DURATION = Unknown('a duration that could not be followed')
+
+
+def called_name(call: Call) -> str:
+    """The method that is called."""
+    node = call.text
+    is_method = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+    return node.func.attr if is_method else ''  # type: ignore[union-attr]
+
+
+def unknown_wait(function: Mystery, call: Call, trees: list[ast.Module]) -> Unknown | None:
+    """Why ``call`` may wait for something that is not known; ``None`` where it does not wait."""
+    node = call.text
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+        return None
+    name, reason = node.func.attr, function.unknown.reason
+    if any(word in reason for word in _OTHERS) or not _waits(name, call, trees):
+        return None
+    return Unknown(f'{ast.unparse(node.func)}: {reason}', function.unknown.at or call.place)
+
+
+def timeout_of(call: Call) -> Value | None:
+    """The time-out of a wait, which may be the first argument where nothing else can be."""
+    if called_name(call) == 'poll':
+        return None
+    first = call.args[0] if call.args and called_name(call) in _TIMEOUT_FIRST else None
+    return call.keywords.get('timeout', first if _is_number(first) else None)
+
+
+def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
+    if _does_not_block(call):
+        return False
+    if name in _ALWAYS:
+        return True
+    if name == 'poll':
+        return _has_no_end(call)
+    if name in _OF_FUTURES:
+        if isinstance(call.text, ast.Call) and is_done_before(call.text, trees):
+            return False
+        # ``rclpy.task.Future.result`` does not wait (rclpy 7.1.6, ``task.py``).
+        is_plain = not call.args or _is_number(call.args[0])
+        return is_plain and any(noted_on(tree, 'knows_futures', _knows_futures) for tree in trees)
+    return name in _WITHOUT_VALUES and _takes_no_value(name, call)
+
+
+def _has_no_end(call: Call) -> bool:
+    """``socket.poll(-1)`` waits for ever (pyzmq, ``Socket.poll``); other ``poll`` may not wait."""
+    limit = call.keywords.get('timeout', call.args[0] if call.args else None)
+    is_number = isinstance(limit, Const) and isinstance(limit.value, int)
+    return is_number and limit.value < 0  # type: ignore[union-attr]
+
+
+def _does_not_block(call: Call) -> bool:
+    flags = [call.keywords.get('block'), call.keywords.get('blocking'), *call.args[:1]]
+    return any(isinstance(flag, Const) and flag.value is False for flag in flags)
+
+
+def _takes_no_value(name: str, call: Call) -> bool:
+    """``q.get()``, ``q.get(timeout=1)``, ``t.join(1)``; not ``d.get(k)``, ``text.join(words)``."""
+    if not set(call.keywords) <= _KEYWORDS or call.more is not None:
+        return False
+    return not call.args or (name == 'join' and _is_number(call.args[0]) and len(call.args) == 1)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Const) and isinstance(value.value, (int, float))
+
+
+def _knows_futures(tree: ast.Module) -> bool:
+    """Whether a file imports anything whose futures wait when they are asked."""
+    for part in walk(tree):
+        names = [alias.name for alias in part.names] if isinstance(part, ast.Import) else []
+        if isinstance(part, ast.ImportFrom):
+            names = [part.module or '']
+        if any(name.partition('.')[0] in _FUTURES_FROM for name in names):
+            return True
+    return False

@@ -1,0 +1,104 @@
+"""
+What waits, and what ends it: the one table of the waits that the scanner knows.
+
+Sources: CPython 3.12, ``threading.py``, ``queue.py``, ``concurrent/futures/``; rclpy 7.1.6,
+``client.py``, ``timer.py``, ``task.py``, ``clock.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.libraries.standard import outside_calls
+from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
+
+INITIAL = '__initial__'
+"""Slot of a semaphore for its value, and of a queue for its size."""
+
+AWAITED = '__awaited__'
+"""Slot of a coroutine of a library: what happens when it is awaited."""
+
+
+SPIN_UNTIL = 'spin_until_future_complete'
+"""How code that no callback runs waits for a future, and spins meanwhile."""
+
+
+@dataclass(frozen=True)
+class WaitRow:
+    """
+    One kind of wait.
+
+    :param ended_by: operations on the object that end it.
+    :param always: who may end it beside them, whoever else does.
+    :param unless_asked: it does not wait where it was asked before whether it would.
+    :param rival: what others do that makes the answer to that question false.
+    """
+
+    ended_by: frozenset[Word] = frozenset()
+    needs: Needs = Needs.ONCE
+    always: tuple[str, ...] = ()
+    unless_asked: bool = False
+    rival: Word | None = None
+
+
+def _row(
+    *words: Word,
+    needs: Needs = Needs.ONCE,
+    unless_asked: bool = False,
+    rival: Word | None = None,
+) -> WaitRow:
+    return WaitRow(frozenset(words), needs, unless_asked=unless_asked, rival=rival)
+
+
+_SLEEP = WaitRow(always=(TIME,))
+_OUTSIDE = WaitRow(always=(OUTSIDE,))
+_ANSWER = _row(Word.END)
+_FUTURE = _row(Word.SET, Word.END, unless_asked=True)
+
+WAITS: dict[str, WaitRow] = {
+    'Event.wait': _row(Word.SET),
+    'Condition.wait': _row(Word.SET, needs=Needs.EACH),
+    'Condition.wait_for': _row(Word.SET, needs=Needs.EACH),
+    'Queue.get': _row(Word.PUT, needs=Needs.EACH, unless_asked=True, rival=Word.GET),
+    'Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
+    'Queue.join': _row(Word.DONE, needs=Needs.EACH),
+    'asyncio.Queue.get': _row(Word.PUT, needs=Needs.EACH, unless_asked=True, rival=Word.GET),
+    'asyncio.Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
+    'asyncio.Queue.join': _row(Word.DONE, needs=Needs.EACH),
+    'asyncio.Event.wait': _row(Word.SET),
+    'Barrier.wait': _row(Word.ARRIVE, needs=Needs.ALL),
+    'Lock.acquire': _row(Word.RELEASE, needs=Needs.EACH),
+    'Semaphore.acquire': _row(Word.RELEASE, needs=Needs.EACH),
+    'Thread.join': _row(Word.END),
+    'Process.join': _row(Word.END),
+    'Future.result': _FUTURE,
+    'Future.exception': _FUTURE,
+    'futures.wait': _FUTURE,
+    'futures.as_completed': _FUTURE,
+    'Executor.map': _FUTURE,
+    'Executor.shutdown': _row(Word.SET, Word.END),
+    'asyncio await': _FUTURE,
+    'unknown wait': _row(Word.END),
+    'await': _FUTURE,
+    'busy wait': _FUTURE,
+    SPIN_UNTIL: _FUTURE,
+    WORKING_LOOP: _FUTURE,
+    'time.sleep': _SLEEP,
+    'asyncio.sleep': _SLEEP,
+    TURN: _SLEEP,
+    'Clock.sleep_for': _SLEEP,
+    'Clock.sleep_until': _SLEEP,
+    'wait_for_message': WaitRow(),
+    'client.call': _ANSWER,
+    'send_goal': _ANSWER,
+    'get_result': _ANSWER,
+    'cancel_goal': _ANSWER,
+    'Rate.sleep': _ANSWER,
+    'wait_for_service': _OUTSIDE,
+    'wait_for_server': _OUTSIDE,
+    **dict.fromkeys(outside_calls.CALLS, _OUTSIDE),
+    **dict.fromkeys(outside_calls.READS_OF_CAMERAS, _SLEEP),
+}
+
+NO_ROW = WaitRow()

@@ -1,0 +1,220 @@
+"""
+Libraries that make entities on a node's behalf.
+
+Sources (Jazzy): ``tf2_ros/transform_listener.py`` (two subscriptions in a reentrant group of
+its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__init__.py``
+(one subscription each), ``diagnostic_updater/_diagnostic_updater.py`` (one timer),
+``tf2_ros/buffer.py`` and ``buffer_interface.py`` (a look-up with a timeout polls and sleeps).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.libraries.rclpy.executors import (
+    SINGLE,
+    add_node,
+    as_node,
+    record_spin,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of, new_group
+from ros2cc_extract.extract.static.libraries.rclpy.nodes import add_callback, add_entity
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    ExecutorState,
+    GroupState,
+    PlainState,
+)
+from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+)
+from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType
+
+_TF = 'tf2_ros.TransformListener'
+_FILTERS = 'message_filters'
+_UPDATER = 'diagnostic_updater.Updater'
+_LONGEST = 2**63
+"""rclpy counts a duration in signed 64 bit nanoseconds."""
+
+
+def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = as_node(machine, call.argument(1, 'node'))
+    if node is None:
+        return NONE
+    state = GroupState(type=GroupType.REENTRANT, library=_TF)
+    group = new_group(machine, state, call.place, 'tf')
+    for topic, label in (('/tf', 'tf_callback'), ('/tf_static', 'tf_static_callback')):
+        entity = add_entity(machine, node, EntityKind.SUBSCRIPTION, group, call.place)
+        entity.key, entity.label, entity.library = Const(topic), label, _TF
+        if topic == '/tf' and isinstance(receiver, Instance):
+            receiver.state = entity
+    _fill(call.argument(0, 'buffer'), receiver)
+    if machine.truth(call.argument(2, 'spin_thread') or Const(False)):
+        _spin_thread(machine, node, call)
+    return NONE
+
+
+def _fill(buffer: Value | None, listener: Value) -> None:
+    """What a look-up waits for: the messages that the listener of its buffer takes."""
+    if isinstance(buffer, Instance) and isinstance(buffer.state, PlainState):
+        buffer.state.of = listener
+
+
+def _spin_thread(machine: Machine, node: Instance, call: Call) -> None:
+    executor = Instance(Name(SINGLE), call.place)
+    executor.state = ExecutorState('SingleThreadedExecutor')
+    executor.slots['__nodes__'] = ()
+    executor.hint = 'tf_executor'
+    machine.world.executors.append(executor)
+    add_node(machine, executor, node)
+    world, before = machine.world, (machine.world.in_thread, machine.world.thread)
+    world.threads += 1
+    world.in_thread, world.thread = True, world.threads
+    record_spin(machine, executor, 'spin', call.place, True)
+    world.in_thread, world.thread = before
+
+
+def _subscribe(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``Subscriber(node, type, topic, …)``; further arguments go to ``create_subscription``."""
+    assert isinstance(receiver, Instance)
+    node = as_node(machine, call.argument(0, 'node'))
+    if node is None:
+        return NONE
+    group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
+    entity = add_entity(machine, node, EntityKind.SUBSCRIPTION, group, call.place)
+    entity.key, entity.library = call.argument(2, 'topic'), _FILTERS
+    entity.label = 'filter_input'
+    receiver.state = entity
+    return NONE
+
+
+def _subscription(machine: Machine, receiver: Instance, place: Place) -> Value:
+    """``Subscriber.sub``: what ``create_subscription`` gave it."""
+    made = Instance(Name('rclpy.subscription.Subscription'), receiver.place)
+    made.state = receiver.state
+    return made
+
+
+def _filter_state(machine: Machine, instance: Instance) -> PlainState:
+    return PlainState('filter', place=instance.place)
+
+
+def _synchronize(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    receiver.state = PlainState('filter', of=call.argument(0, 'fs', 'f'), place=call.place)
+    return NONE
+
+
+def _register(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Every input's subscription runs the user's function when its message is the last."""
+    callback = call.argument(0, 'cb')
+    for entity in _inputs(receiver):
+        if callback is not None:
+            add_callback(entity, callback)
+    return machine.mystery('a filter connection', call.place)
+
+
+def _inputs(value: Value) -> list[EntityState]:
+    if isinstance(value, Sequence):
+        return [entity for item in value.items for entity in _inputs(item)]
+    if not isinstance(value, Instance):
+        return []
+    if isinstance(value.state, EntityState):
+        return [value.state]
+    if isinstance(value.state, PlainState) and value.state.of is not None:
+        return _inputs(value.state.of)
+    return []
+
+
+def _update(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = as_node(machine, call.argument(0, 'node'))
+    if node is None:
+        return NONE
+    group = group_of(machine, node, None, call.place)
+    entity = add_entity(machine, node, EntityKind.TIMER, group, call.place)
+    entity.library, entity.label = _UPDATER, 'update_diagnostics'
+    period = call.argument(1, 'period')
+    reason = Unknown('parameter diagnostic_updater.period (default 1.0)', call.place)
+    entity.period = period or Mystery(reason)
+    return NONE
+
+
+def _duration(machine: Machine, instance: Instance) -> PlainState:
+    return PlainState('duration', Const(0.0), place=instance.place)
+
+
+def _set_duration(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    parts = [call.argument(None, 'seconds'), call.argument(None, 'nanoseconds')]
+    given = [part.value if isinstance(part, Const) else part for part in parts if part is not None]
+    if not all(isinstance(number, (int, float)) and abs(number) < _LONGEST for number in given):
+        mystery = next((part for part in parts if isinstance(part, Mystery)), None)
+        receiver.state.key = mystery or machine.mystery('an odd duration', call.place)
+        return NONE
+    seconds, nanoseconds = (part.value if isinstance(part, Const) else 0 for part in parts)
+    receiver.state.key = Const(float(seconds + nanoseconds / 1e9))
+    return NONE
+
+
+def _look_up(name: str, position: int) -> Handler:
+    """A method of the transform buffer; ``position`` is that of its timeout."""
+
+    def look_up(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(position, 'timeout')
+        state = timeout.state if isinstance(timeout, Instance) else None
+        seconds = state.key if isinstance(state, PlainState) else timeout
+        if seconds is not None and seconds != Const(0.0):
+            machine.note_blocking(f'Buffer.{name}', receiver, seconds, call.place)
+        return machine.mystery('a transform at run time', call.place)
+
+    return look_up
+
+
+_LOOK_UPS = {
+    'lookup_transform': 3,
+    'lookup_transform_full': 5,
+    'can_transform': 3,
+    'can_transform_full': 5,
+    'transform': 2,
+    'transform_full': 4,
+}
+
+_SYNCHRONIZER = LibraryClass(
+    state=_filter_state, init=_synchronize, methods={'registerCallback': _register}
+)
+
+TABLE = Library(
+    classes={
+        _TF: LibraryClass(init=_listen),
+        'tf2_ros.Buffer': LibraryClass(
+            state=lambda machine, instance: PlainState('tf_buffer', place=instance.place),
+            init=lambda machine, receiver, call: NONE,
+            methods={name: _look_up(name, at) for name, at in _LOOK_UPS.items()},
+        ),
+        'rclpy.duration.Duration': LibraryClass(state=_duration, init=_set_duration),
+        'message_filters.Subscriber': LibraryClass(
+            init=_subscribe,
+            methods={'registerCallback': _register},
+            properties={'sub': _subscription},
+        ),
+        'message_filters.TimeSynchronizer': _SYNCHRONIZER,
+        'message_filters.ApproximateTimeSynchronizer': _SYNCHRONIZER,
+        'message_filters.Cache': _SYNCHRONIZER,
+        'diagnostic_updater.Updater': LibraryClass(init=_update),
+    },
+    aliases={
+        'tf2_ros.transform_listener.TransformListener': _TF,
+        'tf2_ros.buffer.Buffer': 'tf2_ros.Buffer',
+        'rclpy.time.Duration': 'rclpy.duration.Duration',
+        'diagnostic_updater._diagnostic_updater.Updater': 'diagnostic_updater.Updater',
+    },
+)

@@ -1,0 +1,517 @@
+"""
+Executors and the calls that spin them.
+
+Sources: rclpy 7.1.6, ``__init__.py`` (the ``spin…`` functions take the node out of any other
+executor and, when they return, out of theirs), ``executors.py`` (``add_node``; the default
+number of threads is the number of CPUs the process may use).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ros2cc_extract.extract.static.concurrency import activities
+from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+    REMOVE_NODE,
+    SHUTDOWN_EXECUTOR,
+    note_end,
+)
+from ros2cc_extract.extract.static.concurrency.waits.joined_threads import note_over
+from ros2cc_extract.extract.static.libraries.rclpy.nodes import add_entity, ghost_node
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    ExecutorState,
+    GroupState,
+    InsideSpin,
+    NodeState,
+    Spin,
+)
+from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
+from ros2cc_extract.extract.static.python.values.values import (
+    ABSENT,
+    NONE,
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Coroutine,
+    Function,
+    Handler,
+    Instance,
+    Mystery,
+    Native,
+    Partial,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
+
+BASE = 'rclpy.executors.Executor'
+SINGLE = 'rclpy.executors.SingleThreadedExecutor'
+MULTI = 'rclpy.executors.MultiThreadedExecutor'
+EVENTS = 'rclpy.experimental.EventsExecutor'
+
+Awaited = tuple[Value | None, Value | None]
+_MANY_THREADS = 128
+"""A pool starts threads as it needs them: what lies above this is meant as "enough"."""
+_MOST_ALIKE = 4
+"""So many done-callbacks of one text are followed, each with the variables of its own."""
+
+_SPIN_OVERRIDES = frozenset(
+    [
+        'spin',
+        'spin_once',
+        'spin_until_future_complete',
+        '_spin_once_impl',
+        'wait_for_ready_callbacks',
+        '_wait_for_ready_callbacks',
+        '_make_handler',
+        'create_task',
+    ]
+)
+
+
+def _make(machine: Machine, instance: Instance) -> ExecutorState:
+    names = {cls.name for cls in instance.mro if isinstance(cls, Name)}
+    state = ExecutorState(kind=instance.class_name)
+    if MULTI in names:
+        state.threads = None
+    if isinstance(instance.cls, Class):
+        _describe_custom(instance.cls, names, state)
+    instance.slots['__nodes__'] = ()
+    machine.world.executors.append(instance)
+    return state
+
+
+def _describe_custom(cls: Class, names: set[str], state: ExecutorState) -> None:
+    base = next((name for name in (MULTI, SINGLE, EVENTS) if name in names), None)
+    changed = [
+        name
+        for entry in cls.mro
+        if isinstance(entry, Class)
+        for name in entry.slots
+        if name in _SPIN_OVERRIDES
+    ]
+    if base is None:
+        state.unresolved = Unknown(f'custom executor class {cls.name}', cls.place)
+    elif changed:
+        reason = f'custom executor class {cls.name} overrides {changed[0]}'
+        state.unresolved = Unknown(reason, cls.place)
+    else:
+        state.assumed = f'{cls.name} schedules as its base {base.rpartition(".")[2]}'
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    names = {cls.name for cls in receiver.mro if isinstance(cls, Name)}
+    if isinstance(state, ExecutorState) and MULTI in names:
+        _set_threads(state, call.argument(0, 'num_threads'), call.place)
+    return NONE
+
+
+def _is_count(value: Const) -> bool:
+    return isinstance(value.value, int) and value.value > 0
+
+
+def _set_threads(state: ExecutorState, value: Value | None, place: Place) -> None:
+    if value is None or value == NONE:
+        return
+    state.threads_at = place
+    if isinstance(value, Const) and _is_count(value):
+        state.threads = min(value.value, _MANY_THREADS)
+        if value.value > _MANY_THREADS:
+            state.assumed = f'{_MANY_THREADS} threads behave as {value.value} do'
+        return
+    default = value.default if isinstance(value, Mystery) else None
+    if isinstance(value, Mystery) and isinstance(default, Const) and _is_count(default):
+        state.threads = min(default.value, _MANY_THREADS)
+        state.assumed = assumption('number of threads', value)
+        return
+    state.threads = 2
+    reason = value.unknown.reason if isinstance(value, Mystery) else 'computed at run time'
+    text = f'{value.text}: ' if isinstance(value, Mystery) and value.text else ''
+    state.threads_unresolved = Unknown(f'thread count {text}{reason}', place)
+
+
+def as_executor(machine: Machine, value: Value, place: Place) -> Instance:
+    """The executor that ``value`` is; an unresolved one where that cannot be followed."""
+    if isinstance(value, Instance) and isinstance(value.state, ExecutorState):
+        return value
+    reason = value.unknown.reason if isinstance(value, Mystery) else 'not a known executor'
+    text = f'{value.text}: ' if isinstance(value, Mystery) and value.text else ''
+    key = f'executor|{text}|{reason}'
+    known = machine.world.ghosts.get(key)
+    if known is None:
+        known = Instance(Name(BASE), place)
+        known.state = ExecutorState(kind='unknown', unknown=Unknown(f'{text}{reason}', place))
+        known.slots['__nodes__'] = ()
+        machine.world.ghosts[key] = known
+        machine.world.executors.append(known)
+    return known
+
+
+def as_node(machine: Machine, value: Value | None) -> Instance | None:
+    """The node that ``value`` is or may be; a ghost for a mystery; ``None`` for anything else."""
+    if isinstance(value, Choice):
+        nodes = [as_node(machine, option) for option in options_of(value) if option != NONE]
+        return nodes[0] if nodes and all(node is nodes[0] for node in nodes) else None
+    if isinstance(value, Instance) and isinstance(value.state, NodeState):
+        return value
+    if isinstance(value, Instance):
+        return machine.become_node(value) or _node_behind(machine, value)
+    return ghost_node(machine, value) if isinstance(value, Mystery) else None
+
+
+def _node_behind(machine: Machine, value: Instance) -> Instance | None:
+    """The node to which an object of another class hands its attributes on."""
+    method = machine.attribute(value, 'create_publisher', value.place)
+    behind = method.receiver if isinstance(method, Native) else None
+    if isinstance(behind, Instance) and isinstance(behind.state, NodeState):
+        return behind
+    return None
+
+
+def nodes_of(executor: Instance) -> tuple[Instance, ...]:
+    """The nodes an executor has, in the order in which they were added."""
+    found: list[Instance] = []
+    for entry in executor.slots.get('__nodes__', ()):
+        found.extend(o for o in options_of(entry) if isinstance(o, Instance) and o not in found)
+    return tuple(found)
+
+
+def add_node(machine: Machine, executor: Instance, node: Instance) -> None:
+    """Add ``node``, which leaves any other executor it is in."""
+    old = node.slots.get('__executor__')
+    for other in options_of(old) if isinstance(old, Value) else ():
+        if isinstance(other, Instance) and other is not executor:
+            remove_node(machine, other, node)
+    entries = executor.slots['__nodes__']
+    if node not in entries:
+        machine.store.write(executor, '__nodes__', (*entries, node))
+    machine.store.write(node, '__executor__', executor)
+    machine.store.write(node, '__owner__', executor)
+
+
+def remove_node(machine: Machine, executor: Instance, node: Instance) -> None:
+    """Take ``node`` out of ``executor``."""
+    entries = tuple(
+        choice([o for o in (e.options if hasattr(e, 'options') else (e,)) if o is not node])
+        for e in executor.slots['__nodes__']
+        if e is not node and tuple(options_of(e)) != (node,)
+    )
+    machine.store.write(executor, '__nodes__', tuple(e for e in entries if e is not ABSENT))
+    if node.slots.get('__executor__') is executor:
+        machine.store.remove(node, '__executor__')
+
+
+def global_executor(machine: Machine) -> Instance:
+    """The executor of ``rclpy.spin``: single-threaded, made on first use."""
+    world = machine.world
+    if world.global_executor is None:
+        executor = Instance(Name(SINGLE), Place(''))
+        executor.state = ExecutorState('SingleThreadedExecutor', is_global=True)
+        executor.slots['__nodes__'] = ()
+        world.global_executor = executor
+    return world.global_executor
+
+
+def record_spin(
+    machine: Machine,
+    executor: Instance,
+    how: str,
+    place: Place,
+    ever: bool,
+    timeout: Value | None = None,
+) -> None:
+    world = machine.world
+    if world.retelling:
+        return
+    activities.spins(world, for_ever=ever)
+    nodes = nodes_of(executor)
+    executor.state.spun = True
+    spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
+    spin.repeated = isinstance(world.count, Unknown)
+    spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
+    spin.is_tried = world.tries > 0
+    spin.from_callback, spin.over = world.current is not None, world.spins_over
+    if not any(_is_the_same(spin, other) for other in world.spins.values()):
+        world.spins.setdefault(spin.key, spin)
+    for node in nodes:
+        node.state.spun, node.state.loop = True, world.loop
+    if world.in_thread:
+        return
+    # Callbacks of a pool go on beside what comes behind a spin that ends.
+    world.main_spins += world.when is When.START and (ever or executor.state.threads == 1)
+    if ever:
+        world.after_spin = True
+
+
+def _is_the_same(spin: Spin, other: Spin) -> bool:
+    """Whether one text is met again that makes an executor for a node that is there already."""
+    made_anew = spin.executor is not other.executor
+    same_text = (spin.place, spin.executor.place) == (other.place, other.executor.place)
+    return made_anew and same_text and bool(spin.nodes) and spin.nodes == other.nodes
+
+
+def future_of(call: Call, position: int, how: str) -> Awaited:
+    """The future a nested spin waits for, if it waits for one, and its time-out."""
+    if how == 'spin_once':
+        return None, call.argument(None if position else 0, 'timeout_sec')
+    if how != 'spin_until_future_complete':
+        return None, None
+    timeout = call.argument(position + 2 if position else 1, 'timeout_sec')
+    return call.argument(position, 'future'), timeout
+
+
+def note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> None:
+    for node in nodes:
+        node.state.nested = node.state.nested or (how, place)
+
+
+def note_inside(
+    machine: Machine, executor: Instance, how: str, timeout: Value | None, place: Place
+) -> None:
+    """A callback spins ``executor``."""
+    world = machine.world
+    if world.current is not None:
+        given = None if timeout == NONE else timeout
+        spin = InsideSpin(world.current, executor, how, given, place, world.held)
+        world.inside_spins.append(spin)
+
+
+def _method_spin(how: str, ever: bool) -> Handler:
+    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Instance)
+        future = future_of(call, 0, how)
+        if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
+            note_served_inside(nodes_of(receiver), how, call.place)
+            note_inside(machine, receiver, f'executor.{how}', future[1], call.place)
+        else:
+            record_spin(machine, receiver, how, call.place, ever, future[1])
+            machine.note_outside_wait(how, *future, call.place, nodes_of(receiver))
+        return machine.mystery(f'result of {how}', call.place)
+
+    return spin
+
+
+def _add(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+
+    def act(value: Value) -> Value:
+        node = as_node(machine, value)
+        if node is not None:
+            machine.note_change('add_node', node, call.place)
+            add_node(machine, receiver, node)
+        return NONE
+
+    return machine.each(call.argument(0, 'node') or NONE, act, call.place)
+
+
+def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
+    node = call.argument(0, 'node')
+    if (
+        isinstance(receiver, Instance)
+        and isinstance(node, Instance)
+        and isinstance(node.state, NodeState)
+        and not machine.world.after_spin
+    ):
+        _note_served_so_far(machine, receiver, node)
+        remove_node(machine, receiver, node)
+        machine.note_change('remove_node', node, call.place)
+        note_end(machine, REMOVE_NODE, node, call.place)
+    return NONE
+
+
+def _note_served_so_far(machine: Machine, executor: Instance, node: Instance) -> None:
+    """A thread that spins on has served the node until it is taken out."""
+    for spin in machine.world.spins.values():
+        is_served = spin.executor is executor and spin.in_thread and spin.for_ever
+        if is_served and node in nodes_of(executor) and node not in spin.nodes:
+            spin.nodes = (*spin.nodes, node)
+
+
+def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A task has no entity and no group (rclpy-semantics: work outside every group)."""
+    assert isinstance(receiver, Instance)
+    nodes = nodes_of(receiver)
+    task = call.argument(0)
+    if task is not None and (call.args[1:] or call.keywords):
+        task = Partial(task, tuple(call.args[1:]), dict(call.keywords))
+    add_task(machine, nodes[0] if nodes else None, task, call.place)
+    future = machine.future(call.place, 'task')
+    _note_its_end(machine, future, call.place)
+    return future
+
+
+def _note_its_end(machine: Machine, future: Value, place: Place) -> None:
+    """The future of a task is done when the task has ended, whoever asks for it."""
+    world = machine.world
+    world.kept.append(future)
+    for entity in world.entities:
+        if entity.kind is EntityKind.TASK and entity.place == place:
+            waking = Waking(Word.END, entity, place)
+            world.wakings.setdefault(id(future), []).append(waking)
+
+
+def add_task(
+    machine: Machine,
+    node: Instance | None,
+    callback: Value | None,
+    place: Place,
+    kind: EntityKind = EntityKind.TASK,
+    key: Value | None = None,
+) -> EntityState | None:
+    """
+    Record group-less work; it runs on the executor of ``node``.
+
+    :param key: the name of the client whose answer it is for.
+    :return: ``None`` when it is known already: one function, at one place, for one client.
+    """
+    world = machine.world
+    if node is None:
+        node = world.current.node if world.current else next(iter(world.nodes), None)
+    if node is None:
+        return None
+    note_begun(world, place)
+    run = callback
+    if isinstance(callback, Coroutine):
+        made = callback.call
+        run = Partial(callback.function, tuple(made.args), dict(made.keywords))
+    for known in world.by_node.get(id(node), ()):
+        is_here = known.place == place and known.kind is kind
+        is_same = is_here and _name_of(known.key) == _name_of(key)
+        if is_same and _code_of(known.callback) == _code_of(run):
+            _run_too(known, run)
+            flag_locks.hand_over(world, known)
+            note_made(world, kind, place)
+            return None
+    entity = add_entity(machine, node, kind, groupless(machine), place)
+    entity.callback, entity.key = run, key
+    entity.count = 1
+    flag_locks.hand_over(world, entity)
+    return entity
+
+
+def _run_too(known: EntityState, callback: Value | None) -> None:
+    """One function made anew has variables of its own, such as the event that it sets."""
+    alike = (known.callback, *known.extra_callbacks)
+    if isinstance(callback, Function) and callback not in alike and len(alike) < _MOST_ALIKE:
+        known.extra_callbacks += (callback,)
+
+
+def _name_of(key: Value | None) -> object:
+    """Equal for names that are one, as far as they are known."""
+    if isinstance(key, Mystery):
+        return key.unknown, key.text
+    return key.value if isinstance(key, Const) else type(key)
+
+
+def _code_of(value: Value | None) -> object:
+    """Equal for functions of one text on one object, whatever else they were given."""
+    if isinstance(value, Partial):
+        return _code_of(value.function)
+    if isinstance(value, Bound):
+        return _object_of(value.receiver), id(value.function.node)
+    return id(value.node) if isinstance(value, Function) else type(value)
+
+
+def _object_of(receiver: Value) -> object:
+    """Equal for one object; what callbacks make at one place, again and again, is one too."""
+    if isinstance(receiver, Instance) and receiver.born is not None:
+        return id(receiver.cls), receiver.place
+    return id(receiver)
+
+
+def groupless(machine: Machine) -> Instance:
+    """The group that stands for work in no group at all."""
+    world = machine.world
+    if world.groupless is None:
+        group = Instance(Name('rclpy.callback_groups.ReentrantCallbackGroup'), Place(''))
+        group.state = GroupState(type=GroupType.REENTRANT, groupless=True)
+        group.hint = 'no_group'
+        world.groupless = group
+    return world.groupless
+
+
+def _get_nodes(machine: Machine, receiver: Value, call: Call) -> Value:
+    return machine.mystery('nodes of the executor at run time', call.place)
+
+
+def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
+    found = receiver.slots.get('__executor__')
+    if found is None and machine.world.in_callback:
+        found = receiver.slots.get('__owner__')  # a callback runs while it is spun
+    known = options_of(found) if isinstance(found, Value) else ()
+    if known:
+        return choice(list(known))
+    made = Instance(Name('rclpy.executors.NodeExecutor'), place)
+    made.state = receiver.state
+    made.slots['node'] = receiver
+    return made
+
+
+def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    node = receiver.slots.get('node')
+    owner = node if isinstance(node, Instance) else None
+    add_task(machine, owner, call.argument(0), call.place)
+    return machine.future(call.place, 'task')
+
+
+def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Spins that go on in other threads end."""
+    world = machine.world
+    if isinstance(receiver, Instance):
+        note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place)
+    if not world.in_callback and not world.in_thread:
+        world.spins_over = len(world.spins)
+        note_over(world, receiver)
+    return NONE
+
+
+EXECUTOR_METHODS: dict[str, Handler] = {
+    'add_node': _add,
+    'remove_node': _remove,
+    'spin': _method_spin('spin', True),
+    'spin_once': _method_spin('spin_once', False),
+    'spin_until_future_complete': _method_spin('spin_until_future_complete', False),
+    'spin_once_until_future_complete': _method_spin('spin_once_until_future_complete', False),
+    'create_task': _create_task,
+    'get_nodes': _get_nodes,
+    'shutdown': _shut_down,
+    'wake': lambda machine, receiver, call: NONE,
+}
+
+node_executor_property = _node_executor
+node_task = _node_task
+
+_CLASS = LibraryClass(state=_make, init=_init, methods=EXECUTOR_METHODS)
+
+TABLE = Library(
+    classes={
+        BASE: _CLASS,
+        SINGLE: LibraryClass(bases=(BASE,)),
+        MULTI: LibraryClass(bases=(BASE,)),
+        EVENTS: LibraryClass(bases=(BASE,)),
+        'rclpy.executors.NodeExecutor': LibraryClass(methods={'create_task': _node_task}),
+    },
+    functions={
+        'rclpy.get_global_executor': lambda machine, receiver, call: global_executor(machine),
+    },
+    aliases={
+        'rclpy.SingleThreadedExecutor': SINGLE,
+        'rclpy.experimental.events_executor.EventsExecutor': EVENTS,
+        'rclpy.experimental.events_executor.events_executor.EventsExecutor': EVENTS,
+        'rclpy.executors.EventsExecutor': EVENTS,
+    },
+)

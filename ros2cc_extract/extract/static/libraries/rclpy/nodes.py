@@ -1,0 +1,496 @@
+"""
+Nodes and what they create.
+
+Positions and names of arguments: rclpy 7.1.6, ``node.py``. Only ``create_timer`` (third) and
+``create_guard_condition`` (second) take the group as a positional argument.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+    DESTROY,
+    DESTROY_NODE,
+    DESTROY_PUBLISHER,
+    OF_RATE,
+    note_end,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.builtin_entities import (
+    add_builtins_of_node,
+    add_events_of,
+    option_of_node,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.clocks import clock_of
+from ros2cc_extract.extract.static.libraries.rclpy.groups import (
+    DEFAULT_GROUP,
+    default_group_of,
+    group_of,
+    new_group,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.shutdown import context_of_node
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS, Machine
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    GroupState,
+    NodeState,
+    PlainState,
+)
+from ros2cc_extract.extract.static.python.objects.allocation_sites import (
+    made_before,
+    made_while_missing,
+    remember,
+)
+from ros2cc_extract.extract.static.python.values.assumed_defaults import AT_RUN_TIME, default_of
+from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
+from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
+
+NODE = 'rclpy.node.Node'
+_BEGUN = '__begun__'
+LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
+
+
+@dataclass(frozen=True)
+class CreateCall:
+    """One ``create_…`` method: positions of its arguments, and their names."""
+
+    kind: EntityKind
+    cls: str
+    key: tuple[int, str] | None = None
+    callback: tuple[int, str] | None = None
+    period: tuple[int, str] | None = None
+    group_position: int | None = None
+
+
+CREATE_CALLS = {
+    'create_subscription': CreateCall(
+        EntityKind.SUBSCRIPTION, 'rclpy.subscription.Subscription', (1, 'topic'), (2, 'callback')
+    ),
+    'create_timer': CreateCall(
+        EntityKind.TIMER,
+        'rclpy.timer.Timer',
+        callback=(1, 'callback'),
+        period=(0, 'timer_period_sec'),
+        group_position=2,
+    ),
+    'create_service': CreateCall(
+        EntityKind.SERVICE, 'rclpy.service.Service', (1, 'srv_name'), (2, 'callback')
+    ),
+    'create_client': CreateCall(EntityKind.CLIENT, 'rclpy.client.Client', (1, 'srv_name')),
+    'create_guard_condition': CreateCall(
+        EntityKind.GUARD_CONDITION,
+        'rclpy.guard_condition.GuardCondition',
+        callback=(0, 'callback'),
+        group_position=1,
+    ),
+}
+
+
+def make_node(machine: Machine, instance: Instance) -> NodeState:
+    """The state of a new node, with its default group."""
+    group = new_group(machine, GroupState(default=True), instance.place, None)
+    state = NodeState(default_group=group, count=machine.world.count)
+    names = {cls.name for cls in instance.mro if isinstance(cls, Name)}
+    state.lifecycle = LIFECYCLE_NODE in names
+    group.state.node = instance
+    group.state.count = machine.world.count
+    machine.world.nodes.append(instance)
+    return state
+
+
+def ghost_node(machine: Machine, value: Mystery) -> Instance:
+    """The node that a value which cannot be followed must be; one for each such value."""
+    value = machine.world.same_unknowns.get(value.unknown, value)
+    key = f'{value.text}|{value.unknown.at}|{value.unknown.reason}'
+    known = machine.world.ghosts.get(key)
+    if known is None:
+        known = Instance(Name(NODE), value.unknown.at or Place(''))
+        state = make_node(machine, known)
+        label = f'{value.text}: ' if value.text else ''
+        state.ghost = Unknown(f'{label}{value.unknown.reason}', value.unknown.at)
+        known.state = state
+        known.hint = value.text.rpartition('.')[2] or None
+        machine.world.ghosts[key] = known
+    return known
+
+
+def add_entity(
+    machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
+) -> EntityState:
+    """Record an entity of ``node`` made here and now."""
+    world = machine.world
+    machine.charge(THING_STEPS + PAIR_STEPS * len(world.entities))
+    entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
+    entity.assumed = world.assumed
+    entity.when = world.when
+    entity.maker = world.activity or world.current
+    entity.number = len(world.entities) + len(world.builtins)
+    world.entities.append(entity)
+    world.by_node.setdefault(id(node), []).append(entity)
+    if kind is EntityKind.SUBSCRIPTION:
+        add_events_of(machine, node, group, place, entity)
+    note_made(world, kind, place)
+    return entity
+
+
+def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    if isinstance(receiver.state, NodeState):
+        _note_begun_again(machine, receiver, call)
+        state = receiver.state
+        state.name = call.argument(0, 'node_name') or NONE
+        state.has_parameter_services = option_of_node(
+            machine, 'start_parameter_services', call, default=True
+        )
+        machine.store.remove(receiver, DEFAULT_GROUP)
+        add_builtins_of_node(machine, receiver, call)
+    return NONE
+
+
+def _note_begun_again(machine: Machine, node: Instance, call: Call) -> None:
+    """
+    A singleton whose ``__init__`` runs each time its class is called begins its node anew.
+
+    The executor no longer serves what was made before (rclpy 7.1.6, ``node.py``: the lists of
+    entities and the default group are made anew).
+    """
+    state = node.state
+    if _BEGUN in node.slots and state.begun == call.place:
+        state.more.append(('its constructor runs again on the same object', call.place))
+    state.begun = call.place
+    machine.store.write(node, _BEGUN, NONE)
+
+
+def _creator(row: CreateCall) -> Handler:
+    def create(machine: Machine, receiver: Value, call: Call) -> Value:
+        assert isinstance(receiver, Instance)
+        group = group_of(
+            machine, receiver, call.argument(row.group_position, 'callback_group'), call.place
+        )
+        key = call.argument(*row.key) if row.key else None
+        callback = call.argument(*row.callback) if row.callback else None
+        note_begun(machine.world, call.place)
+        known = entity_made_before(machine, receiver, row.kind, key, call.place, callback)
+        if known is not None:
+            return known
+        entity = add_entity(machine, receiver, row.kind, group, call.place)
+        entity.key = key
+        entity.callback = callback
+        entity.period = call.argument(*row.period) if row.period else None
+        if call.argument(None, 'autostart') == Const(False):
+            entity.dormant = call.place
+        made = Instance(Name(row.cls), call.place)
+        made.state = entity
+        remember_entity(machine, made)
+        return made
+
+    return create
+
+
+def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> object:
+    text = key.value if isinstance(key, Const) else None
+    return (id(node), kind, place, text)
+
+
+def remember_entity(machine: Machine, made: Instance) -> None:
+    """Keep an entity for ``entity_made_before``."""
+    entity = made.state
+    site = _site(entity.node, entity.kind, entity.key, entity.place)
+    machine.world.made_in_callbacks[site] = made
+
+
+def entity_made_before(
+    machine: Machine,
+    node: Instance,
+    kind: EntityKind,
+    key: Value | None,
+    place: Place,
+    callback: Value | None = None,
+) -> Instance | None:
+    """What a callback makes at one place is one entity, made again and again."""
+    world = machine.world
+    known = world.made_in_callbacks.get(_site(node, kind, key, place))
+    if known is None:
+        return None
+    is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
+    if (
+        not is_again
+        and not world.retelling
+        and not made_while_missing(world, known.state, key, callback)
+    ):
+        return None
+    note_made(world, kind, place)
+    return known
+
+
+def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A timer in a private reentrant group of the node (``node.py``, ``_rate_group``)."""
+    assert isinstance(receiver, Instance)
+    state = receiver.state
+    known = entity_made_before(machine, receiver, EntityKind.TIMER, None, call.place)
+    if known is not None:
+        return known
+    if state.rate_group is None:
+        group = GroupState(type=GroupType.REENTRANT, library=OF_RATE, node=receiver)
+        state.rate_group = new_group(machine, group, call.place, 'rate_group')
+    entity = add_entity(machine, receiver, EntityKind.TIMER, state.rate_group, call.place)
+    entity.library = OF_RATE
+    frequency = call.argument(0, 'frequency')
+    if isinstance(frequency, Const) and isinstance(frequency.value, (int, float)):
+        entity.period = Const(1.0 / frequency.value) if frequency.value else None
+    else:
+        entity.period = frequency
+    made = Instance(Name('rclpy.timer.Rate'), call.place)
+    made.state = entity
+    remember_entity(machine, made)
+    return made
+
+
+def _create_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        given = call.argument(None, 'callback_group')
+        group = group_of(machine, receiver, given, call.place)
+        add_events_of(machine, receiver, group, call.place, None)
+    made = Instance(Name('rclpy.publisher.Publisher'), call.place)
+    made.state = PlainState('publisher', call.argument(1, 'topic'), receiver, call.place)
+    return made
+
+
+def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
+    cls = Name(NODE)
+    known = made_before(machine, cls, call)
+    if known is not None:
+        return known
+    node = Instance(cls, call.place)
+    node.path = machine.world.path
+    node.state = make_node(machine, node)
+    remember(machine, node, call)
+    node.state.name = call.argument(0, 'node_name')
+    add_builtins_of_node(machine, node, call)
+    machine.world.instances.append(node)
+    return node
+
+
+def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+    target = call.args[0] if call.args else None
+    if isinstance(target, Instance) and isinstance(target.state, EntityState):
+        mark_destroyed(machine, target.state, call.place)
+    return Const(True)
+
+
+def _destroy_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+    for target in options_of(call.args[0]) if call.args else ():
+        if isinstance(target, Instance) and isinstance(target.state, PlainState):
+            note_end(machine, DESTROY_PUBLISHER, target, call.place)
+    return Const(True)
+
+
+def _destroy_node(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        note_end(machine, DESTROY_NODE, receiver, call.place)
+    return NONE
+
+
+def add_callback(entity: EntityState, callback: Value) -> None:
+    """One more function that an entity runs; the first gives it its name."""
+    if entity.callback is None:
+        entity.callback = callback
+    elif callback not in (entity.callback, *entity.extra_callbacks):
+        entity.extra_callbacks += (callback,)
+
+
+def mark_destroyed(machine: Machine, entity: EntityState, place: Place) -> None:
+    """Note that the program destroys ``entity`` while its node is alive."""
+    note_end(machine, DESTROY, entity, place)
+    if not machine.world.after_spin and not machine.world.shutting_down:
+        entity.destroyed = True
+
+
+def _parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+    name = call.argument(0, 'name')
+    default = call.argument(1, 'value')
+    text = f'parameter {name.value!r}' if isinstance(name, Const) else 'a parameter'
+    assert isinstance(receiver, Instance)
+    known = _declared(receiver)
+    if isinstance(name, Const):
+        if default is not None:
+            known[name.value] = default
+        default = known.get(name.value)
+    default = _usable(default_of(default))
+    if isinstance(default, Const):
+        text = f'{text} (default {default.value!r})'
+    made = Instance(Name('rclpy.parameter.Parameter'), call.place)
+    value = Mystery(Unknown(f'value of {text}', call.place), text, default)
+    made.state = PlainState('parameter', value)
+    return made
+
+
+def _declared(node: Instance) -> dict[object, Value]:
+    """The parameters that a node has declared, with their defaults."""
+    known: dict[object, Value] = node.slots.setdefault('__parameters__', {})
+    return known
+
+
+def _usable(default: Value | None) -> Value | None:
+    """A default that says something: a type alone, ``None`` and an empty list do not."""
+    if isinstance(default, Sequence):
+        return default if default.items and default.rest is None else None
+    return default if default != NONE else None
+
+
+def _declare_all(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``declare_parameters(namespace, [(name, default, …), …])``."""
+    space, rows = call.argument(0, 'namespace'), call.argument(1, 'parameters')
+    items, rest = machine.items_of(rows or NONE, call.place)
+    made = []
+    for row in items:
+        parts = list(row.items) if isinstance(row, Sequence) else []
+        name = parts[0] if parts else NONE
+        if isinstance(space, Const) and isinstance(name, Const) and space.value:
+            parts[0] = Const(f'{space.value}.{name.value}')
+        made.append(_parameter(machine, receiver, Call(call.place, parts[:2])))
+    return Sequence(tuple(made), 'list', rest)
+
+
+def _get_all(machine: Machine, receiver: Value, call: Call) -> Value:
+    items, rest = machine.items_of(call.argument(0, 'names') or NONE, call.place)
+    made = [_parameter(machine, receiver, Call(call.place, [name])) for name in items]
+    return Sequence(tuple(made), 'list', rest)
+
+
+def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``Parameter(name, type, value)``."""
+    assert isinstance(receiver, Instance)
+    value = call.argument(2, 'value') or machine.mystery('value of a parameter', call.place)
+    receiver.state = PlainState('parameter', value, call.argument(0, 'name'), call.place)
+    return NONE
+
+
+def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``get_parameter_or(name, alternative)``; the alternative is a parameter itself."""
+    other = call.argument(1, 'alternative_value')
+    state = other.state if isinstance(other, Instance) else None
+    default = state.key if isinstance(state, PlainState) else None
+    args = [arg for arg in (call.argument(0, 'name'), default) if arg is not None]
+    return _parameter(machine, receiver, Call(call.place, args))
+
+
+def _parameter_value(machine: Machine, receiver: Instance, place: Place) -> Value:
+    state = receiver.state
+    value = state.key if isinstance(state, PlainState) else None
+    return value or machine.mystery('value of a parameter', place)
+
+
+def _message(machine: Machine, receiver: Instance, place: Place) -> Value:
+    made = Instance(Name('rclpy.parameter.ParameterValue'), place)
+    made.state = receiver.state
+    return made
+
+
+class _ValueMethods(dict[str, Handler]):
+    """``get_parameter_value()`` and its fields all stand for the value."""
+
+
+def _get_parameter_value(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    return _message(machine, receiver, call.place)
+
+
+def _default_group(machine: Machine, receiver: Instance, place: Place) -> Value:
+    return default_group_of(receiver)
+
+
+def _unfollowed(reason: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        return machine.mystery(reason, call.place, reason)
+
+    return handler
+
+
+def _name_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``get_name()``: the name in the source, unless the node is renamed when it is started."""
+    state = receiver.state if isinstance(receiver, Instance) else None
+    name = state.name if isinstance(state, NodeState) else None
+    return Mystery(Unknown(AT_RUN_TIME, call.place), AT_RUN_TIME, default_of(name))
+
+
+_VALUE_FIELDS = [
+    'bool_value',
+    'integer_value',
+    'double_value',
+    'string_value',
+    'byte_array_value',
+    'bool_array_value',
+    'integer_array_value',
+    'double_array_value',
+    'string_array_value',
+]
+
+NODE_METHODS: dict[str, Handler] = {
+    **{name: _creator(row) for name, row in CREATE_CALLS.items()},
+    'create_rate': _create_rate,
+    'create_publisher': _create_publisher,
+    'create_lifecycle_publisher': _create_publisher,
+    'destroy_publisher': _destroy_publisher,
+    'destroy_timer': _destroy,
+    'destroy_rate': _destroy,
+    'destroy_subscription': _destroy,
+    'destroy_service': _destroy,
+    'destroy_client': _destroy,
+    'destroy_guard_condition': _destroy,
+    'declare_parameter': _parameter,
+    'declare_parameters': _declare_all,
+    'get_parameter': _parameter,
+    'get_parameters': _get_all,
+    'get_parameter_or': _parameter_or,
+    'get_clock': clock_of,
+    'get_name': _name_of,
+    'get_logger': _unfollowed('the logger'),
+    'get_namespace': _unfollowed('namespace of the node at run time'),
+    'destroy_node': _destroy_node,
+}
+
+TABLE = Library(
+    classes={
+        NODE: LibraryClass(
+            state=make_node,
+            init=init_node,
+            methods=NODE_METHODS,
+            properties={
+                'default_callback_group': _default_group,
+                DEFAULT_GROUP: _default_group,
+                'context': context_of_node,
+            },
+        ),
+        'rclpy.parameter.Parameter': LibraryClass(
+            init=_keep_parameter,
+            properties={'value': _parameter_value},
+            methods={'get_parameter_value': _get_parameter_value},
+        ),
+        'rclpy.parameter.ParameterValue': LibraryClass(
+            properties=dict.fromkeys(_VALUE_FIELDS, _parameter_value)
+        ),
+        'rclpy.publisher.Publisher': LibraryClass(),
+    },
+    functions={'rclpy.create_node': _create_node},
+    aliases={
+        'rclpy.lifecycle.LifecycleNode': LIFECYCLE_NODE,
+        'rclpy.lifecycle.Node': LIFECYCLE_NODE,
+        'rclpy.lifecycle.node.Node': LIFECYCLE_NODE,
+        'rclpy.node.create_node': 'rclpy.create_node',
+    },
+)

@@ -1,0 +1,281 @@
+"""
+Loops of asyncio, and what belongs to them: queues, events, futures.
+
+A loop runs in one thread, and what belongs to it is for that thread alone: another one hands over
+what is to be done by ``call_soon_threadsafe``, which wakes the loop. Sources: CPython 3.12,
+``asyncio/base_events.py`` (``call_soon_threadsafe`` writes to the loop's own socket, ``call_soon``
+does not), ``asyncio/queues.py``; library reference, *Developing with asyncio*.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
+from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import OF_LOOP
+from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_in_executor
+from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
+from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
+from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.wake_operations import LoopRun, LoopTouch, Word
+from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Native,
+    Value,
+)
+from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.spec.model import When
+
+_ASKED = -1
+"""Among the identities of ``World.asked``: whether a loop runs."""
+
+_LOOP = 'asyncio.AbstractEventLoop'
+_FUTURE = 'asyncio.Future'
+
+
+@contextmanager
+def _by_loop(machine: Machine) -> Iterator[None]:
+    """A loop does what is done inside, in its own thread."""
+    before = machine.world.by_loop
+    machine.world.by_loop = True
+    try:
+        yield
+    finally:
+        machine.world.by_loop = before
+
+
+def _note_touch(machine: Machine, thing: Value, how: str, call: Call) -> None:
+    """Something of a loop is touched; which thread does that is told after the run."""
+    world = machine.world
+    doer = world.activity or (world.current if world.deeds is not None else None)
+    if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
+        return
+    touch = LoopTouch(how, thing, doer, call.place)
+    if not any(touch.is_same(other) for other in world.loop_touches):
+        world.loop_touches.append(touch)
+
+
+def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
+    world = machine.world
+    before, world.on_loop = world.on_loop, world.in_callback
+    outer, world.loop = world.loop, world.loop if world.in_callback else call.place
+    try:
+        with _by_loop(machine):
+            results = [machine.await_value(arg, call.place) for arg in call.args]
+    finally:
+        world.on_loop, world.loop = before, outer
+    return results[0] if results else NONE
+
+
+def _run_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+    _note_run(machine, receiver)
+    return _run_coroutine(machine, receiver, call)
+
+
+def _note_run(machine: Machine, loop: Value) -> None:
+    world = machine.world
+    if not world.retelling and not world.in_callback:
+        world.loop_runs.append(LoopRun(loop, world.thread))
+
+
+def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
+    """The event loop runs it later: the callback that hands it over does none of it."""
+    world = machine.world
+    _note_touch(machine, receiver, 'create_task', call)
+    deeds, held, holds = world.deeds, world.held, world.holds
+    if deeds is None or (world.activity is not None and world.when is When.START):
+        return _run_coroutine(machine, receiver, call)
+    world.deeds, world.held = None, ()
+    try:
+        _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
+    finally:
+        world.deeds, world.held, world.holds = deeds, held, holds
+    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+
+
+def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+    current = machine.world.current
+    if current is not None and current.node.state.on_asyncio:
+        return NONE
+    delay = call.argument(0, 'delay')
+    if isinstance(delay, Const) and isinstance(delay.value, (int, float)) and delay.value <= 0:
+        machine.note_turn(call.place)  # this asks for no loop
+    else:
+        machine.note_blocking('asyncio.sleep', None, delay, call.place)
+    return NONE
+
+
+def _call_soon(machine: Machine, receiver: Value, call: Call) -> Value:
+    """It wakes no loop that waits, and is for the thread of the loop alone."""
+    _note_touch(machine, receiver, 'call_soon', call)
+    return _call_soon_threadsafe(machine, receiver, call)
+
+
+def _call_soon_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
+    """The loop calls it, which whoever hands it over need not wait for."""
+    if call.args:
+        with _by_loop(machine):
+            machine.call(call.args[0], Call(call.place, call.args[1:]))
+    return NONE
+
+
+def _is_running(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who asks has another way for a loop that runs."""
+    machine.world.asked.add(_ASKED)
+    return machine.mystery('whether a loop runs', call.place, 'is_running()')
+
+
+def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
+    _note_run(machine, receiver)
+    if machine.world.activity is not None:
+        machine.world.activity.loops = True
+    return NONE
+
+
+def _create_future(machine: Machine, receiver: Value, call: Call) -> Value:
+    return _made(_FUTURE, OF_LOOP, call)
+
+
+def _made(name: str, kind: str, call: Call) -> Instance:
+    made = Instance(Name(name), call.place)
+    made.state = PlainState(kind, place=call.place)
+    return made
+
+
+def _touching(how: str, word: Word) -> Handler:
+    """What ends a wait for something of a loop."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        _note_touch(machine, receiver, how, call)
+        if word is Word.PUT:
+            give_items(machine, receiver, call)
+        machine.note_wake(receiver, word, call.place)
+        return machine.mystery(f'result of {how}', call.place, f'{how}()')
+
+    return handler
+
+
+def _awaitable(name: str, word: Word | None = None) -> Handler:
+    """A coroutine that waits for ``receiver`` once somebody awaits it, and then does ``word``."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        coroutine = _made('asyncio.coroutine', 'coroutine', call)
+
+        def awaited(machine: Machine, _: Value, inner: Call) -> Value:
+            if isinstance(receiver, Instance) and (name != _PUT or may_be_full(receiver)):
+                machine.note_blocking(name, receiver, None, inner.place)
+                machine.world.awaited_of_loops.append(receiver)
+            if word is not None:
+                machine.note_wake(receiver, word, inner.place)
+            return machine.mystery(f'result of {name}', inner.place, f'await {name}(…)')
+
+        coroutine.slots[AWAITED] = Native(name, awaited)
+        return coroutine
+
+    return handler
+
+
+def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A wait with a time-out ends in any case."""
+    inner = call.argument(0, 'fut')
+    if not isinstance(inner, Instance) or AWAITED not in inner.slots:
+        reason = 'result of asyncio.wait_for, which is not scanned'
+        return machine.mystery(reason, call.place, 'asyncio.wait_for(…)')
+    coroutine = _made('asyncio.coroutine', 'coroutine', call)
+    result = machine.mystery('result of asyncio.wait_for', call.place, 'asyncio.wait_for(…)')
+    coroutine.slots[AWAITED] = Native('asyncio.wait_for', lambda machine, receiver, call: result)
+    return coroutine
+
+
+_PUT = 'asyncio.Queue.put'
+_QUEUE = LibraryClass(
+    state=lambda machine, instance: PlainState('queue', place=instance.place),
+    init=init_queue,
+    methods={
+        **QUEUE_METHODS,
+        'get': _awaitable('asyncio.Queue.get', Word.GET),
+        'put': _awaitable(_PUT, Word.PUT),
+        'join': _awaitable('asyncio.Queue.join'),
+        'put_nowait': _touching('put_nowait', Word.PUT),
+        'get_nowait': _touching('get_nowait', Word.GET),
+        'task_done': _touching('task_done', Word.DONE),
+    },
+)
+_EVENT = LibraryClass(
+    state=lambda machine, instance: PlainState('event', place=instance.place),
+    init=lambda machine, receiver, call: NONE,
+    methods={
+        'wait': _awaitable('asyncio.Event.wait'),
+        'set': _touching('set', Word.SET),
+        'clear': lambda machine, receiver, call: NONE,
+        'is_set': lambda machine, receiver, call: machine.mystery('is_set()', call.place),
+    },
+)
+
+_LOOP_METHODS: dict[str, Handler] = {
+    'run_until_complete': _run_loop,
+    'is_running': _is_running,
+    'create_task': _make_task,
+    'create_future': _create_future,
+    'call_soon': _call_soon,
+    'call_soon_threadsafe': _call_soon_threadsafe,
+    'run_forever': _run_forever,
+    'run_in_executor': run_in_executor,
+}
+
+
+def _event_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+    return Instance(Name(_LOOP), call.place)
+
+
+def _own_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+    loop = Instance(Name(_LOOP), call.place)
+    if machine.world.loop is not None:
+        loop.slots[LOOP] = machine.world.loop
+    return loop
+
+
+TABLE = Library(
+    classes={
+        _LOOP: LibraryClass(methods=_LOOP_METHODS),
+        'asyncio.Queue': _QUEUE,
+        'asyncio.LifoQueue': _QUEUE,
+        'asyncio.PriorityQueue': _QUEUE,
+        'asyncio.Event': _EVENT,
+        _FUTURE: LibraryClass(
+            state=lambda machine, instance: PlainState(OF_LOOP, place=instance.place),
+            init=lambda machine, receiver, call: NONE,
+            bases=('rclpy.task.Future',),
+            methods={
+                'set_result': _touching('set_result', Word.SET),
+                'set_exception': _touching('set_exception', Word.SET),
+            },
+        ),
+    },
+    functions={
+        'asyncio.run': _run_loop,
+        'asyncio.gather': _run_coroutine,
+        'asyncio.wait_for': _wait_for,
+        'asyncio.wait': _run_coroutine,
+        'asyncio.create_task': _make_task,
+        'asyncio.ensure_future': _make_task,
+        'asyncio.sleep': _asyncio_sleep,
+        'asyncio.get_event_loop': _own_loop,
+        'asyncio.new_event_loop': _event_loop,
+        'asyncio.get_running_loop': _own_loop,
+    },
+    aliases={
+        'asyncio.queues.Queue': 'asyncio.Queue',
+        'asyncio.locks.Event': 'asyncio.Event',
+        'asyncio.futures.Future': _FUTURE,
+    },
+)

@@ -1,0 +1,55 @@
+"""
+Pipes of a child process that nobody reads while its end is waited for.
+
+``Popen.wait`` deadlocks when the child has written more than the pipe holds: it waits for a
+reader, and the only one waits for its end (CPython, library reference, ``subprocess``). Whoever
+asks for the stream before, or elsewhere in the program, counts as its reader.
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import Call, Instance, Library, Value
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Blocking
+
+_PIPE = 'subprocess.PIPE'
+_STREAMS = (('stdout', 4), ('stderr', 5))
+WAIT = 'Popen.wait'
+
+
+def piped(call: Call) -> list[str]:
+    """The streams that a new child writes into pipes."""
+    given = {name: call.argument(position, name) for name, position in _STREAMS}
+    return [name for name, value in given.items() if _is_pipe(value)]
+
+
+def _is_pipe(value: Value | None) -> bool:
+    return isinstance(value, Library) and value.name == _PIPE
+
+
+def note_read(world: World, child: Value) -> None:
+    """Somebody asks for a stream of ``child``, or lets ``communicate`` read them."""
+    if isinstance(child, Instance):
+        readers = world.readers.setdefault(child.place, [])
+        if not any(world.deeds is reader for reader in readers):
+            readers.append(world.deeds)
+
+
+def note_wait(world: World, child: Value, streams: list[str], place: Place) -> None:
+    """The end of ``child`` is waited for without a time-out."""
+    deeds = world.deeds
+    if deeds is None or not streams or not isinstance(child, Instance):
+        return
+    if not any(deeds is reader for reader in world.readers.get(child.place, ())):
+        deeds.unread.setdefault((place, world.chain[1:]), (child.place, streams[0]))
+
+
+def unread_at(world: World, block: Blocking, deeds: Deeds) -> str | None:
+    """The stream that nobody reads while ``block`` lasts, of a child that is waited for."""
+    child, stream = deeds.unread.get((block.source, block.chain), (None, None))
+    if block.call != WAIT or child is None:
+        return None
+    others = [reader for reader in world.readers.get(child, ()) if reader is not deeds]
+    return None if others else stream

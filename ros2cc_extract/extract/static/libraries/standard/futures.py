@@ -1,0 +1,234 @@
+"""
+Pools of the standard library and what is handed to them: futures, and who waits for them.
+
+Sources: CPython 3.12, ``concurrent/futures/_base.py`` (``wait``, ``as_completed``, ``map``,
+leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threadsafe``).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.concurrency.activities import begin
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
+from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import OF_POOL
+from ros2cc_extract.extract.static.libraries.done_callbacks import (
+    add_done_callback,
+    begin_anew,
+    cancel,
+    complete,
+    may_be_done,
+)
+from ros2cc_extract.extract.static.libraries.standard.pool_tasks import WORKERS
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
+from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Coroutine,
+    Handler,
+    Instance,
+    Mystery,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import ActivityKind
+
+LOOP = '__loop__'
+"""Slot of a loop of asyncio for where it begins."""
+_HANDED_OVER = '__handed_over__'
+_FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
+
+
+def submit(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``pool.submit(function, …)``, ``asyncio.to_thread(function, …)``."""
+    future = machine.future(call.place, OF_POOL)
+    if call.args:
+        inner = Call(call.place, call.args[1:], call.keywords, call.more)
+        turns = _one_thread(receiver)
+        pool = _pool(receiver)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns, pool=pool)
+    _keep(machine, receiver, future)
+    if is_pool(receiver):
+        may_be_done(machine, future)
+    return future
+
+
+def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``loop.run_in_executor(pool, function, …)``."""
+    future = machine.future(call.place, OF_POOL)
+    if len(call.args) > 1:
+        inner, pool = Call(call.place, call.args[2:]), _pool(call.args[0])
+        begin(machine, ActivityKind.POOL, call.args[1], inner, future, pool=pool)
+        _keep(machine, call.args[0], future)
+    return future
+
+
+def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``asyncio.run_coroutine_threadsafe(coroutine, loop)``: the thread of the loop runs it."""
+    future = machine.future(call.place, OF_POOL)
+    coroutine = call.args[0] if call.args else NONE
+    target: Value = coroutine
+    inner = Call(call.place)
+    if isinstance(coroutine, Coroutine):
+        target = coroutine.function
+        inner = Call(call.place, coroutine.call.args, coroutine.call.keywords, coroutine.call.more)
+    elif isinstance(coroutine, Instance):
+        target = coroutine.slots.get(AWAITED, coroutine)
+    loop = call.argument(1, 'loop')
+    turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
+    begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
+    may_be_done(machine, future)
+    return future
+
+
+def _pool(value: Value) -> Instance | None:
+    return value if isinstance(value, Instance) and is_pool(value) else None
+
+
+def _one_thread(pool: Value) -> Value | None:
+    """The pool, if it has one thread for all that is handed to it."""
+    workers = pool.slots.get(WORKERS) if isinstance(pool, Instance) else None
+    return pool if workers == Const(1) else None
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    workers = call.argument(0, 'max_workers')
+    if isinstance(receiver, Instance) and workers is not None:
+        machine.store.write(receiver, WORKERS, workers)
+    return NONE
+
+
+def _keep(machine: Machine, pool: Value, future: Value) -> None:
+    """Who waits for the end of a pool waits for all that was handed to it."""
+    if isinstance(pool, Instance):
+        kept = pool.slots.get(_HANDED_OVER, ())
+        machine.store.write(pool, _HANDED_OVER, (*kept, future))
+
+
+def _map(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Its results wait for all calls, when somebody goes over them."""
+    results = machine.future(call.place, OF_POOL)
+    results.hint = 'map'
+    if call.args:
+        items = [loops.items_in(machine, each, call.place) for each in call.args[1:]]
+        given = [choice(list(each.known)) if each.known else _item(each) for each in items]
+        inner, pool = Call(call.place, given), _pool(receiver)
+        begin(machine, ActivityKind.POOL, call.args[0], inner, results, pool=pool)
+    _keep(machine, receiver, results)
+    return results
+
+
+def _item(items: loops.Items) -> Value:
+    return Mystery(items.others or Unknown('item that could not be followed'), 'item')
+
+
+def note_leaving(machine: Machine, pool: Value, place: Place) -> None:
+    """A pool ends: all that was handed to it must have come to its end."""
+    kept = pool.slots.get(_HANDED_OVER, ()) if isinstance(pool, Instance) else ()
+    for future in dict.fromkeys(option for each in kept for option in options_of(each)):
+        machine.note_blocking('Executor.shutdown', future, None, place)
+
+
+def is_pool(value: Value) -> bool:
+    """Whether leaving a ``with`` over it waits."""
+    state = value.state if isinstance(value, Instance) else None
+    return isinstance(state, PlainState) and state.kind == 'executor'
+
+
+def _shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
+    wait = call.argument(0, 'wait')
+    if not (isinstance(wait, Const) and not wait.value):
+        note_leaving(machine, receiver, call.place)
+    return NONE
+
+
+def _for_all(name: str, position: int | None) -> Handler:
+    """Waits for every future it is given, one after the other."""
+
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        given = call.args[0] if call.args else NONE
+        timeout = call.argument(position, 'timeout')
+        items = loops.items_in(machine, given, call.place)
+        when = call.argument(2, 'return_when') if name == 'futures.wait' else None
+        if items.others is not None or when is not None:
+            why = items.others or Unknown('it waits for the first of several', call.place)
+            machine.note_blocking(name, Mystery(why), timeout, call.place)
+        else:
+            for future in items.known:
+                machine.note_blocking(name, future, timeout, call.place)
+                if timeout in (None, NONE):
+                    machine.world.ready |= {(option, Word.SET) for option in options_of(future)}
+            if name == 'futures.as_completed':
+                return Sequence(items.known, 'generator', None, items.many)
+        return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
+
+    return handler
+
+
+def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.SET, call)
+
+
+def _cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
+    return cancelled(receiver, call)
+
+
+def _running(machine: Machine, receiver: Value, call: Call) -> Value:
+    return running(receiver, call)
+
+
+def _waits(name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        machine.note_blocking(name, receiver, call.argument(0, 'timeout'), call.place)
+        return machine.mystery(f'result of {name}', call.place, 'result()')
+
+    return handler
+
+
+_POOL = LibraryClass(
+    state=lambda machine, instance: PlainState('executor', place=instance.place),
+    init=_init,
+    methods={'submit': submit, 'map': _map, 'shutdown': _shutdown},
+)
+
+TABLE = Library(
+    classes={
+        'concurrent.futures.ThreadPoolExecutor': _POOL,
+        'concurrent.futures.ProcessPoolExecutor': _POOL,
+        'concurrent.futures.Future': LibraryClass(
+            state=lambda machine, instance: PlainState(OF_POOL, place=instance.place),
+            init=lambda machine, receiver, call: NONE,
+            again=begin_anew,
+            methods={
+                'add_done_callback': add_done_callback,
+                'set_result': complete,
+                'set_exception': complete,
+                'cancel': cancel,
+                'done': _asked,
+                'cancelled': _cancelled,
+                'running': _running,
+                'result': _waits('Future.result'),
+                'exception': _waits('Future.exception'),
+            },
+        ),
+    },
+    functions={
+        'asyncio.to_thread': submit,
+        'asyncio.run_coroutine_threadsafe': run_threadsafe,
+        'concurrent.futures.wait': _for_all('futures.wait', 1),
+        'concurrent.futures.as_completed': _for_all('futures.as_completed', 1),
+    },
+    aliases={
+        'concurrent.futures.thread.ThreadPoolExecutor': 'concurrent.futures.ThreadPoolExecutor',
+        'concurrent.futures.process.ProcessPoolExecutor': (
+            'concurrent.futures.ProcessPoolExecutor'
+        ),
+    },
+)

@@ -1,0 +1,301 @@
+"""
+Calls that wait for what is outside of the program: processes, sockets, ports, people.
+
+Sources: CPython 3.12, ``subprocess.py``, ``socket``, ``select``, ``urllib/request.py``; pyserial
+3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``; OpenCV 4, ``waitKey`` (a delay of zero or
+less means for ever) and ``videoio`` (a read takes as long as a frame, and gives up after 10 s by
+``cap_v4l.cpp``, after 30 s by ``cap_ffmpeg_impl.hpp``).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ros2cc_extract.extract.static.libraries.standard import child_pipes
+from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
+from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
+from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.library_table import (
+    Library,
+    LibraryClass,
+    Property,
+)
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Value,
+)
+from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.places import Place
+
+_TIMEOUT = 'timeout'
+_LIMIT = '__timeout__'
+_WAIT_KEY = 'cv2.waitKey'
+_READ = 'os.read'
+_COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
+_CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
+
+
+@dataclass(frozen=True)
+class _Wait:
+    """
+    One call that waits.
+
+    :param position: where its time-out may stand; by name it is ``timeout`` everywhere.
+    :param takes_limit: it keeps to the time-out of its object.
+    """
+
+    position: int | None = None
+    takes_limit: bool = False
+
+
+_BY_NAME = _Wait()
+OF_CHILDREN = frozenset(['os.wait', 'os.waitpid'])
+"""Waits for the end of a child of this process."""
+_LIMITED = _Wait(takes_limit=True)
+
+_FUNCTIONS: dict[str, _Wait] = {
+    'subprocess.run': _BY_NAME,
+    'subprocess.call': _BY_NAME,
+    'subprocess.check_call': _BY_NAME,
+    'subprocess.check_output': _BY_NAME,
+    'subprocess.getoutput': _BY_NAME,
+    'subprocess.getstatusoutput': _BY_NAME,
+    'os.system': _BY_NAME,
+    'os.read': _BY_NAME,
+    'os.wait': _BY_NAME,
+    'os.waitpid': _BY_NAME,
+    'builtins.input': _BY_NAME,
+    'sys.stdin.read': _BY_NAME,
+    'sys.stdin.readline': _BY_NAME,
+    'sys.stdin.readlines': _BY_NAME,
+    'select.select': _Wait(3),
+    'signal.pause': _BY_NAME,
+    'signal.sigwait': _BY_NAME,
+    'socket.create_connection': _Wait(1),
+    'urllib.request.urlopen': _Wait(2),
+    'requests.request': _BY_NAME,
+    'requests.get': _BY_NAME,
+    'requests.post': _BY_NAME,
+    'requests.put': _BY_NAME,
+    'requests.patch': _BY_NAME,
+    'requests.delete': _BY_NAME,
+    'requests.head': _BY_NAME,
+}
+
+_SOCKET = dict.fromkeys(
+    ('accept', 'connect', 'recv', 'recv_into', 'recvfrom', 'recvfrom_into', 'recvmsg'), _LIMITED
+)
+_SERIAL = dict.fromkeys(('read', 'read_until', 'readline', 'readlines', 'readinto'), _LIMITED)
+_REQUESTS = dict.fromkeys(('get', 'post', 'put', 'patch', 'delete', 'head', 'request'), _BY_NAME)
+
+# What another program writes (``subprocess.py``, ``Popen.__init__``).
+_STREAM = 'io.BufferedReader'
+_READS = dict.fromkeys(('read', 'read1', 'readinto', 'readline', 'readlines'), _BY_NAME)
+
+_CLASSES: dict[str, dict[str, _Wait]] = {
+    'subprocess.Popen': {'wait': _Wait(0), 'communicate': _Wait(1)},
+    _STREAM: _READS,
+    'socket.socket': _SOCKET,
+    'serial.Serial': _SERIAL,
+    'requests.Session': _REQUESTS,
+    'selectors.DefaultSelector': {'select': _Wait(0)},
+}
+
+
+def _waiting(name: str, row: _Wait) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        timeout = call.argument(row.position, _TIMEOUT)
+        slots = receiver.slots if isinstance(receiver, Instance) else {}
+        limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
+        if row.takes_limit and isinstance(limit, Value):
+            timeout = limit
+        is_at_once = name == _CONNECT and _DATAGRAM in slots
+        is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
+        if not (is_at_once and row.takes_limit) and not _is_there(machine, name):
+            machine.note_blocking(name, None, timeout, call.place)
+        if name == child_pipes.WAIT and timeout in (None, NONE):
+            child_pipes.note_wait(machine.world, receiver, _streams(slots), call.place)
+        elif name == _COMMUNICATE:
+            child_pipes.note_read(machine.world, receiver)
+        return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
+
+    return handler
+
+
+def _streams(slots: Mapping[str, object]) -> list[str]:
+    return [name for name in ('stdout', 'stderr') if f'{_PIPED}{name}' in slots]
+
+
+def _is_there(machine: Machine, name: str) -> bool:
+    """
+    Whether something is read of which the program has asked whether it is there.
+
+    ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
+    a descriptor that ``os.set_blocking`` has changed gives what there is.
+    """
+    if not name.rpartition('.')[2].startswith(('read', 'recv')):
+        return False
+    asking = machine.stack[-1].node if machine.stack else None
+    if asking is not None and noted_on(asking, 'asks_first', _asks_first):
+        return True
+    trees = machine.world.trees if name == _READ else ()
+    return any(noted_on(tree, 'never_blocks', _never_blocks) for tree in trees)
+
+
+def _asks_first(function: ast.AST) -> bool:
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in ('select', 'in_waiting', 'inWaiting')
+        for part in walk(function)
+    )
+
+
+def _never_blocks(tree: ast.Module) -> bool:
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in ('set_blocking', 'O_NONBLOCK')
+        for part in walk(tree)
+    )
+
+
+def _fork(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Parent and child go on with the same text, the child with whatever others have locked."""
+    machine.world.forked = machine.world.forked or call.place
+    return machine.mystery('which of two processes goes on', call.place, 'os.fork()')
+
+
+def _limit(position: int, *names: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        limit = call.argument(position, *names)
+        if isinstance(receiver, Instance) and limit is not None:
+            machine.store.write(receiver, _LIMIT, limit)
+        return NONE
+
+    return handler
+
+
+def _blocks(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``setblocking(False)`` is a time-out of zero (``socket`` documentation)."""
+    flag = call.argument(0, 'flag')
+    if isinstance(receiver, Instance) and isinstance(flag, Const):
+        machine.store.write(receiver, _LIMIT, NONE if flag.value else Const(0))
+    return NONE
+
+
+def _kind_of_socket(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Nobody answers the ``connect`` of a datagram socket (``socket`` documentation)."""
+    kind = call.argument(1, 'type')
+    if isinstance(receiver, Instance) and isinstance(kind, Name) and kind.name == _DATAGRAM:
+        machine.store.write(receiver, _DATAGRAM, kind)
+    return NONE
+
+
+def _child(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance):
+        for name in child_pipes.piped(call):
+            machine.store.write(receiver, f'{_PIPED}{name}', Const(value=True))
+    return NONE
+
+
+_INITS: dict[str, Handler] = {
+    'serial.Serial': _limit(5, _TIMEOUT),
+    'subprocess.Popen': _child,
+    'socket.socket': _kind_of_socket,
+}
+
+
+def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
+    child_pipes.note_read(machine.world, instance)
+    return Instance(Name(_STREAM), instance.place)
+
+
+_PROPERTIES: dict[str, dict[str, Property]] = {
+    'subprocess.Popen': {'stdout': _stream, 'stderr': _stream}
+}
+_MORE: dict[str, dict[str, Handler]] = {
+    'socket.socket': {'settimeout': _limit(0, 'value'), 'setblocking': _blocks},
+}
+
+
+def _class(name: str, methods: dict[str, _Wait]) -> LibraryClass:
+    last = name.rpartition('.')[2]
+    return LibraryClass(
+        state=lambda machine, instance: PlainState('outside', place=instance.place),
+        init=_INITS.get(name, lambda machine, receiver, call: NONE),
+        methods={
+            **{method: _waiting(f'{last}.{method}', row) for method, row in methods.items()},
+            **_MORE.get(name, {}),
+        },
+        properties=_PROPERTIES.get(name, {}),
+    )
+
+
+def _wait_key(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``cv2.waitKey(0)`` waits for a person; with a delay, which is in milliseconds, it ends."""
+    delay = call.argument(0, 'delay')
+    if delay is None or (isinstance(delay, Const) and delay.value == 0):
+        machine.note_blocking(_WAIT_KEY, None, None, call.place)
+    return machine.mystery(f'result of {_WAIT_KEY}', call.place, f'{_WAIT_KEY}(…)')
+
+
+_CAPTURE = 'cv2.VideoCapture'
+READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab'})
+"""They wait for the next frame, and end by themselves where none comes."""
+
+
+def _reads_camera(name: str) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if not (isinstance(receiver, Instance) and _OF_FILE in receiver.slots):
+            machine.note_blocking(name, None, None, call.place)
+        return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
+
+    return handler
+
+
+def _open_capture(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A number, a device, an address or a pipeline is a camera; other texts are files."""
+    source = call.argument(0, 'filename')
+    text = source.value if isinstance(source, Const) else None
+    is_camera = not isinstance(text, str) or text.startswith('/dev/') or '://' in text
+    if not is_camera and '!' not in str(text) and isinstance(receiver, Instance):
+        machine.store.write(receiver, _OF_FILE, Const(True))
+    return NONE
+
+
+_OF_FILE = '__of_file__'
+
+CALLS = frozenset(
+    [
+        _WAIT_KEY,
+        *(name.removeprefix('builtins.') for name in _FUNCTIONS),
+        *(f'{name.rpartition(".")[2]}.{method}' for name, of in _CLASSES.items() for method in of),
+    ]
+)
+"""How these waits are called in a specification."""
+
+TABLE = Library(
+    classes={
+        **{name: _class(name, methods) for name, methods in _CLASSES.items()},
+        _CAPTURE: LibraryClass(
+            init=_open_capture,
+            methods={
+                name.rpartition('.')[2]: _reads_camera(name) for name in sorted(READS_OF_CAMERAS)
+            },
+        ),
+    },
+    functions={
+        'os.fork': _fork,
+        **{
+            name: _waiting(name.removeprefix('builtins.'), row) for name, row in _FUNCTIONS.items()
+        },
+        _WAIT_KEY: _wait_key,
+        'atexit.register': on_exit,
+        'signal.signal': on_signal,
+    },
+)

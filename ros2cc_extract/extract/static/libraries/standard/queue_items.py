@@ -1,0 +1,119 @@
+"""
+What is put into the queues of a program, for whoever takes it out.
+
+Which item somebody gets is not known: it is one of all that are put in. Until all is followed
+each item is taken to be given away; at the end that is taken back of those that everybody in
+sight who takes items has met.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import is_waited_on
+from ros2cc_extract.extract.static.python.machine.escape import reached
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Call,
+    Class,
+    Function,
+    Instance,
+    Library,
+    Mystery,
+    Partial,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Place
+
+_PUT = 'it is put into a queue'
+_MOST = 24
+
+
+@dataclass
+class Contents:
+    """
+    Of one queue.
+
+    :param taken: how many items had been put in when somebody took one last, by the place.
+    """
+
+    queue: Instance
+    items: list[Value] = field(default_factory=list)
+    taken: dict[Place, int] = field(default_factory=dict)
+
+    @property
+    def met(self) -> int:
+        """How many items all have met who take some."""
+        return min(self.taken.values(), default=0)
+
+
+def give_items(machine: Machine, queue: Value, call: Call) -> None:
+    """Something is put into ``queue``."""
+    for item in (*call.args[:1], *call.keywords.values()):
+        machine.give_away(item, _PUT, call.place)
+        for option in options_of(queue):
+            if isinstance(option, Instance) and _is_of_threads(option):
+                contents = machine.world.queues.setdefault(id(option), Contents(option))
+                if item not in contents.items:
+                    contents.items.append(item)
+
+
+def taken_out(machine: Machine, queue: Value, call: Call) -> Value | None:
+    """One of the items, where there is any with which the program does something."""
+    found: list[Value] = []
+    for option in options_of(queue):
+        if not isinstance(option, Instance) or not _is_of_threads(option):
+            return None
+        contents = machine.world.queues.setdefault(id(option), Contents(option))
+        contents.taken[call.place] = len(contents.items)
+        found += (each for item in contents.items for each in options_of(item))
+    if len(found) > _MOST or not any(map(_does_something, found)):
+        return None
+    unknown = [each for each in found if isinstance(each, Mystery)]
+    others = [each for each in found if not isinstance(each, (Mystery, Sequence))]
+    return choice([*_joined(found), *others, *unknown[:1]])
+
+
+def take_back(world: World) -> None:
+    """When all was followed: who takes items has met them, and ends what he ends."""
+    queues = list(world.queues.values())
+    lost = {id(each.queue): 0 if id(each.queue) in world.given else each.met for each in queues}
+    left = [item for each in queues for item in each.items[lost[id(each.queue)] :]]
+    met = [item for each in queues for item in each.items[: lost[id(each.queue)]]]
+    away = {id(thing) for item in left for thing in reached(item)}
+    for thing in (thing for item in met for thing in reached(item)):
+        given = world.given.get(id(thing))
+        if given is not None and given.reason == _PUT and id(thing) not in away:
+            del world.given[id(thing)]
+
+
+def _is_of_threads(queue: Instance) -> bool:
+    """Those of other processes give copies, and those of loops are taken from by who awaits."""
+    return isinstance(queue.cls, Library) and queue.cls.name.startswith('queue.')
+
+
+def _does_something(item: Value) -> bool:
+    if isinstance(item, Sequence):
+        return any(_does_something(option) for each in item.items for option in options_of(each))
+    is_own = isinstance(item, Instance) and isinstance(item.cls, Class)
+    return is_own or is_waited_on(item) or isinstance(item, (Bound, Function, Partial))
+
+
+def _joined(found: Iterable[Value]) -> Iterator[Value]:
+    """Of tuples of one length one, with all that may be at each place."""
+    by_length: dict[int, list[Sequence]] = {}
+    for each in found:
+        if isinstance(each, Sequence) and each.rest is None:
+            by_length.setdefault(len(each.items), []).append(each)
+        elif isinstance(each, Sequence):
+            yield each
+    for alike in by_length.values():
+        places = zip(*(each.items for each in alike), strict=True)
+        options = ([o for value in place for o in options_of(value)] for place in places)
+        yield Sequence(tuple(map(choice, options)))

@@ -1,0 +1,135 @@
+"""Queues of the standard library: who puts, who gets, and who waits for the other."""
+
+from __future__ import annotations
+
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
+from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import answer
+from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Const,
+    Handler,
+    Instance,
+    Value,
+    options_of,
+)
+
+
+def init(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A queue has a size, or none."""
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, INITIAL, call.argument(0, 'maxsize') or Const(0))
+    return NONE
+
+
+def may_be_full(queue: Instance) -> bool:
+    """Source: ``queue.py``; a size of zero or less has no bound."""
+    size = queue.slots.get(INITIAL, Const(0))
+    is_number = isinstance(size, Const) and isinstance(size.value, (int, float))
+    return not is_number or size.value > 0
+
+
+def _waits(call: Call, position: int) -> bool:
+    """``block`` is true unless it is said otherwise."""
+    block = call.argument(position, 'block')
+    return not (isinstance(block, Const) and not block.value)
+
+
+def _get(machine: Machine, receiver: Value, call: Call) -> Value:
+    if _waits(call, 0):
+        machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
+    machine.note_wake(receiver, Word.GET, call.place)
+    _move(machine, receiver, Word.GET)
+    item = taken_out(machine, receiver, call)
+    return item or machine.mystery('what was put into a queue', call.place, 'get()')
+
+
+def _move(machine: Machine, queue: Value, word: Word) -> None:
+    """Where something was just put in there is something, where it was taken out there is room."""
+    world = machine.world
+    if (queue, Word.DONE) not in world.ready:  # else it was asked how many there are
+        world.ready -= {(queue, Word.PUT), (queue, Word.GET)}
+        world.ready |= {(queue, word)}
+
+
+def _put(machine: Machine, receiver: Value, call: Call) -> Value:
+    if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
+        machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
+    give_items(machine, receiver, call)
+    machine.note_wake(receiver, Word.PUT, call.place, is_sign=_is_sign(call))
+    _move(machine, receiver, Word.PUT)
+    return NONE
+
+
+def _is_sign(call: Call) -> bool:
+    """Whether what is put may mean the end to whoever takes it."""
+    items = (*call.args[:1], *call.keywords.values())
+    return any(isinstance(o, (Const, Instance)) for item in items for o in options_of(item))
+
+
+def _without_waiting(word: Word) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        if word is Word.PUT:
+            give_items(machine, receiver, call)
+        is_sign = word is Word.PUT and _is_sign(call)
+        machine.note_wake(receiver, word, call.place, is_sign=is_sign)
+        if word is not Word.DONE:
+            _move(machine, receiver, word)
+        item = taken_out(machine, receiver, call) if word is Word.GET else None
+        return item or machine.mystery('what was put into a queue', call.place, 'get_nowait()')
+
+    return handler
+
+
+def _join(machine: Machine, receiver: Value, call: Call) -> Value:
+    machine.note_blocking('Queue.join', receiver, None, call.place)
+    return NONE
+
+
+def _is_empty(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.PUT, call, if_true=False)
+
+
+def _is_full(machine: Machine, receiver: Value, call: Call) -> Value:
+    return answer(receiver, Word.GET, call, if_true=False)
+
+
+def _size(machine: Machine, receiver: Value, call: Call) -> Value:
+    """Who has asked how much there is, be it in a test or for a loop, takes no more than that."""
+    machine.world.ready |= {(receiver, word) for word in (Word.PUT, Word.GET, Word.DONE)}
+    return machine.mystery('how full a queue is', call.place, 'queue')
+
+
+QUEUE_METHODS: dict[str, Handler] = {
+    'get': _get,
+    'put': _put,
+    'get_nowait': _without_waiting(Word.GET),
+    'put_nowait': _without_waiting(Word.PUT),
+    'task_done': _without_waiting(Word.DONE),
+    'join': _join,
+    'empty': _is_empty,
+    'full': _is_full,
+    'qsize': _size,
+}
+_QUEUE = LibraryClass(
+    state=lambda machine, instance: PlainState('queue', place=instance.place),
+    init=init,
+    methods=QUEUE_METHODS,
+)
+
+TABLE = Library(
+    classes={
+        'queue.Queue': _QUEUE,
+        'queue.LifoQueue': _QUEUE,
+        'queue.PriorityQueue': _QUEUE,
+        'queue.SimpleQueue': _QUEUE,
+        'multiprocessing.Queue': _QUEUE,
+        'multiprocessing.JoinableQueue': _QUEUE,
+        'multiprocessing.SimpleQueue': _QUEUE,
+    },
+)

@@ -1,0 +1,93 @@
+"""
+Servers of the standard library, whose handlers run on threads that no executor has.
+
+Source: CPython 3.12, ``socketserver.py`` (``serve_forever``, ``ThreadingMixIn.process_request``
+starts a thread for each request; a plain server runs the handler itself) and ``http/server.py``
+(``handle_one_request`` calls ``do_GET`` and its like).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from ros2cc_extract.extract.static.concurrency.activities import begin
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.objects.loops import counted
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import ActivityKind
+
+_HANDLER = '__handler__'
+
+
+def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    machine.store.write(receiver, _HANDLER, call.argument(1, 'RequestHandlerClass') or NONE)
+    return NONE
+
+
+def _serve(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    given = receiver.slots.get(_HANDLER)
+    options = options_of(given) if isinstance(given, Value) else ()
+    with counted(machine, Unknown('as often as somebody asks', call.place)):
+        for cls in (option for option in options if isinstance(option, Class)):
+            for method in _methods(machine, cls, receiver, call):
+                if _starts_threads(receiver):
+                    begin(machine, ActivityKind.THREAD, method, Call(call.place), daemon=True)
+                else:
+                    answers = partial(machine.call, method, Call(call.place))
+                    machine.branch([answers, lambda: NONE], call.place)
+    return NONE
+
+
+def _starts_threads(server: Instance) -> bool:
+    cls = server.cls
+    names = [getattr(each, 'name', '') for each in cls.mro] if isinstance(cls, Class) else []
+    return any('Threading' in name for name in (*names, server.class_name))
+
+
+def _methods(machine: Machine, cls: Class, server: Value, call: Call) -> Iterator[Value]:
+    """What answers requests, of one handler: it lives no longer than its request."""
+    handler = machine.instantiate(cls, Call(call.place))
+    if not isinstance(handler, Instance):
+        return
+    machine.store.write(handler, 'server', server)
+    names = [name for each in cls.mro if isinstance(each, Class) for name in each.slots]
+    for name in dict.fromkeys(names):
+        if name == 'handle' or name.startswith('do_'):
+            method = machine.attribute(handler, name, call.place)
+            if isinstance(method, Bound):
+                yield method
+
+
+_SERVER = LibraryClass(
+    state=lambda machine, instance: PlainState('server', place=instance.place),
+    init=_init,
+    methods={'serve_forever': _serve, 'handle_request': _serve},
+)
+
+TABLE = Library(
+    classes={
+        f'{module}.{name}': _SERVER
+        for module, name in (
+            ('http.server', 'HTTPServer'),
+            ('http.server', 'ThreadingHTTPServer'),
+            ('socketserver', 'TCPServer'),
+            ('socketserver', 'ThreadingTCPServer'),
+            ('socketserver', 'UDPServer'),
+            ('socketserver', 'ThreadingUDPServer'),
+        )
+    }
+)

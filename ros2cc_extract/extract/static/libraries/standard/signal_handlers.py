@@ -1,0 +1,64 @@
+"""
+Functions that the operating system has called: handlers of signals.
+
+A handler runs between two lines of the main thread, whenever the outside likes. What it stores
+ends the loops that test it, and what it sets, puts or notifies ends waits.
+Source: CPython 3.12, ``signal`` (handlers run in the main thread, after the signal has come).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from ros2cc_extract.extract.static.program.relevance import walk
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import ActivityKind
+
+
+def on_signal(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``signal.signal(number, handler)``."""
+    for option in options_of(call.argument(1, 'handler') or NONE):
+        machine.world.signal_handlers.append(_beside(option, call.place))
+        function = option.function if isinstance(option, Bound) else option
+        if isinstance(function, Function):
+            for name, place in _stored_by(function, option):
+                machine.world.other_writes.setdefault(name, (None, place))
+    return machine.mystery('the handler before', call.place, 'signal.signal(…)')
+
+
+def _beside(handler: Value, place: Place) -> ActivityState:
+    """It is followed like a thread, and is none: nothing starts it, and no unit has it."""
+    unknown = Unknown('what the system gives a handler of a signal', place)
+    return ActivityState(ActivityKind.THREAD, place, handler, Call(place, more=unknown))
+
+
+def _stored_by(function: Function, handler: Value) -> Iterator[tuple[str, Place]]:
+    """The globals and attributes that stand in its text as stored."""
+    parts = list(walk(function.node))
+    shared = {name for part in parts if isinstance(part, ast.Global) for name in part.names}
+    owner = handler.receiver if isinstance(handler, Bound) else None
+    cls = owner.cls if isinstance(owner, Instance) else owner
+    for part in parts:
+        if not isinstance(getattr(part, 'ctx', None), ast.Store):
+            continue
+        if isinstance(part, ast.Name) and part.id in shared:
+            yield f'{function.module.name}.{part.id}', _at(function, part)
+        elif isinstance(part, ast.Attribute) and isinstance(cls, Class):
+            yield f'{cls.name}.{part.attr}', _at(function, part)
+
+
+def _at(function: Function, part: ast.expr) -> Place:
+    return Place(function.place.file, part.lineno, part.col_offset + 1)

@@ -1,0 +1,299 @@
+"""
+What a test in a callback reads may have changed since the set-up.
+
+Callbacks are followed one after the other from the state that the set-up leaves behind, but run
+in any order: a test on what some other function changes is open, whatever is stored there now.
+So it is in the set-up itself once anything has been spun.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence as Several
+
+from ros2cc_extract.extract.static.concurrency.accesses import flag_locks, lost_notifies
+from ros2cc_extract.extract.static.concurrency.accesses.fixed_point import note_met
+from ros2cc_extract.extract.static.program.relevance import (
+    assignments_of_attributes,
+    noted_on,
+    reassigned_attributes,
+    walk,
+)
+from ros2cc_extract.extract.static.python.machine.dependences import Asked, computed_from, names_in
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.values.containers import Collection, Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Function,
+    Instance,
+    Module,
+    Partial,
+    Scope,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import When
+
+
+def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
+    """``bool(test)``; ``None`` when that depends, also on when it is asked."""
+    before = machine.world.changing
+    value = machine.evaluate(test, frame)
+    holds = machine.truth(value)
+    machine.world.tested = value
+    return holds if machine.world.changing == before else None
+
+
+def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -> bool | None:
+    """As ``decide``, for the arms of ``outer``: what they do rests on what is read here."""
+    if machine.world.deeds is None:
+        return decide(machine, node.test, frame)
+    reading, found = machine.world.reading, set[str]()
+    calls = reading.calls
+    with reading.of(found):
+        holds = decide(machine, node.test, frame)
+    place = frame.place(outer)
+    known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
+    reading.tests[place] = known | found | computed_from(node.test, frame.sources)
+    if node is outer:
+        reading.tested_at[place] = calls
+        flag_locks.note_test(
+            reading, node, found, place, lambda each: _constant(machine, each, frame)
+        )
+    lost_notifies.note_test(machine.world, node.test, place, reading.tests[place])
+    return holds
+
+
+def _constant(machine: Machine, value: ast.expr, frame: Frame) -> str | None:
+    """What a name, or an attribute, or a literal stands for, if that is one constant."""
+    if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
+        return None
+    with machine.world.reading.apart():
+        return flag_locks.text_of(machine.evaluate(value, frame))
+
+
+def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:
+    """As ``decide``, for a loop: what it does in its rounds rests on what is read here."""
+    found = set[str]()
+    with machine.world.reading.of(found):
+        holds = decide(machine, node.test, frame)
+    names = frozenset(found) | computed_from(node.test, frame.sources)
+    place = frame.place(node)
+    return holds, lost_notifies.note_test(machine.world, node.test, place, names, repeats=True)
+
+
+def note_rounds(loop: ast.While, frame: Frame) -> None:
+    """In a later round, names that the loop rebinds hold what the round before has left."""
+    frame.copies = frame.copies | noted_on(loop, 'rebound', _rebound)
+
+
+def _rebound(loop: ast.AST) -> frozenset[str]:
+    return frozenset(
+        part.id
+        for part in walk(loop)
+        if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+    )
+
+
+def evaluate_copied(
+    machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
+) -> Value:
+    """The value of an assignment; a name that gets it is as open as what was read for it."""
+    before = machine.world.changing
+    held = _evaluate_for(machine, value, targets, frame)
+    is_open = machine.world.changing != before
+    if is_open or frame.copies:
+        names = {target.id for target in targets if isinstance(target, ast.Name)}
+        frame.copies = frame.copies | names if is_open else frame.copies - names
+    return held
+
+
+def _evaluate_for(
+    machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
+) -> Value:
+    if machine.world.deeds is None:
+        return machine.evaluate(value, frame)
+    reading, found = machine.world.reading, set[str]()
+    with reading.of(found):
+        held = machine.evaluate(value, frame)
+    flowing = frozenset(found) | computed_from(value, frame.sources)
+    frame.sources.update(
+        (target.id, flowing) for target in targets if isinstance(target, ast.Name)
+    )
+    reading.flowing = flowing
+    return held
+
+
+def evaluate_argument(
+    machine: Machine, argument: ast.expr, frame: Frame, call: Call, at: int | str | None
+) -> Value:
+    """The value of an argument; a parameter knows what it was computed from, as a name does."""
+    if machine.world.deeds is None or isinstance(argument, ast.Constant):
+        return machine.evaluate(argument, frame)
+    found = set[str]()
+    with machine.world.reading.of(found):
+        held = machine.evaluate(argument, frame)
+    sources = frozenset(found) | computed_from(argument, frame.sources)
+    if at is not None and sources:
+        call.sources[at] = sources
+    return held
+
+
+def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> Value:
+    """What a loop goes over; the names of its rounds are computed from what was read for it."""
+    if machine.world.deeds is None:
+        return machine.evaluate(node.iter, frame)
+    found = set[str]()
+    with machine.world.reading.of(found):
+        values = machine.evaluate(node.iter, frame)
+    sources = frozenset(found) | computed_from(node.iter, frame.sources)
+    frame.sources.update(dict.fromkeys(names_in(node.target), sources))
+    return values
+
+
+def _others_have_run(world: World) -> bool:
+    """Whether callbacks may have run since the set-up has stored something: it has spun, too."""
+    return world.when is When.CALLBACK or (world.when is When.START and bool(world.spins))
+
+
+def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:
+    """``owner.name`` is read and gives ``held``."""
+    if not _others_have_run(machine.world):
+        return
+    if isinstance(held, Collection) and _may_be_filled(machine, held):
+        machine.world.changing += 1
+        if not holds_objects(held) and machine.world.when is When.CALLBACK:
+            machine.world.lacking.append((held, None))
+    elif is_assigned_later(machine, owner, name):
+        machine.world.changing += 1
+        note_met(machine.world, owner, name, held)
+
+
+def is_assigned_later(machine: Machine, owner: Instance, name: str) -> bool:
+    """Whether a method of ``owner`` or code outside of its class assigns the attribute anew."""
+    own = any(
+        isinstance(cls, Class) and name in reassigned_attributes(cls.node) for cls in owner.mro
+    )
+    return own or any(name in _handed_in(tree) for tree in machine.world.trees)
+
+
+def ever_held(machine: Machine, owner: Instance, name: str) -> list[Value] | None:
+    """The objects that the attribute ever holds, if every assignment was followed."""
+    stored = machine.world.stored.get((owner, name), {})
+    options = [option for value in stored.values() for option in options_of(value)]
+    values = [option for option in options if option != NONE]
+    if not values or not all(isinstance(value, Instance) for value in values):
+        return None
+    sites = [
+        Place(cls.module.file, line, column)
+        for cls in owner.mro
+        if isinstance(cls, Class)
+        for line, column in assignments_of_attributes(cls.node).get(name, ())
+    ]
+    if any(site not in stored for site in sites):
+        return None
+    return None if any(name in _handed_in(tree) for tree in machine.world.trees) else values
+
+
+def note_global(machine: Machine, module: Module, name: str, held: Value) -> None:
+    """``module.name`` is read and gives ``held``."""
+    if not _others_have_run(machine.world):
+        return
+    if _may_be_filled(machine, held):
+        machine.world.changing += 1
+    elif name in machine.changed_globals(module):
+        machine.world.changing += 1
+        note_met(machine.world, module, name, held)
+
+
+def note_name(machine: Machine, name: str, held: Value, frame: Frame) -> None:
+    """A name is read and gives ``held``."""
+    if not _others_have_run(machine.world):
+        return
+    if name in frame.scope.slots:
+        is_open = name in frame.copies
+        if machine.world.when is When.START:
+            is_open = is_open or _may_be_filled(machine, held)
+            is_open = is_open or _is_rebound_inside(machine, name, frame)
+        machine.world.changing += is_open
+        return
+    if _may_be_filled(machine, held):
+        machine.world.changing += 1
+    elif _is_rebound(machine, name, frame):
+        machine.world.changing += 1
+        note_met(machine.world, _owner_of(name, frame), name, held)
+
+
+def _is_rebound_inside(machine: Machine, name: str, frame: Frame) -> bool:
+    """Whether a function inside of what is followed may rebind its ``name``."""
+    if frame.function is None:
+        return name in machine.changed_globals(frame.module)
+    return name in noted_on(frame.function.node, 'nonlocals', _nonlocal_names)
+
+
+def _owner_of(name: str, frame: Frame) -> Scope | Module:
+    scope = frame.scope.parent
+    while scope is not None and name not in scope.slots:
+        scope = scope.parent
+    return scope or frame.module
+
+
+def _is_rebound(machine: Machine, name: str, frame: Frame) -> bool:
+    scope = frame.scope.parent
+    while scope is not None:
+        if name in scope.slots:
+            return any(name in _nonlocals(tree) for tree in machine.world.trees)
+        scope = scope.parent
+    return name in machine.changed_globals(frame.module)
+
+
+def _may_be_filled(machine: Machine, held: Value | None) -> bool:
+    if not isinstance(held, Collection):
+        return False
+    if machine.world.when is When.START:
+        is_fixed = isinstance(held, Sequence) and held.kind in ('tuple', 'range')
+        return not is_fixed and not held.slots.get('items') and not held.slots.get('entries')
+    return loops.may_be_filled(machine, held)
+
+
+def holds_objects(collection: Collection) -> bool:
+    """Whether there are objects in it, of which a callback may take one."""
+    items = (
+        *collection.slots.get('items', ()),
+        *collection.slots.get('entries', {}).values(),
+    )
+    return any(isinstance(option, _THINGS) for item in items for option in options_of(item))
+
+
+_THINGS = (Instance, Bound, Function, Partial)
+
+
+def _handed_in(tree: ast.Module) -> frozenset[str]:
+    return noted_on(tree, 'handed_in', _attributes_of_others)
+
+
+def _attributes_of_others(tree: ast.Module) -> frozenset[str]:
+    """Attributes that functions assign on something else than ``self``."""
+    return frozenset(
+        part.attr
+        for part in walk(tree)
+        if isinstance(part, ast.Attribute)
+        and isinstance(part.ctx, ast.Store)
+        and not (isinstance(part.value, ast.Name) and part.value.id == 'self')
+    )
+
+
+def _nonlocals(tree: ast.Module) -> frozenset[str]:
+    return noted_on(tree, 'nonlocals', _nonlocal_names)
+
+
+def _nonlocal_names(tree: ast.AST) -> frozenset[str]:
+    return frozenset(
+        name for part in walk(tree) if isinstance(part, ast.Nonlocal) for name in part.names
+    )

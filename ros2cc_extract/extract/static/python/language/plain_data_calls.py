@@ -1,0 +1,181 @@
+"""
+Calls that work on plain data alone, and for long: they are left, and what they gave is unknown.
+
+Programs that read a file of some nested format spend their time there, and what makes nodes
+would not be reached. A call is plain by what its text names, and the text of all that it may
+lead to, by name; so it is never one that makes, serves or waits for anything of ROS.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from ros2cc_extract.extract.static.program.relevance import creates_entities, noted_on, walk
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Call,
+    Function,
+    Heaped,
+    Instance,
+    Module,
+    Mystery,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+
+LONG = 5_000
+"""After so many steps of one piece of a program plain calls are counted."""
+
+FOR_EACH, AT_LEAST, FOR_ALL = 10_000, 150, 60_000
+"""Steps that all plain calls of one function may take, each call at least, all in one run."""
+
+_DOING = frozenset(
+    {
+        'Thread',
+        'Timer',
+        'Process',
+        'ThreadPoolExecutor',
+        'ProcessPoolExecutor',
+        'submit',
+        'Lock',
+        'RLock',
+        'Event',
+        'Condition',
+        'Semaphore',
+        'Barrier',
+        'acquire',
+        'call',
+        'call_async',
+        'wait',
+        'wait_for_service',
+        'publish',
+        'declare_parameter',
+        'exec',
+        'eval',
+        'getattr',
+        'exit',
+    }
+)
+
+
+def is_plain(world: World, function: Function) -> bool:
+    """Whether nothing that ``function`` may lead to has to do with ROS, threads or locks."""
+    if world.plain_of != len(world.trees):
+        # What is imported later may define more functions of a name.
+        world.plain, world.plain_of = {}, len(world.trees)
+    known = world.plain.get(id(function.node))
+    if known is None:
+        known = world.plain[id(function.node)] = leads_nowhere(world, function.node)
+    return known
+
+
+def leads_nowhere(world: World, start: ast.AST) -> bool:
+    """Whether nothing that ``start`` names makes, serves or waits for anything of ROS."""
+    return not any(
+        creates_entities(node) or noted_on(node, 'does_more', _does_more)
+        for node in _reachable(world, start)
+    )
+
+
+def may_make_entities(world: World, start: ast.AST) -> bool:
+    """Whether something that ``start`` names makes or serves entities."""
+    return any(creates_entities(node) for node in _reachable(world, start))
+
+
+def _reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
+    """``start``, and the functions and classes that it leads to by name."""
+    indices = [noted_on(tree, 'by_name', _by_name) for tree in world.trees]
+    waiting, seen = [start], {id(start)}
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for name in noted_on(node, 'used_names', _used_names):
+            for index in indices:
+                for other in index.get(name, ()):
+                    if id(other) not in seen:
+                        seen.add(id(other))
+                        waiting.append(other)
+
+
+def _used_names(node: ast.AST) -> frozenset[str]:
+    return frozenset(name for part in walk(node) if (name := _name(part)) is not None)
+
+
+def _name(part: ast.AST) -> str | None:
+    if isinstance(part, ast.Name):
+        return part.id
+    return part.attr if isinstance(part, ast.Attribute) else None
+
+
+def _by_name(tree: ast.Module) -> dict[str, list[ast.AST]]:
+    """The functions and classes of a module, also those without a name of their own."""
+    found: dict[str, list[ast.AST]] = {}
+    for part in walk(tree):
+        if isinstance(part, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            found.setdefault(part.name, []).append(part)
+        elif isinstance(part, ast.Assign) and isinstance(part.value, ast.Lambda):
+            for name in filter(None, map(_name, part.targets)):
+                found.setdefault(name, []).append(part.value)
+    return found
+
+
+def _does_more(node: ast.AST) -> bool:
+    """Whether it names threads, locks and waits, or calls what somebody hands in."""
+    if not _DOING.isdisjoint(_used_names(node)):
+        return True
+    handed_in = {part.arg for part in walk(node) if isinstance(part, ast.arg)} - {'cls'}
+    return any(
+        isinstance(part, ast.Call)
+        and isinstance(part.func, ast.Name)
+        and part.func.id in handed_in
+        for part in walk(node)
+    )
+
+
+def allowance(world: World, function: Function) -> int:
+    """How many steps the next plain call of ``function`` may take."""
+    left = min(FOR_EACH - world.spent[id(function.node)], FOR_ALL - world.spent[0])
+    return max(AT_LEAST, left)
+
+
+def note_spent(world: World, function: Function, steps: int) -> None:
+    """A plain call of ``function`` has taken so many steps."""
+    world.spent[id(function.node)] += steps
+    world.spent[0] += steps
+
+
+def leave(machine: Machine, function: Function, call: Call) -> Value:
+    """What a call gives that is left before its end; what it was given may be changed by then."""
+    why = Unknown(f'{function.name} works on plain data for long: it is not followed', call.place)
+    for value in _reached([*call.args, *call.keywords.values(), function.module]):
+        if isinstance(value, Collection):
+            machine.store.write(value, 'open', why)
+    return Mystery(why, f'{function.name}(…)')
+
+
+def _reached(values: Iterable[Value]) -> list[Heaped]:
+    """The collections that can be reached from here: two objects deep, and what they hold."""
+    found: dict[int, Heaped] = {}
+    waiting = [(value, 2) for value in values]
+    while waiting:
+        value, deep = waiting.pop()
+        for option in options_of(value):
+            inner = option.receiver if isinstance(option, Bound) else option
+            if not isinstance(inner, (Collection, Instance, Module)) or id(inner) in found:
+                continue
+            found[id(inner)] = inner
+            if deep:
+                waiting += ((each, deep - 1) for each in _held_by(inner))
+    return list(found.values())
+
+
+def _held_by(value: Heaped) -> list[Value]:
+    if isinstance(value, Mapping):
+        return list(value.entries.values())
+    held = value.items if isinstance(value, Sequence) else value.slots.values()
+    return [each for each in held if isinstance(each, Value)]

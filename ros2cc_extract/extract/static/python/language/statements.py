@@ -1,0 +1,542 @@
+"""
+Running statements.
+
+``execute_block`` returns how the block may end, as a sum of the constants of ``block_exits.py``;
+more than one bit is set where that depends on a branch nobody can decide.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial, reduce
+from operator import or_
+from typing import Any
+
+from ros2cc_extract.extract.static.concurrency.accesses import (
+    atomic_updates,
+    flag_locks,
+    lost_notifies,
+    torn_updates,
+)
+from ros2cc_extract.extract.static.concurrency.waits import end_operations, polling_loops
+from ros2cc_extract.extract.static.python.language import (
+    correlated_tests,
+    open_tests,
+    parameter_branches,
+)
+from ros2cc_extract.extract.static.python.language.try_blocks import run_try
+from ros2cc_extract.extract.static.python.language.with_blocks import run_with
+from ros2cc_extract.extract.static.python.machine import path_facts
+from ros2cc_extract.extract.static.python.machine.block_exits import (
+    BREAK,
+    CONTINUE,
+    DEAD,
+    LEAVING,
+    NEXT,
+    RETURN,
+)
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.store import Writes
+from ros2cc_extract.extract.static.python.machine.world import (
+    AccessKind,
+)
+from ros2cc_extract.extract.static.python.objects import iterators, loops, memoization
+from ros2cc_extract.extract.static.python.objects.allocation_sites import note_open_test
+from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Class,
+    Function,
+    Instance,
+    Module,
+    Mystery,
+    Native,
+    Partial,
+    Scope,
+    Value,
+)
+from ros2cc_extract.places import Place, Unknown
+
+
+class Statements(Machine):
+    """The statements of the language."""
+
+    def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Run ``body`` in order; what follows a possible early exit is conditional."""
+        path, exits = self.world.path, 0
+        reading, passed = self.world.reading, self.world.reading.passed
+        try:
+            for statement in body:
+                flow = self.execute(statement, frame)
+                exits |= flow & ~NEXT
+                if not flow & NEXT:
+                    return exits
+                if flow & LEAVING and frame.function is not None:
+                    self.world.path = (*self.world.path, (frame.place(statement), -1))
+                if _may_raise(statement):
+                    reading.passed = (*reading.passed, (frame.place(statement), -1))
+            return exits | NEXT
+        finally:
+            self.world.path, reading.passed = path, passed
+
+    def execute(self, statement: ast.stmt, frame: Frame) -> int:
+        """Run one statement."""
+        self.charge(1)
+        handler = _STATEMENTS.get(type(statement))
+        flow = handler(self, statement, frame) if handler else NEXT
+        if self.world.stopped:
+            return DEAD
+        return flow
+
+    def branches(
+        self,
+        bodies: Sequence[Callable[[], int]],
+        place: Place,
+        frame: Frame,
+    ) -> int:
+        """Run alternatives from one state; joins what may hold after them."""
+        ends: list[tuple[int, Writes]] = []
+        held, kept = self.world.held, []
+        ready, known = self.world.ready, []
+        for index, body in enumerate(bodies):
+            self.world.held, self.world.ready = held, ready
+            with self.on_path(place, index):
+                mark = self.store.open_branch()
+                flow = body()
+                if self.world.stopped:
+                    flow, self.world.stopped = DEAD, False
+                ends.append((flow, self.store.close_branch(mark)))
+                if flow & NEXT:
+                    kept.append(self.world.held)
+                    known.append(self.world.ready)
+        self.world.held = _held_by_all(kept or [held])
+        self.world.ready = path_facts.of_all(known or [ready])
+        live = [end for end in ends if end[0] & ~DEAD]
+        if not live:
+            self.store.join([writes for _, writes in ends])
+            return DEAD
+        _keep_loop_exits(live, frame)
+        going = [writes for flow, writes in live if flow & NEXT]
+        leaving = [_without(writes, frame.scope) for flow, writes in live if not flow & NEXT]
+        if going:
+            self.store.join(going, leaving)
+        else:
+            self.store.join([writes for _, writes in live])
+        return reduce(or_, (flow for flow, _ in live)) & ~DEAD
+
+
+def _keep_loop_exits(ends: Sequence[tuple[int, Writes]], frame: Frame) -> None:
+    """What a branch wrote to own names before ``break`` or ``continue`` holds later on."""
+    for flow, writes in ends:
+        own = {key: entry for key, entry in writes.items() if entry[0] is frame.scope}
+        if own and flow & BREAK:
+            frame.breaks.append(own)
+        if own and flow & CONTINUE:
+            frame.continues.append(own)
+
+
+def _held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """Locks that are held however the branches were left."""
+    return tuple(lock for lock in ends[0] if all(lock in others for others in ends[1:]))
+
+
+@contextmanager
+def _loop(machine: Statements, frame: Frame) -> Iterator[None]:
+    """A loop runs inside; afterwards what held at any ``break`` may hold."""
+    outer = frame.breaks, frame.continues, frame.known_at_break
+    frame.breaks, frame.continues, frame.known_at_break = [], [], []
+    try:
+        yield
+        machine.store.join([{}], frame.breaks)
+    finally:
+        frame.breaks, frame.continues, frame.known_at_break = outer
+
+
+def _round(machine: Statements, body: Sequence[ast.stmt], frame: Frame) -> int:
+    """Run the body of a loop once."""
+    flow = machine.execute_block(body, frame)
+    machine.store.join([{}], frame.continues)
+    frame.continues.clear()
+    return flow
+
+
+def _without(writes: Writes, scope: Scope) -> Writes:
+    """The writes of a branch that leaves the function, less those to its own names."""
+    return {key: entry for key, entry in writes.items() if entry[0] is not scope}
+
+
+def _expression(machine: Statements, node: ast.Expr, frame: Frame) -> int:
+    if _is_of_own_name(node.value, frame):
+        machine.evaluate(node.value, frame)
+        return NEXT
+    with machine.world.reading.apart():
+        machine.evaluate(node.value, frame)
+    return NEXT
+
+
+def _is_of_own_name(value: ast.expr, frame: Frame) -> bool:
+    """``rows.append(x)``: what is put into an object of the function's own may be given back."""
+    while isinstance(value, (ast.Attribute, ast.Subscript, ast.Call, ast.Await)):
+        value = value.func if isinstance(value, ast.Call) else value.value
+    return not isinstance(value, ast.Name) or (
+        value.id != 'self' and value.id in frame.scope.slots
+    )
+
+
+def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
+    if all(isinstance(target, ast.Attribute) for target in node.targets):
+        with machine.world.reading.apart():
+            return _assign_to(machine, node, frame)
+    return _assign_to(machine, node, frame)
+
+
+def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
+    value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
+    with atomic_updates.noted(machine, node, frame):
+        for target in node.targets:
+            machine.assign(target, value, frame)
+    machine.world.reading.flowing = frozenset()
+    return NEXT
+
+
+def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) -> int:
+    if node.value is not None:
+        value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
+        machine.assign(node.target, value, frame)
+        machine.world.reading.flowing = frozenset()
+    return NEXT
+
+
+def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
+    target = node.target
+    load = ast.copy_location(_as_load(target), target)
+    noted, machine.world.deeds = machine.world.deeds, None
+    old = machine.evaluate(load, frame)
+    machine.world.deeds = noted
+    with atomic_updates.noted(machine, node, frame):
+        machine.note_update(load, frame, AccessKind.UPDATE)
+        torn_updates.note_changed(machine, load, frame)
+    if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
+        items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
+        machine.charge(len(items))
+        machine.store.write(old, 'items', (*old.items, *items))
+        machine.store.write(old, 'open', old.others or rest)
+        return NEXT
+    value = machine.evaluate(node.value, frame)
+    machine.world.deeds = None
+    machine.assign(target, machine.operate(node.op, old, value, frame, node), frame)
+    machine.world.deeds = noted
+    return NEXT
+
+
+def _as_load(target: ast.Name | ast.Attribute | ast.Subscript) -> ast.expr:
+    if isinstance(target, ast.Name):
+        return ast.Name(target.id, ast.Load())
+    if isinstance(target, ast.Attribute):
+        return ast.Attribute(target.value, target.attr, ast.Load())
+    return ast.Subscript(target.value, target.slice, ast.Load())
+
+
+def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
+    found = set[str]()
+    with machine.world.reading.of(found):
+        frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
+    flag_locks.note_return(machine.world, frame, node, found)
+    frame.known_at_return.append(machine.world.ready)
+    return RETURN
+
+
+def _may_raise(statement: ast.stmt) -> bool:
+    """A test that turns away by an exception; what follows is done where it does not."""
+    if not isinstance(statement, ast.If) or statement.orelse:
+        return False
+    return isinstance(statement.body[-1], ast.Raise)
+
+
+def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
+    if node.exc is not None:
+        machine.evaluate(node.exc, frame)
+        end_operations.note_raised(machine, node.exc, frame.place(node))
+    return DEAD
+
+
+def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
+    holds = open_tests.decide_branch(machine, node, frame, node)
+    if holds is not None:
+        return machine.execute_block(node.body if holds else node.orelse, frame)
+    note_open_test(machine.world, node.test, frame.place(node))
+    asked = machine.world.tested
+    bodies = _arms(machine, node, frame)
+    if len(bodies) != len(('then', 'else')):
+        parameter_branches.note_arms(machine, node.test, asked, frame.place(node))
+        return machine.branches(bodies, frame.place(node), frame)
+    place, is_opposite = correlated_tests.first_place(machine, node, frame)
+    parameter_branches.note_arms(machine, node.test, asked, place, is_opposite=is_opposite)
+    return machine.branches(bodies[::-1] if is_opposite else bodies, place, frame)
+
+
+def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], int]]:
+    """The arms of an undecided ``if … elif … else`` as alternatives of one statement."""
+    told = path_facts.told_by(machine.world.tested)
+    so_far: tuple[path_facts.Told, ...] = ()
+    is_one_of_two = not (len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If))
+    arm = partial(_arm, machine, frame, is_one_of_two=is_one_of_two)
+    arms: list[Callable[[], int]] = [arm(node.body, so_far, told)]
+    rest = node.orelse
+    while len(rest) == 1 and isinstance(rest[0], ast.If):
+        inner = rest[0]
+        so_far = (*so_far, told) if told is not None else so_far
+        holds = open_tests.decide_branch(machine, inner, frame, node)
+        told = path_facts.told_by(machine.world.tested)
+        if holds is not False:
+            arms.append(arm(inner.body, so_far, told))
+        if holds is True:
+            return arms
+        rest = inner.orelse
+    so_far = (*so_far, told) if told is not None else so_far
+    arms.append(arm(rest, so_far, None))
+    return arms
+
+
+def _arm(
+    machine: Statements,
+    frame: Frame,
+    body: Sequence[ast.stmt],
+    fails: Sequence[path_facts.Told],
+    holds: path_facts.Told | None,
+    *,
+    is_one_of_two: bool,
+) -> Callable[[], int]:
+    """An arm that is run where some tests have failed, and its own, if any, has held."""
+
+    def run() -> int:
+        for told in fails:
+            path_facts.assume(machine.world, told, holds=False)
+        path_facts.assume(machine.world, holds, holds=True)
+        if is_one_of_two:
+            skipped = holds.fails if holds is not None else fails[0].holds if fails else None
+            machine.world.skipped_if[machine.world.path[-1]] = skipped or path_facts.NOTHING
+        return machine.execute_block(body, frame)
+
+    return run
+
+
+def _match(machine: Statements, node: ast.Match, frame: Frame) -> int:
+    machine.evaluate(node.subject, frame)
+    bodies: list[Callable[[], int]] = [
+        lambda case=case: _case(machine, case, frame)  # type: ignore[misc]
+        for case in node.cases
+    ]
+    if not any(_is_wildcard(case) for case in node.cases):
+        bodies.append(lambda: NEXT)
+    return machine.branches(bodies, frame.place(node), frame)
+
+
+def _is_wildcard(case: ast.match_case) -> bool:
+    pattern = case.pattern
+    return case.guard is None and isinstance(pattern, ast.MatchAs) and pattern.pattern is None
+
+
+def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
+    for part in ast.walk(case.pattern):
+        name = getattr(part, 'name', None) or getattr(part, 'rest', None)
+        if isinstance(name, str):
+            unknown = machine.mystery('bound by a match pattern', frame.place(part), name)
+            machine.assign(ast.Name(name, ast.Store()), unknown, frame)
+    return machine.execute_block(case.body, frame)
+
+
+def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
+    place = frame.place(node.iter)
+    values = open_tests.evaluate_iterated(machine, node, frame)
+    machine.note_iteration(node.iter, frame)
+    values = iterators.iterated(machine, values, place)
+    step = iterators.next_of(machine, values, place)
+    items = loops.items_to_run(machine, values, place)
+
+    with _loop(machine, frame), lost_notifies.in_loop(machine.world, lost_notifies.NOTHING_ASKED):
+        with loops.repeated(machine, items, node.body) as begin:
+
+            def once(item: Value) -> int:
+                begin(item)
+                machine.assign(node.target, step() if step is not None else item, frame)
+                path_facts.assume_picked(machine.world, values, item)
+                return _round(machine, node.body, frame)
+
+            flow = loops.run_loop(machine, items, once, place)
+        return _or_else(machine, node, flow, frame)
+
+
+def _or_else(machine: Statements, node: ast.For | ast.AsyncFor, flow: int, frame: Frame) -> int:
+    """Run what stands under ``else`` of a loop that ends by ``flow``, unless it is left."""
+    left, rest = flow & BREAK, flow & ~(NEXT | BREAK)
+    if not flow & NEXT or not node.orelse:
+        return rest | (NEXT if flow & (NEXT | BREAK) else 0)
+
+    def run() -> int:
+        return machine.execute_block(node.orelse, frame)
+
+    ends = machine.branches([run, lambda: NEXT], frame.place(node), frame) if left else run()
+    return rest | ends
+
+
+def _break(machine: Statements, node: ast.Break, frame: Frame) -> int:
+    frame.known_at_break.append(machine.world.ready)
+    return BREAK
+
+
+def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
+    holds, asked = open_tests.decide_loop(machine, node, frame)
+    if holds is False:
+        return machine.execute_block(node.orelse, frame)
+    told, ready = path_facts.told_by(machine.world.tested), machine.world.ready
+    before = polling_loops.mark(machine)
+    polling_loops.begin(machine, node, frame, told)
+    reason = Unknown('made in a while loop', frame.place(node))
+    with (
+        loops.counted(machine, reason),
+        _loop(machine, frame),
+        lost_notifies.in_loop(machine.world, asked),
+    ):
+        path_facts.assume(machine.world, told, holds=True)
+        open_tests.note_rounds(node, frame)
+        flow = _round(machine, node.body, frame)
+        ends = [] if holds else [ready | (told.fails if told is not None else path_facts.NOTHING)]
+        after = path_facts.of_all([*ends, *frame.known_at_break] or [ready])
+    machine.world.ready = ready
+    if not flow & (BREAK | RETURN):
+        machine.note_endless(node, frame.place(node))
+    if flow & (NEXT | CONTINUE):
+        polling_loops.note(machine, node, frame, before)
+    machine.world.ready = after
+    return loops.after_loop(flow)
+
+
+def _function(
+    machine: Statements, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame
+) -> int:
+    machine.assign(ast.Name(node.name, ast.Store()), machine.make_function(node, frame), frame)
+    return NEXT
+
+
+def _class(machine: Statements, node: ast.ClassDef, frame: Frame) -> int:
+    value: Value = machine.make_class(node, frame)
+    for decorator in reversed(node.decorator_list):
+        wrapper = machine.evaluate(decorator, frame)
+        if isinstance(value, Class):
+            machine.world.decorated_classes.append(value)
+        if isinstance(wrapper, (Function, Bound, Partial, Class, Instance, Native)):
+            result = machine.call(wrapper, Call(frame.place(decorator), [value]))
+            value = value if isinstance(result, Mystery) else result
+        elif isinstance(value, Class):
+            memoization.doubt(machine.world, value, 'is decorated by', decorator)
+    machine.assign(ast.Name(node.name, ast.Store()), value, frame)
+    return NEXT
+
+
+def _import(machine: Statements, node: ast.Import, frame: Frame) -> int:
+    for alias in node.names:
+        module = machine.import_module(alias.name, frame.place(node))
+        if alias.asname is None:
+            top = alias.name.partition('.')[0]
+            module = machine.import_module(top, frame.place(node))
+        name = alias.asname or alias.name.partition('.')[0]
+        machine.assign(ast.Name(name, ast.Store()), module, frame)
+    return NEXT
+
+
+def _import_from(machine: Statements, node: ast.ImportFrom, frame: Frame) -> int:
+    place = frame.place(node)
+    name = absolute_name(node, frame.module)
+    module = machine.import_module(name, place)
+    for alias in node.names:
+        if alias.name == '*':
+            _import_star(machine, module, frame)
+            continue
+        value = machine.imported(module, name, alias.name, place)
+        machine.assign(ast.Name(alias.asname or alias.name, ast.Store()), value, frame)
+    return NEXT
+
+
+def _import_star(machine: Statements, module: Value, frame: Frame) -> None:
+    if isinstance(module, Module):
+        for name, value in list(module.slots.items()):
+            if isinstance(name, str) and not name.startswith('_'):
+                machine.assign(ast.Name(name, ast.Store()), value, frame)
+        frame.module.stars.extend(module.stars)
+    else:
+        frame.module.stars.append(module)
+
+
+def absolute_name(node: ast.ImportFrom, module: Module) -> str:
+    """Dotted name of the module that a ``from`` import names."""
+    if not node.level:
+        return node.module or ''
+    parts = module.package.split('.') if module.package else []
+    kept = parts[: len(parts) - (node.level - 1)] if node.level > 1 else parts
+    return '.'.join([*kept, *([node.module] if node.module else [])])
+
+
+def _global(machine: Statements, node: ast.Global, frame: Frame) -> int:
+    frame.scope.global_names.update(node.names)
+    return NEXT
+
+
+def _nonlocal(machine: Statements, node: ast.Nonlocal, frame: Frame) -> int:
+    frame.scope.nonlocal_names.update(node.names)
+    return NEXT
+
+
+def _delete(machine: Statements, node: ast.Delete, frame: Frame) -> int:
+    """``del name`` and ``del object.attribute``; items stay."""
+    for target in node.targets:
+        if isinstance(target, ast.Name):
+            machine.store.remove(frame.scope, target.id)
+        elif isinstance(target, ast.Subscript):
+            machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+    return NEXT
+
+
+def _constant_flow(flow: int) -> Callable[..., int]:
+    return lambda machine, node, frame: flow
+
+
+def _assert(machine: Statements, node: ast.Assert, frame: Frame) -> int:
+    machine.evaluate(node.test, frame)
+    return NEXT
+
+
+_STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
+    ast.Expr: _expression,
+    ast.Assign: _assign,
+    ast.AnnAssign: _assign_annotated,
+    ast.AugAssign: _assign_augmented,
+    ast.Return: _return,
+    ast.Raise: _raise,
+    ast.If: _if,
+    ast.Try: run_try,
+    ast.With: run_with,
+    ast.AsyncWith: run_with,
+    ast.Match: _match,
+    ast.For: _for,
+    ast.AsyncFor: _for,
+    ast.While: _while,
+    ast.FunctionDef: _function,
+    ast.AsyncFunctionDef: _function,
+    ast.ClassDef: _class,
+    ast.Import: _import,
+    ast.ImportFrom: _import_from,
+    ast.Global: _global,
+    ast.Nonlocal: _nonlocal,
+    ast.Break: _break,
+    ast.Continue: _constant_flow(CONTINUE),
+    ast.Assert: _assert,
+    ast.Delete: _delete,
+}
+
+if hasattr(ast, 'TryStar'):
+    _STATEMENTS[ast.TryStar] = run_try

@@ -1,0 +1,97 @@
+"""Items of sequences, dictionaries and objects."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.objects.element_keys import note_item
+from ros2cc_extract.extract.static.python.values import constant_folding
+from ros2cc_extract.extract.static.python.values.assumed_defaults import (
+    default_of,
+    items_by_default,
+)
+from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Choice,
+    Class,
+    Const,
+    Instance,
+    Library,
+    Mystery,
+    Value,
+    choice,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+
+
+def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
+    """``owner[key]``, for every owner that is possible."""
+    at = frame.place(node.value)
+    note_item(machine, node.value, node.slice, frame)
+    machine.world.reading.note_use(node.value, at)
+    owner = machine.evaluate(node.value, frame)
+    key = machine.evaluate(node.slice, frame)
+    place = frame.place(node)
+    found = choice(
+        [_item(machine, option, key, node, frame) for option in options_of(owner)]
+        or [machine.mystery('item that could not be followed', place, node)]
+    )
+    return choice(list(options_of(found))) if isinstance(found, Choice) else found
+
+
+def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame: Frame) -> Value:
+    place = frame.place(node)
+    if isinstance(owner, Mapping):
+        if key in owner.entries if loops.is_key(key) else False:
+            return owner.entries[key]
+        if isinstance(key, Mystery) and next(reversed(owner.entries), None) is key:
+            return owner.entries[key]
+        one_of_all = None if loops.is_key(key) else loops.any_of(owner)
+        reason = owner.rest.reason if owner.rest else 'key that could not be followed'
+        return one_of_all or machine.mystery(reason, place, node)
+    if isinstance(owner, Sequence):
+        if isinstance(node.slice, ast.Slice):
+            return _slice(machine, owner, node.slice, frame)
+        index = loops.index_of(key, len(owner.items))
+        if index is not None and owner.rest is None:
+            return owner.items[index]
+        one_of_all = loops.any_of(owner) if index is None else None
+        return one_of_all or machine.mystery('index that could not be followed', place, node)
+    if isinstance(owner, Const) and isinstance(key, Const):
+        return constant_folding.subscript(owner, key) or machine.mystery('bad subscript', place)
+    if isinstance(owner, (Class, Library)):
+        return owner
+    if isinstance(owner, Instance) and isinstance(owner.cls, Class):
+        method = machine.attribute(owner, '__getitem__', place)
+        if isinstance(method, Bound):
+            return machine.call(method, Call(place, [key]))
+    by_default = items_by_default(owner)
+    index = loops.index_of(default_of(key) or key, len(by_default))
+    if by_default and index is not None:
+        return by_default[index]
+    reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
+    return machine.mystery(reason, place, node)
+
+
+def _slice(machine: Machine, owner: Sequence, node: ast.Slice, frame: Frame) -> Value:
+    bounds: list[int | None] = []
+    for part in (node.lower, node.upper, node.step):
+        value = machine.evaluate(part, frame) if part is not None else NONE
+        if not isinstance(value, Const) or not isinstance(value.value, (int, type(None))):
+            rest = Unknown('slice that could not be followed', frame.place(node))
+            return Sequence((), owner.kind, rest)
+        bounds.append(value.value)
+    if bounds[2] == 0:
+        return machine.mystery('slice step zero', frame.place(node))
+    return Sequence(owner.items[slice(*bounds)], owner.kind, owner.others, owner.many)
+
+
+def slice_alone(machine: Machine, node: ast.Slice, frame: Frame) -> Value:
+    """A slice that is no index of a known sequence."""
+    return machine.mystery('slice', frame.place(node))

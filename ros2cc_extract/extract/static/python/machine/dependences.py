@@ -1,0 +1,196 @@
+"""
+What a callback has read so far, and what it does because of that.
+
+Kept while one callback is followed: which reads a test or a value rests on, which item of a
+container is meant, and which objects are used rather than only looked at.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Container, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.values.values import Path, Value
+from ros2cc_extract.places import Place
+
+_IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """
+    A test, as far as it tells that somebody waits for a condition in time.
+
+    :param names: of the data that it reads.
+    :param holds: the locks that were held then, see ``lost_notifies.py``.
+    :param is_open: its answer may rest on more.
+    """
+
+    names: frozenset[str]
+    holds: frozenset[tuple[str, int]]
+    is_open: bool
+
+
+@dataclass
+class Reading:
+    """
+    Notes on the reads of shared data.
+
+    :param read: names that were read since somebody has last asked.
+    :param flowing: names on which the value rests that is being stored.
+    :param tests: names that a branch or an early return rests on, by the place of the test.
+    :param items: the item that is meant, by the place of the container and its attribute.
+    :param choices: the shared data because of which it is that item, in the same way.
+    :param used: objects of which more is asked than whether they are there, in the same way.
+    :param compared: what is only asked for whether it is still what the function knows.
+    :param stored: the value that is being stored.
+    :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
+    :param calls: how many calls there were.
+    :param tested_at: how many there were before a test, by its place.
+    :param refusing: names because of which a goal was turned down.
+    :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
+    :param down: flags that were found down, by the step of the path on which they are.
+    :param found: what tests have found of them there, see ``Access.found``.
+    :param passed: tests behind which the program is because it has not raised there; that leads
+        to no step of the path.
+    """
+
+    read: set[str] = field(default_factory=set)
+    flowing: frozenset[str] = frozenset()
+    tests: dict[Place, frozenset[str]] = field(default_factory=dict)
+    items: dict[tuple[Place, str], str] = field(default_factory=dict)
+    choices: dict[tuple[Place, str], frozenset[str]] = field(default_factory=dict)
+    used: set[tuple[Place, str]] = field(default_factory=set)
+    compared: set[tuple[Place, str]] = field(default_factory=set)
+    refusing: set[str] = field(default_factory=set)
+    stored: Value | None = None
+    is_whole: bool = False
+    down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
+    found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
+    asked: dict[Place, Asked] = field(default_factory=dict)
+    loops: list[Asked] = field(default_factory=list)
+    calls: int = 0
+    tested_at: dict[Place, int] = field(default_factory=dict)
+    passed: Path = ()
+
+    def behind(self, path: Path) -> Path:
+        """All the tests that have led to where the program is."""
+        return (*path, *self.passed)
+
+    @contextmanager
+    def of(self, found: set[str]) -> Iterator[None]:
+        """Put into ``found`` what is read inside."""
+        before, self.read = self.read, set()
+        try:
+            yield
+        finally:
+            found |= self.read
+            self.read |= before
+
+    @contextmanager
+    def apart(self) -> Iterator[None]:
+        """What is read inside leads to no value that is used outside."""
+        before = self.read
+        self.read = set()
+        try:
+            yield
+        finally:
+            self.read = before
+
+    def governs(self, name: str, path: Path) -> bool:
+        """Whether a test of ``name`` has led to where the program is."""
+        return any(name in self.tests.get(place, ()) for place, _ in self.behind(path))
+
+    def found_of(self, name: str, path: Path) -> str | None:
+        """What tests of ``name`` have found, where nothing else of it matters any more."""
+        if name in self.flowing or not self.governs(name, path):
+            return None
+        known = [self.found.get(step, {}).get(name) for step in self.behind(path)]
+        return next((each for each in reversed(known) if each is not None), None)
+
+    def refuse(self, path: Path, found: Iterable[str]) -> None:
+        """A goal is turned down here, after tests of what led here and of what was found."""
+        self.refusing.update(found)
+        for place, _ in self.behind(path):
+            self.refusing |= self.tests.get(place, frozenset())
+
+    def has_called_since(self, name: str, path: Path) -> bool:
+        """Whether something was called since ``name`` was tested last."""
+        behind = self.behind(path)
+        tests = (place for place, _ in behind if name in self.tests.get(place, ()))
+        return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
+
+    def is_in_one_piece(self, name: str, path: Path) -> bool:
+        """Whether nobody writes ``name`` since it was read for what is stored now."""
+        if not self.is_whole or (self.flowing and name not in self.flowing):
+            return False
+        return not self.governs(name, path) or not self.has_called_since(name, path)
+
+    def forget(self, name: str, path: Path) -> None:
+        """The callback has stored something itself: what it has read before decides no more."""
+        for place, _ in self.behind(path):
+            known = self.tests.get(place)
+            if known is not None and name in known:
+                self.tests[place] = known - {name}
+
+    def note_item(self, container: ast.expr, item: str | None, place: Place) -> None:
+        """``item`` of a container at ``place`` is meant, or one that is not known."""
+        name = _name_of(container)
+        if name is not None and item is not None:
+            self.items[place, name] = item
+        elif name is not None:
+            self.items.pop((place, name), None)
+
+    def note_choice(self, container: ast.expr, sources: frozenset[str], place: Place) -> None:
+        """Which item of a container at ``place`` is meant was computed from ``sources``."""
+        name = _name_of(container)
+        if name is not None:
+            self.choices[place, name] = sources
+
+    def note_use(self, used: ast.expr, place: Place) -> None:
+        """An attribute or item of ``used`` is asked for, or it is called."""
+        name = _name_of(used)
+        if name is not None:
+            self.used.add((place, name))
+
+    def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
+        """``self.goal is goal``: whoever asks so reckons with others that store it."""
+        left, right = node.left, node.comparators[0]
+        if len(node.ops) > 1 or not isinstance(node.ops[0], _IDENTITY):
+            return
+        for asked, known in ((left, right), (right, left)):
+            name = _name_of(asked)
+            if name is not None and isinstance(known, ast.Name) and known.id in own:
+                place = Place(file, asked.lineno, asked.col_offset + 1)
+                self.compared.add((place, name))
+
+
+def constant_key(key: ast.expr) -> str | None:
+    """The text of a key that is equal to no other one of another text."""
+    if not isinstance(key, ast.Constant) or type(key.value) not in (str, int):
+        return None
+    return repr(key.value)
+
+
+def computed_from(value: ast.expr, sources: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    """The shared data behind the own names that stand in ``value``."""
+    none = frozenset[str]()
+    return none.union(*(sources.get(name, none) for name in names_in(value)))
+
+
+def names_in(value: ast.expr) -> Iterable[str]:
+    """The names that stand in an expression."""
+    return noted_on(value, 'names_in', _names_in)
+
+
+def _names_in(value: ast.expr) -> tuple[str, ...]:
+    return tuple(part.id for part in walk(value) if isinstance(part, ast.Name))
+
+
+def _name_of(node: ast.expr) -> str | None:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else None

@@ -1,0 +1,466 @@
+"""
+What the parts of the interpreter and the library tables may ask of each other.
+
+``interpreter.py`` puts the parts together; none of them imports another.
+"""
+
+from __future__ import annotations
+
+import ast
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+
+from ros2cc_extract.deadline import Deadline
+from ros2cc_extract.extract.static.program.relevance import mangled
+from ros2cc_extract.extract.static.python.machine.path_facts import Facts, of_all
+from ros2cc_extract.extract.static.python.machine.store import Store, Writes
+from ros2cc_extract.extract.static.python.machine.wake_operations import ClockRef, DataRef, Word
+from ros2cc_extract.extract.static.python.machine.world import AccessKind, EntityState, World
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Call,
+    Choice,
+    Class,
+    Function,
+    FunctionNode,
+    Instance,
+    Library,
+    Module,
+    Mystery,
+    Path,
+    Scope,
+    Value,
+    choice,
+)
+from ros2cc_extract.places import Place, Unknown
+
+THING_STEPS = 1_000
+"""What an entity or a thread costs all who come later, in steps."""
+PAIR_STEPS = 6
+"""What an entity costs with each earlier one, as there are claims about both: some 300 of them."""
+
+ENTRIES = 10
+"""So many of an order of classes are gone through, or kept, in a step."""
+
+
+class CannotCallError(Exception):
+    """A call directly in the text of a ``try`` surely raises ``TypeError``."""
+
+
+class BudgetError(Exception):
+    """The program is too large to be followed to its end."""
+
+
+@dataclass
+class Frame:
+    """
+    One running function, class body or module.
+
+    :param path: the undecided branches under which it began.
+    :param many: what it yields any number of times, or perhaps not at all.
+    :param breaks: what the branches that leave the running loop had written to own names.
+    :param known_at_break: what has surely happened there, see ``World.ready``; the same of each
+        ``return``.
+    :param held: locks that were held at the first ``yield``.
+    :param left: locks that are held at each ``return``, flags that were found down, and whether it
+        turns down a goal.
+    :param copies: own names that hold what other functions may have changed.
+    :param sources: shared data that own names were computed from, while a callback is followed.
+    :param continues: the same of the branches that go on with its next round.
+    :param tests: undecided ones with the place of the first ``if``, whether that asks the
+        opposite, and the options of the values that were asked.
+    """
+
+    scope: Scope
+    function: Function | None = None
+    results: list[Value] = field(default_factory=list)
+    yields: list[Value] = field(default_factory=list)
+    held: tuple[str, ...] = ()
+    left: list[tuple[tuple[str, ...], frozenset[str], bool]] = field(default_factory=list)
+    many: dict[Value, Value] = field(default_factory=dict)
+    qualname: str = ''
+    path: Path = ()
+    breaks: list[Writes] = field(default_factory=list)
+    known_at_break: list[Facts] = field(default_factory=list)
+    known_at_return: list[Facts] = field(default_factory=list)
+    continues: list[Writes] = field(default_factory=list)
+    copies: frozenset[str] = frozenset()
+    sources: dict[str, frozenset[str]] = field(default_factory=dict)
+    tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
+        default_factory=dict
+    )
+
+    @property
+    def module(self) -> Module:
+        """The module whose text is running."""
+        return self.scope.module
+
+    def place(self, node: ast.AST) -> Place:
+        """Where ``node`` stands, kept on the node: a tree belongs to one file."""
+        notes = node.__dict__
+        known: Place | None = notes.get('place')
+        if known is None:
+            line, column = notes.get('lineno', 0), notes.get('col_offset', -1) + 1
+            known = notes['place'] = Place(self.scope.module.file, line, column)
+        return known
+
+    def attribute_name(self, name: str) -> str:
+        """The attribute that ``name`` means in the text that is running."""
+        return mangled(name, self._class_name()) if name.startswith('__') else name
+
+    def _class_name(self) -> str | None:
+        """Name of the innermost class around the running text."""
+        for piece in reversed(self.qualname.removesuffix('.<locals>').split('.<locals>.')):
+            names = piece.split('.')
+            if self.function is None and names[-1]:
+                return names[-1]
+            if len(names) > 1:
+                return names[-2]
+        return None
+
+
+class Machine(ABC):
+    """The state every part shares, and what each part offers to the others."""
+
+    store: Store
+    world: World
+    steps: int
+    step_limit: int
+    deadline: Deadline | None
+    stack: list[Function]
+
+    def charge(self, steps: int) -> None:
+        """
+        Count so many steps of what is followed.
+
+        :raises BudgetError: that was more than the running piece of a program may take.
+        """
+        self.steps += steps
+        is_late = self.deadline is not None and self.deadline.is_over
+        if self.steps > self.step_limit or is_late:
+            raise BudgetError
+
+    @abstractmethod
+    def evaluate(self, node: ast.expr, frame: Frame) -> Value:
+        """The value of an expression."""
+
+    @abstractmethod
+    def execute_block(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Run statements; returns how the block may end, see ``block_exits.py``."""
+
+    @abstractmethod
+    def branches(self, bodies: Sequence[Callable[[], int]], place: Place, frame: Frame) -> int:
+        """Run alternatives from one state; joins what may hold after them."""
+
+    @abstractmethod
+    def operate(
+        self, op: ast.operator, left: Value, right: Value, frame: Frame, node: ast.AST
+    ) -> Value:
+        """``left op right``."""
+
+    @abstractmethod
+    def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
+        """Store ``value`` in a name, attribute, item or pattern of them."""
+
+    @abstractmethod
+    def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
+        """``value.name``."""
+
+    @abstractmethod
+    def has_attribute(self, value: Value, name: str) -> bool | None:
+        """Whether ``value.name`` exists; ``None`` when that depends."""
+
+    @abstractmethod
+    def call(self, function: Value, call: Call) -> Value:
+        """The result of a call, after its effects."""
+
+    @abstractmethod
+    def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
+        """A class from its statement, its body run."""
+
+    @abstractmethod
+    def import_module(self, name: str, place: Place) -> Value:
+        """A scanned module, or a library of that name."""
+
+    @abstractmethod
+    def library(self, name: str) -> Value:
+        """What a dotted name of a library stands for."""
+
+    @abstractmethod
+    def items_of(self, value: Value, place: Place) -> tuple[tuple[Value, ...], Unknown | None]:
+        """What iterating over ``value`` gives, and why there may be more."""
+
+    @abstractmethod
+    def truth(self, value: Value) -> bool | None:
+        """``bool(value)``; ``None`` when that depends."""
+
+    @abstractmethod
+    def comprehend(self, node: ast.expr, frame: Frame) -> Value:
+        """The value of a comprehension or generator expression."""
+
+    @abstractmethod
+    def make_function(self, node: FunctionNode, frame: Frame) -> Value:
+        """A function from its definition, its decorators applied."""
+
+    @abstractmethod
+    def imported(self, module: Value, module_name: str, name: str, place: Place) -> Value:
+        """What ``from module import name`` gives."""
+
+    @abstractmethod
+    def enter_context(self, value: Value, place: Place) -> Value:
+        """What ``with value as x`` binds to ``x``."""
+
+    @abstractmethod
+    def leave_context(self, value: Value, place: Place) -> None:
+        """A ``with`` over ``value`` ends."""
+
+    @abstractmethod
+    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """An attribute is touched; matters while a callback runs."""
+
+    @abstractmethod
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """An attribute has got a value: a collection is known by the first one that holds it."""
+
+    @abstractmethod
+    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
+        """A global is touched; matters while a callback runs."""
+
+    @abstractmethod
+    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
+        """The object in a name or attribute gets a new content or value from its old one."""
+
+    @abstractmethod
+    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
+        """A loop goes over a collection, which nobody may change in size meanwhile."""
+
+    @abstractmethod
+    def changed_globals(self, module: Module) -> frozenset[str]:
+        """Names of globals that some function of the module rebinds or changes in place."""
+
+    @abstractmethod
+    def note_endless(self, node: ast.While, place: Place) -> None:
+        """A loop was followed that nothing in its body leaves."""
+
+    @abstractmethod
+    def run_function(self, function: Function, call: Call) -> Value:
+        """Run the body of a scanned function, also of a coroutine function."""
+
+    @abstractmethod
+    def running_classes(self) -> frozenset[Class]:
+        """The classes whose methods are running."""
+
+    @abstractmethod
+    def prepare(self, instance: Instance) -> None:
+        """Give a new instance the state that its library bases add."""
+
+    @abstractmethod
+    def call_library(self, function: Library, call: Call) -> Value:
+        """Call a name of a library: make an instance, or give a mystery."""
+
+    @abstractmethod
+    def library_call(self, function: Value, call: Call) -> None:
+        """Something unknown is called, perhaps with a node among its arguments."""
+
+    @abstractmethod
+    def library_member(
+        self, cls: Library, receiver: Value | None, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` that a library class gives to ``receiver``."""
+
+    @abstractmethod
+    def member_of_unknown_base(
+        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` where a base class is not in sight."""
+
+    @abstractmethod
+    def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
+        """Attribute ``name`` of a value that must be a node."""
+
+    @abstractmethod
+    def submodule(self, module: Module, name: str, place: Place) -> Value | None:
+        """A module of a scanned package."""
+
+    @abstractmethod
+    def become_node(self, instance: Instance) -> Instance | None:
+        """Treat an instance of a class with an unknown base as the node it is used as."""
+
+    @abstractmethod
+    def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
+        """A new future of ``kind``."""
+
+    @abstractmethod
+    def await_value(self, value: Value, place: Place) -> Value:
+        """``await value``."""
+
+    @abstractmethod
+    def awaited(self, future: Instance, place: Place) -> Value:
+        """What awaiting a future gives."""
+
+    @abstractmethod
+    def run_if_coroutine(self, value: Value, place: Place) -> Value:
+        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+
+    @abstractmethod
+    def zero_argument_super(self, frame: Frame) -> Value:
+        """``super()`` in the method that is running."""
+
+    @abstractmethod
+    def instantiate(self, cls: Class, call: Call) -> Value:
+        """Make an instance of a scanned class and run its ``__init__``."""
+
+    @abstractmethod
+    def allocate(self, cls: Class, call: Call) -> Instance:
+        """A new object of ``cls``, as ``object.__new__`` makes it."""
+
+    @abstractmethod
+    def name_value(self, value: Value, name: str) -> None:
+        """Remember the first name under which a group, an executor … is stored."""
+
+    @abstractmethod
+    def note_nested_spin(
+        self,
+        how: str,
+        node: Instance | None,
+        executor: Value,
+        future: tuple[Value | None, Value | None],
+        place: Place,
+        change: str = '',
+    ) -> bool:
+        """
+        Whether a spin stands in a callback; then it is noted there and is no set-up.
+
+        :param node: the node that moves by it; without one nothing does.
+        :param future: what it waits for, with the time-out.
+        :param change: how ``node`` moves, in words.
+        """
+
+    @abstractmethod
+    def note_change(self, what: str, node: Instance, place: Place) -> None:
+        """A callback changes which executor serves ``node``."""
+
+    @abstractmethod
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+
+    @abstractmethod
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+
+    @abstractmethod
+    def note_loop_on_data(
+        self,
+        name: str,
+        on: DataRef | ClockRef | Unknown,
+        seconds: Unknown | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """A loop goes on until somebody else has written what its test reads."""
+
+    @abstractmethod
+    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
+        """Somebody waits for time that ``clock`` moves."""
+
+    @abstractmethod
+    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
+        """Something that could not be followed is called, perhaps by the name of a wait."""
+
+    @abstractmethod
+    def note_await(self, value: Value, place: Place) -> None:
+        """A callback awaits ``value``."""
+
+    @abstractmethod
+    def note_turn(self, place: Place) -> None:
+        """A coroutine lets the executor run others and goes on by itself."""
+
+    @abstractmethod
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A lock is taken; with a time-out it may not be."""
+
+    @abstractmethod
+    def note_release(self, lock: Value) -> None:
+        """A lock is given back."""
+
+    @abstractmethod
+    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
+        """Something is done to ``thing`` that may end a wait for it."""
+
+    @abstractmethod
+    def give_away(self, value: Value, reason: str, place: Place) -> None:
+        """Code that is not followed has ``value`` now, and may end waits for it."""
+
+    @abstractmethod
+    def note_lock_method(self, owner: Value, name: str) -> None:
+        """A method of ``owner`` has run, which may be a lock made by hand."""
+
+    @abstractmethod
+    def note_publish(self, publisher: Value, place: Place) -> None:
+        """A message is published."""
+
+    def stop_program(self) -> None:
+        """The program ends here on this branch (``sys.exit``)."""
+        self.world.stopped = True
+
+    def why_many(self) -> Value:
+        """Why what is collected here stands for any number of items; ``NONE`` when for one."""
+        count = self.world.count
+        return Mystery(count) if isinstance(count, Unknown) else NONE
+
+    def mystery(self, reason: str, place: Place | None, text: str | ast.expr = '') -> Mystery:
+        """A value that cannot be followed."""
+        return Mystery(Unknown(reason, place), text)
+
+    def branch(self, choices: Sequence[Callable[[], Value]], place: Place) -> Value:
+        """
+        Try each of ``choices`` from the same state and join what they leave behind.
+
+        A choice that ends the program leaves nothing behind, unless all do.
+        """
+        results: list[tuple[Value, Writes, bool]] = []
+        ready, ends = self.world.ready, []
+        for index, attempt in enumerate(choices):
+            self.world.ready = ready
+            with self.on_path(place, index):
+                mark = self.store.open_branch()
+                result = attempt()
+                stopped, self.world.stopped = self.world.stopped, False
+                results.append((result, self.store.close_branch(mark), stopped))
+                if not stopped:
+                    ends.append(self.world.ready)
+        self.world.ready = of_all(ends or [ready])
+        going_on = [entry for entry in results if not entry[2]]
+        self.world.stopped = not going_on
+        kept = going_on or results
+        self.store.join([writes for _, writes, _ in kept])
+        return choice([result for result, _, _ in kept])
+
+    @contextmanager
+    def on_path(self, place: Place, index: int) -> Iterator[None]:
+        """Everything done inside depends on the branch ``index`` at ``place``."""
+        before = self.world.path
+        self.world.path = (*before, (place, index))
+        try:
+            yield
+        finally:
+            self.world.path = before
+
+    def each(self, value: Value, act: Callable[[Value], Value], place: Place) -> Value:
+        """Do ``act`` on every option of ``value``, as alternatives if there are several."""
+        if not isinstance(value, Choice):
+            return act(value)
+        options = value.options
+        return self.branch([partial(act, option) for option in options], place)

@@ -1,0 +1,187 @@
+"""
+What tests tell of the objects that others may wait for: a future is done, a thread has ended.
+
+``if not future.done(): await future`` waits; behind ``if future.done():`` the result is there, and
+a loop that asks until the answer changes is a wait itself. The answer to such a question is an
+``Answer``, through ``not``, ``and``, ``or``, names and functions; where a test has come out, what
+it tells is kept in ``World.ready`` until the branches meet. Sources: CPython 3.12,
+``concurrent/futures/_base.py``, ``threading.py``, ``queue.py``; rclpy 7.1.6, ``task.py``.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Const,
+    Heaped,
+    Mystery,
+    Value,
+    options_of,
+)
+from ros2cc_extract.places import Unknown
+
+Facts = frozenset[tuple[Value, Word]]
+NOTHING: Facts = frozenset()
+_ASKED = 'the answer of what others change'
+
+
+@dataclass(frozen=True)
+class Told:
+    """
+    What the truth of a test tells.
+
+    :param holds: what has surely happened where it is true, ``fails`` where it is false.
+    :param makes: what may make it true when it happens, ``breaks`` false.
+    :param is_either: one of several objects is asked, depending on a branch.
+    """
+
+    holds: Facts = NOTHING
+    fails: Facts = NOTHING
+    makes: Facts = NOTHING
+    breaks: Facts = NOTHING
+    is_either: bool = False
+
+    def negated(self) -> Told:
+        """The same of ``not``."""
+        return Told(self.fails, self.holds, self.breaks, self.makes, self.is_either)
+
+
+class Answer(Mystery):
+    """A truth that could not be followed, and what it tells of the objects that were asked."""
+
+    __slots__ = ('told',)
+
+    def __init__(self, unknown: Unknown, text: str | ast.expr, told: Told) -> None:
+        super().__init__(unknown, text)
+        self.told = told
+
+
+def answer(thing: Value, word: Word, call: Call, *, if_true: bool = True) -> Answer:
+    """Whether ``word`` has happened to ``thing``, or whether it has not."""
+    facts = frozenset({(thing, word)})
+    told = Told(holds=facts, makes=facts)
+    return Answer(
+        Unknown(_ASKED, call.place), call.text or '', told if if_true else told.negated()
+    )
+
+
+def cancelled(future: Value, call: Call) -> Answer:
+    """Whether ``future`` was cancelled, which makes it done."""
+    told = Told(holds=frozenset({(future, Word.SET)}))
+    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+
+
+def running(future: Value, call: Call) -> Answer:
+    """Whether ``future`` is worked at just now."""
+    told = Told(breaks=frozenset({(future, Word.SET)}))
+    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+
+
+def told_by(value: Value | None) -> Told | None:
+    """What ``value`` tells as a test; of one of several objects that it is the one in question."""
+    options = options_of(value) if value is not None else ()
+    found = [option.told for option in options if isinstance(option, Answer)]
+    return reduce(_both, found) if found else None
+
+
+def negated(value: Value, node: ast.expr) -> Answer | None:
+    """The value of ``not``."""
+    told = told_by(value)
+    return None if told is None else Answer(_unknown(value), node, told.negated())
+
+
+def joined(values: Sequence[Value], node: ast.BoolOp) -> Answer | None:
+    """The value of ``and`` and ``or``, where nothing but truths stands in it."""
+    if not any(told_by(value) for value in values) or not all(map(_is_truth, values)):
+        return None
+    told = _of_each(values, stops_on=isinstance(node.op, ast.Or))
+    return Answer(_first(values), node, told)
+
+
+def of_items(items: Sequence[Value], call: Call, *, stops_on: bool) -> Answer | None:
+    """The value of ``any(…)``, which the first truth stops, and of ``all(…)``."""
+    if not any(told_by(item) for item in items):
+        return None
+    return Answer(_first(items), call.text or '', _of_each(items, stops_on=stops_on))
+
+
+def compared(op: ast.cmpop, left: Value, right: Value, node: ast.expr) -> Answer | None:
+    """The value of ``future.done() is False``."""
+    told = told_by(left)
+    if told is None or not isinstance(right, Const) or not isinstance(right.value, bool):
+        return None
+    is_same = isinstance(op, (ast.Is, ast.Eq))
+    if not is_same and not isinstance(op, (ast.IsNot, ast.NotEq)):
+        return None
+    return Answer(_unknown(left), node, told if is_same is right.value else told.negated())
+
+
+def assume(world: World, told: Told | None, *, holds: bool) -> None:
+    """From here on a test has come out so."""
+    if told is not None:
+        world.ready |= told.holds if holds else told.fails
+
+
+def assume_picked(world: World, collection: Value, item: Value) -> None:
+    """An item is taken out of a collection into which it was picked for what it answered."""
+    picked = world.picked.get(collection.serial, NOTHING) if isinstance(collection, Heaped) else ()
+    options = options_of(item)
+    world.ready |= {fact for fact in picked if fact[0] in options}
+
+
+def of_all(ends: Iterable[Facts]) -> Facts:
+    """What has happened however the branches were left."""
+    kept = list(ends)
+    return frozenset.intersection(*kept) if kept else NOTHING
+
+
+def is_ready(world: World, value: Value | None, words: frozenset[Word]) -> bool:
+    """Whether a wait for ``value`` that ``words`` end does not wait any more."""
+    options = options_of(value) if value is not None else ()
+    things = [option for option in options if not isinstance(option, Const)]
+    known = {thing for thing, word in world.ready if word in words}
+    return bool(things) and all(thing in known for thing in things)
+
+
+def _of_each(values: Sequence[Value], *, stops_on: bool) -> Told:
+    told = [told_by(value) or Told() for value in values]
+    return _all([each.negated() for each in told]).negated() if stops_on else _all(told)
+
+
+def _all(told: Sequence[Told]) -> Told:
+    return Told(
+        holds=NOTHING.union(*(each.holds for each in told)),
+        fails=of_all(each.fails for each in told),
+        makes=NOTHING.union(*(each.makes for each in told)),
+        breaks=NOTHING.union(*(each.breaks for each in told)),
+        is_either=any(each.is_either for each in told),
+    )
+
+
+def _both(one: Told, other: Told) -> Told:
+    return Told(
+        one.holds | other.holds,
+        one.fails | other.fails,
+        one.makes | other.makes,
+        one.breaks | other.breaks,
+        is_either=True,
+    )
+
+
+def _is_truth(value: Value) -> bool:
+    return all(isinstance(option, (Mystery, Const)) for option in options_of(value))
+
+
+def _unknown(value: Value) -> Unknown:
+    return next(option.unknown for option in options_of(value) if isinstance(option, Mystery))
+
+
+def _first(values: Sequence[Value]) -> Unknown:
+    return _unknown(next(value for value in values if told_by(value) is not None))

@@ -1,0 +1,190 @@
+"""What waits are for, and what is done to end them, until a unit has given names to all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.extract.static.python.values.values import Value
+from ros2cc_extract.places import Place
+
+
+class EntityRef(str):
+    """Stands for an entity in a ``Blocking`` until the unit has given it a name."""
+
+    number: int
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> EntityRef:
+        """A reference to a node or executor; ``text`` stands for it outside every unit."""
+        reference = EntityRef(text)
+        reference.number = id(thing)
+        return reference
+
+
+class SettableRef(EntityRef):
+    """Stands for an event, queue, thread … until it is known which one callback ends a wait."""
+
+    @staticmethod
+    def to_object(thing: object, text: str) -> SettableRef:
+        """A reference to ``thing``; ``text`` stays where no one callback alone sets it."""
+        reference = SettableRef(text)
+        reference.number = id(thing)
+        return reference
+
+
+class Word(Enum):
+    """What is done to an object that others wait on."""
+
+    SET = 'set'
+    PUT = 'put'
+    GET = 'get'
+    DONE = 'done'
+    RELEASE = 'release'
+    ARRIVE = 'arrive'
+    END = 'end'
+    WRITE = 'write'
+
+
+Hold = tuple[str, int]
+"""A lock, and which time it is that it was taken."""
+
+
+@dataclass(frozen=True)
+class Guard:
+    """
+    What a wait for a condition rests on, see ``lost_notifies.py``.
+
+    :param hold: of the lock of the condition; ``None`` where that was not followed.
+    :param names: of the data that was asked for in that hold.
+    :param is_open: something was asked for besides.
+    :param begun: where something is made or started in that hold.
+    """
+
+    hold: Hold | None
+    names: frozenset[str]
+    is_open: bool = False
+    begun: frozenset[Place] = frozenset()
+
+
+class ResourceRef(SettableRef):
+    """
+    Stands for what is waited on until the unit has given it a name.
+
+    :param ended_by: which operations on it end this wait.
+    :param asked: it was asked before whether it would wait at all.
+    :param like: identities of objects that were made at the same place.
+    :param initial: how many waits end by themselves; ``None`` where that is not known.
+    :param made: where it is made.
+    :param is_kept: what ends the wait ends all that come after it.
+    :param parties: of a barrier, how many must come; ``None`` where that is not known.
+    :param is_own: a callback makes it anew in each run.
+    :param guard: of a condition.
+    :param answered: topics of messages whose answers may be gone, see ``cleared_events.py``.
+    :param sent: topics of messages that come before the wait, and behind the one before.
+    """
+
+    ended_by: frozenset[Word] = frozenset()
+    asked = False
+    is_kept = False
+    like: Sequence[int] = ()
+    initial: int | None = 0
+    made: Place | None = None
+    parties: int | None = None
+    is_own = False
+    guard: Guard | None = None
+    answered: frozenset[str] = frozenset()
+    sent: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Waking:
+    """
+    An operation that may end a wait of others.
+
+    :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
+        calls.
+    :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
+    :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
+        in which it stands itself.
+    :param uncalled: in whose text, which nobody in sight calls, it stands.
+    :param is_counted: it happens once, whatever branches are taken.
+    :param in_loop: it stands in a loop of which nobody knows how often it goes round.
+    :param unless_done: branches skip it only where it has been done before.
+    :param repeats: it stands in a loop.
+    :param told: names of the data that ``by`` has written by then.
+    :param holds: the locks that are held then.
+    :param is_sign: what is put may tell who takes it to stop: it is a constant, or an object.
+    """
+
+    word: Word
+    by: object
+    place: Place
+    behind: object = None
+    conditional: bool = False
+    after_spin: bool = False
+    spins: int = 0
+    uncalled: str | None = None
+    held: tuple[str, ...] = ()
+    is_counted: bool = False
+    unless_done: bool = False
+    in_loop: bool = False
+    repeats: bool = False
+    told: frozenset[str] = frozenset()
+    holds: frozenset[Hold] = frozenset()
+    is_sign: bool = False
+
+
+class DataRef(EntityRef):
+    """
+    Stands for plain data that a loop waits for somebody else to write.
+
+    :param names: what the test reads.
+    :param before: what the loop's own callback has written before the loop, and where.
+    :param sent: topics of messages that come before the loop; ``sent_by_now`` of all, with those
+        of its rounds.
+    """
+
+    number = 0
+    sent: frozenset[str] = frozenset()
+    sent_by_now: frozenset[str] = frozenset()
+    names: frozenset[str] = frozenset()
+    before: frozenset[tuple[str, Place | None]] = frozenset()
+
+
+class ClockRef(EntityRef):
+    """Stands for simulated time, which the subscription of ``number`` moves."""
+
+
+class TopicRef(EntityRef):
+    """Stands for the topic of which somebody waits for a message."""
+
+    number = 0
+
+
+@dataclass(frozen=True, eq=False)
+class LoopRun:
+    """A loop of asyncio is run by a thread, see ``World.thread``."""
+
+    loop: Value
+    thread: int
+
+
+@dataclass(frozen=True, eq=False)
+class LoopTouch:
+    """
+    Something of a loop of asyncio is touched, by a call that is for the thread of the loop.
+
+    :param doer: a callback or an activity.
+    """
+
+    how: str
+    thing: Value
+    doer: object
+    place: Place
+
+    def is_same(self, other: LoopTouch) -> bool:
+        """Whether it is the same call of the same object by the same doer."""
+        is_call = self.place == other.place and self.doer is other.doer
+        return is_call and self.thing is other.thing

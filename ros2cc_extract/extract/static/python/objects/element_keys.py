@@ -1,0 +1,80 @@
+"""
+Which item of a container is meant: ``self.counts['left']``, ``self.counts[name]``.
+
+A name counts where it is a parameter that nothing stores to: a function that was made for one
+item, or called with it, means that one in all its rounds.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.dependences import computed_from, constant_key
+from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.world import EntityState
+from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
+from ros2cc_extract.spec.model import EntityKind, When
+
+_MERGED = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
+_Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+
+
+def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame) -> None:
+    """``container[key]`` is asked for or stored."""
+    if machine.world.deeds is not None:
+        item, sources = constant_key(key), computed_from(key, frame.sources)
+        if item is None and not sources:
+            item = _given(machine, key, frame)
+        machine.world.reading.note_item(container, item, frame.place(container))
+        machine.world.reading.note_choice(container, sources, frame.place(container))
+
+
+def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
+    """The text of what a parameter was given, if that is one value in every run."""
+    if not isinstance(key, ast.Name) or not _is_one_by_one(machine.world.current):
+        return None
+    held = _held(key.id, frame)
+    if not isinstance(held, Const) or type(held.value) not in (str, int):
+        return None
+    return repr(held.value) if _is_parameter(key, machine.world.trees) else None
+
+
+def _is_one_by_one(doer: object) -> bool:
+    """Whether functions of one text that were given different values are kept apart there."""
+    if not isinstance(doer, EntityState) or doer.kind in _MERGED:
+        return False
+    return doer.when is not When.CALLBACK
+
+
+def _held(name: str, frame: Frame) -> Value | None:
+    scope: Scope | None = frame.scope
+    while scope is not None:
+        if name in scope.slots:
+            value: Value = scope.slots[name]
+            return value
+        scope = scope.parent
+    return None
+
+
+def _is_parameter(key: ast.Name, trees: Sequence[ast.Module]) -> bool:
+    return any(id(key) in noted_on(tree, 'kept_parameters', _kept_parameters) for tree in trees)
+
+
+def _kept_parameters(tree: ast.Module) -> frozenset[int]:
+    """The uses of parameters that nothing in their function stores to, by identity."""
+    return frozenset(
+        id(part)
+        for function in walk(tree)
+        if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda))
+        for part in _uses_of_kept(function)
+    )
+
+
+def _uses_of_kept(function: _Function) -> Iterator[ast.Name]:
+    given = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
+    names = [part for part in walk(function) if isinstance(part, ast.Name)]
+    stored = {part.id for part in names if not isinstance(part.ctx, ast.Load)}
+    kept = {each.arg for each in given} - stored
+    yield from (part for part in names if part.id in kept)

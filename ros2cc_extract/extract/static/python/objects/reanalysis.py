@@ -1,0 +1,72 @@
+"""A callback that is followed again: what it does then, and what it was seen to do before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import Class, Instance, Library
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Access, Act, Blocking
+
+Deed = TypeVar('Deed', Access, Act, Blocking)
+
+
+def both(before: Deeds, again: Deeds) -> Deeds:
+    """What is told of one place the second time replaces what was told of it the first time."""
+    return Deeds(
+        blocking=_both(before.blocking, again.blocking, lambda deed: deed.call),
+        reads=_both(before.reads, again.reads, lambda deed: (deed.name, deed.update)),
+        writes=_both(before.writes, again.writes, lambda deed: (deed.name, deed.update)),
+        locks=_both(before.locks, again.locks, lambda deed: deed.name),
+        publishes=_both(before.publishes, again.publishes, lambda deed: deed.name),
+        changes=_both(before.changes, again.changes, lambda deed: deed.name),
+        pieces=list(dict.fromkeys((*before.pieces, *again.pieces))),
+        stored={**before.stored, **again.stored},
+        written={**before.written, **again.written},
+    )
+
+
+def remember(world: World, cls: Class | Library, place: Place, instance: Instance) -> Instance:
+    """Keep what a callback makes, for when it is followed again."""
+    if world.deeds is not None or world.activity is not None:
+        world.made_then[_site(world, cls, place)] = instance
+    return instance
+
+
+def made_then(world: World, cls: Class | Library, place: Place) -> Instance | None:
+    """What the running callback made here when it was followed before."""
+    known = world.made_then.get(_site(world, cls, place)) if world.again else None
+    if known is not None:
+        _own(world, known)
+    return known
+
+
+def note_part(world: World, whole: Instance, part: Instance) -> None:
+    """``part`` is made while ``whole`` is set up, which is not done anew for a known object."""
+    if world.deeds is not None:
+        world.parts.setdefault(id(whole), []).append(part)
+
+
+def _own(world: World, known: Instance) -> None:
+    """The callback made it, and what is part of it."""
+    known.born = world.deeds
+    for part in world.parts.get(id(known), ()):
+        _own(world, part)
+
+
+def _site(world: World, cls: Class | Library, place: Place) -> object:
+    return id(world.activity or world.current), cls, place, world.chain
+
+
+def _both(before: list[Deed], again: list[Deed], name: Callable[[Deed], object]) -> list[Deed]:
+    told = {(deed.source, deed.chain, name(deed)) for deed in again}
+    kept: list[Deed] = [d for d in before if (d.source, d.chain, name(d)) not in told]
+    return sorted(kept + again, key=_way) if kept else again
+
+
+def _way(deed: Access | Act | Blocking) -> list[Place]:
+    """The calls that lead to it, for an order near to that of the text."""
+    return [place for place in (*deed.chain, deed.source) if place is not None]

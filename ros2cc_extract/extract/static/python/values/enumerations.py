@@ -1,0 +1,99 @@
+"""
+Enumerations of the program: each member is a constant, equal to itself alone.
+
+Those that are numbers or texts as well (``IntEnum``, ``class State(str, Enum)``) keep these.
+Source: CPython 3.12, ``enum.py`` (``auto`` counts from 1; members of ``Enum`` are true).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Class,
+    Const,
+    Library,
+    Mystery,
+    Value,
+)
+from ros2cc_extract.places import Place, Unknown
+
+_PLAIN = frozenset({'enum.Enum'})
+_NUMBERS = frozenset({'enum.IntEnum', 'builtins.int'})
+_TEXTS = frozenset({'enum.StrEnum'})
+
+
+@dataclass(frozen=True)
+class Member:
+    """A member of an enumeration that is nothing else."""
+
+    owner: str
+    name: str
+    value: Value = field(compare=False)
+
+    def __repr__(self) -> str:
+        return f'{self.owner.rpartition(".")[2]}.{self.name}'
+
+    def attribute(self, name: str, place: Place) -> Value:
+        """What the member has under ``name``."""
+        if name == 'name':
+            return Const(self.name)
+        reason = f'{name!r} of a member of an enumeration'
+        return self.value if name == 'value' else Mystery(Unknown(reason, place))
+
+
+def settle(cls: Class, slots: dict[str, Value]) -> None:
+    """After the body of a class was run: what its names stand for, if it is an enumeration."""
+    bases = _libraries(cls)
+    is_plain = bool(bases & _PLAIN) and bases <= _PLAIN | {'builtins.object'}
+    if not is_plain and not bases & (_NUMBERS | _TEXTS):
+        return
+    if not any(base.startswith('enum.') for base in bases):
+        return
+    number, owner = 0, f'{cls.module.name}.{cls.qualname}'
+    known: dict[Value, Value] = {}
+    for name, text in _assigned(cls.node):
+        value = slots.get(name, Const(None))
+        if _is_auto(text):
+            value = Const(name.lower() if bases & _TEXTS else number + 1)
+        if isinstance(value, Const) and isinstance(value.value, int):
+            number = value.value
+        member = Const(Member(owner, name, value)) if is_plain else value
+        slots[name] = known.setdefault(value, member) if isinstance(value, Const) else member
+
+
+def made(cls: Class, call: Call) -> Value | None:
+    """``State(1)``: the member that has this value, if that is known; ``None`` elsewhere."""
+    members = [
+        value
+        for value in cls.slots.values()
+        if isinstance(value, Const) and isinstance(value.value, Member)
+    ]
+    if not members:
+        return None
+    given = call.args[0] if call.args else None
+    same = (each for each in members if given in (each, each.value.value))
+    reason = f'a member of {cls.name}'
+    return next(same, None) or Mystery(Unknown(reason, call.place), cls.name)
+
+
+def _libraries(cls: Class) -> frozenset[str]:
+    return frozenset(base.name for base in cls.mro if isinstance(base, Library))
+
+
+def _assigned(node: ast.ClassDef) -> Iterator[tuple[str, ast.expr]]:
+    """The names that a class body gives values to, but private ones."""
+    for statement in node.body:
+        if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
+            target = statement.targets[0]
+            if isinstance(target, ast.Name) and not target.id.startswith('_'):
+                yield target.id, statement.value
+
+
+def _is_auto(text: ast.expr) -> bool:
+    function = text.func if isinstance(text, ast.Call) else None
+    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
+    return name == 'auto'

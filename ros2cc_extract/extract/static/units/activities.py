@@ -1,0 +1,140 @@
+"""The activities of one unit: which they are, and their values in the specification."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
+from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef
+from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
+from ros2cc_extract.extract.static.units.callback_names import FunctionFacts, describe
+from ros2cc_extract.extract.static.units.waits import UnitWaits
+from ros2cc_extract.spec.deeds import Access, Waker
+from ros2cc_extract.spec.model import Activity, ActivityKind
+
+_MAIN = 'main'
+
+
+def activities_of(
+    world: World, nodes: Sequence[Instance], entities: Iterable[EntityState], *, is_only: bool
+) -> list[ActivityState]:
+    """
+    Find those that have to do with a unit, in the order of their start.
+
+    :param is_only: there is no other unit that they could belong to.
+    """
+    entities = tuple(entities)
+    left = [state for state in world.activities if not _is_executor(state)]
+    if is_only:
+        return left
+    doers = {id(entity) for entity in entities}
+    touched = {id(node) for node in nodes}
+    things = {number for entity in entities for number in _things(world, entity)}
+    found: list[ActivityState] = []
+    while True:
+        more = [
+            state
+            for state in left
+            if state.nodes & touched
+            or state.things & things
+            or any(id(start.by) in doers for start in state.starts)
+            or any(id(runner) in things for runner in state.runners)
+        ]
+        if not more:
+            return sorted(found, key=world.activities.index)
+        left = [state for state in left if state not in more]
+        found += more
+        doers |= {id(state) for state in more}
+        things |= {number for state in more for number in state.things}
+
+
+def _things(world: World, entity: EntityState) -> Iterable[int]:
+    """What a callback waits on, or ends waits on."""
+    for block in (entity.deeds or Deeds()).blocking:
+        if isinstance(block.resource, ResourceRef):
+            yield block.resource.number
+    for number, wakings in world.wakings.items():
+        if any(waking.by is entity for waking in wakings):
+            yield number
+
+
+def _is_executor(state: ActivityState) -> bool:
+    """Whether it only sets up and spins an executor, or is a main program that does nothing."""
+    deeds = state.deeds
+    does = deeds.blocking or deeds.reads or deeds.writes or deeds.locks or deeds.publishes
+    if state.kind is ActivityKind.MAIN:
+        return not does
+    return state.is_executor or (state.serves and not does)
+
+
+def facts_of(state: ActivityState) -> FunctionFacts:
+    """What its function says of itself."""
+    if state.kind is ActivityKind.MAIN:
+        return FunctionFacts(_MAIN)
+    return describe(state.target, state.place)
+
+
+def activity(
+    state: ActivityState, names: dict[int, str], waits: UnitWaits, pieces: tuple[Access, ...]
+) -> Activity:
+    """The value of ``state`` in the specification."""
+    facts = facts_of(state)
+    receiver = state.target.receiver if isinstance(state.target, Bound) else None
+    owner = receiver if isinstance(receiver, Instance) else None
+    deeds = state.deeds
+    return Activity(
+        name=names[id(state)],
+        kind=state.kind,
+        function=facts.function,
+        node=names.get(id(owner)) or _only_node(state, names),
+        cls=owner.class_name if owner is not None and isinstance(owner.cls, Class) else None,
+        starts=tuple(_starts(state, names, waits)),
+        count=state.count,
+        conditional=_is_conditional(state),
+        daemon=state.daemon,
+        loops=state.loops,
+        ends_first=state.ends_first,
+        unresolved=facts.unresolved,
+        source=state.place,
+        defined=facts.defined,
+        blocking=waits.of(state),
+        reads=tuple(deeds.reads),
+        writes=tuple(deeds.writes),
+        locks=tuple(deeds.locks),
+        publishes=tuple(deeds.publishes),
+        changes=tuple(deeds.changes),
+        pieces=pieces,
+    )
+
+
+def _only_node(state: ActivityState, names: dict[int, str]) -> str | None:
+    """The node of all that a thread touches, whose function is no method of a node."""
+    if state.kind is ActivityKind.MAIN or len(state.nodes) != 1:
+        return None
+    return names.get(next(iter(state.nodes)))
+
+
+def _takes_turns(state: ActivityState, starter: object) -> bool:
+    """Whether it begins only when whoever starts it has ended: both have one thread."""
+    if isinstance(starter, EntityState):
+        return state.turns is not None and starter.node.state.loop == state.turns
+    return state.turns is not None and getattr(starter, 'turns', None) is state.turns
+
+
+def _is_conditional(state: ActivityState) -> bool:
+    """Whether a branch of whoever starts it may skip that."""
+    starts = [start for start in state.starts if start.by is not None]
+    return all(start.conditional for start in starts) if starts else bool(state.path)
+
+
+def _starts(state: ActivityState, names: dict[int, str], waits: UnitWaits) -> Iterable[Waker]:
+    for start in state.starts:
+        name = names.get(id(start.by)) if start.by is not None else None
+        if name is not None:
+            yield Waker(
+                by=name,
+                source=start.place,
+                after=None if _takes_turns(state, start.by) else waits.after(start),
+                conditional=start.conditional,
+            )

@@ -1,0 +1,103 @@
+"""
+Publishers that are destroyed while somebody else may publish by them.
+
+Source: rclpy 7.1.6, ``publisher.py`` (``publish`` takes the handle, which raises ``InvalidHandle``
+when it was destroyed) and ``node.py`` (``destroy_publisher`` gives the handle back at once).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import PUBLISHED, executor_of
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
+from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef
+from ros2cc_extract.extract.static.python.machine.world import (
+    End,
+    EntityState,
+    GroupState,
+    PlainState,
+    World,
+)
+from ros2cc_extract.extract.static.python.values.values import Const, Instance
+from ros2cc_extract.spec.model import ActivityKind, GroupType
+
+_Doer = EntityState | ActivityState
+
+
+def published_meanwhile(end: End, publisher: Instance, world: World) -> Iterator[Diagnostic]:
+    """Tell of the first who may still publish when ``end`` destroys ``publisher``."""
+    for use in world.ends:
+        is_of_it = use.kind == PUBLISHED and use.what is publisher
+        if is_of_it and _may_meet(end, use):
+            yield _told(end, use, publisher)
+            return
+
+
+def _may_meet(end: End, use: End) -> bool:
+    one, other = end.doer, use.doer
+    if one is other or _is_kept_apart(end, use):
+        return False
+    if isinstance(one, EntityState) and isinstance(other, EntityState):
+        return _may_overlap(one, other)
+    threads = [doer for doer in (one, other) if isinstance(doer, ActivityState)]
+    is_plain = all(each.kind not in (ActivityKind.MAIN, ActivityKind.PROCESS) for each in threads)
+    return is_plain and not _has_joined(end, other) and not _starts(one, other)
+
+
+def _is_kept_apart(end: End, use: End) -> bool:
+    """Whether who destroys takes a lock before that under which is published."""
+    deeds = end.doer.deeds or Deeds()
+    taken = {act.name for act in deeds.locks} | set(end.locks)
+    return not taken.isdisjoint(use.locks)
+
+
+def _has_joined(end: End, other: _Doer) -> bool:
+    """Whether who destroys the publisher waits for the end of that thread somewhere."""
+    if not isinstance(other, ActivityState):
+        return False
+    runners = {id(runner) for runner in other.runners}
+    waits = (end.doer.deeds or Deeds()).blocking
+    waited = (block.resource for block in waits)
+    return any(isinstance(each, ResourceRef) and each.number in runners for each in waited)
+
+
+def _starts(one: _Doer, other: _Doer) -> bool:
+    """Whether the one starts the other: what comes first is not looked into."""
+    pairs = ((one, other), (other, one))
+    return any(
+        isinstance(each, ActivityState) and any(start.by is by for start in each.starts)
+        for each, by in pairs
+    )
+
+
+def _may_overlap(one: EntityState, other: EntityState) -> bool:
+    executors = executor_of(one.node), executor_of(other.node)
+    if executors[0] is None or executors[1] is None:
+        return False
+    if executors[0] is not executors[1]:
+        return True
+    groups = one.group.state, other.group.state
+    is_known = all(isinstance(g, GroupState) and g.unresolved is None for g in groups)
+    is_shut = one.group is other.group and groups[0].type is GroupType.EXCLUSIVE
+    return is_known and executors[0].state.threads != 1 and not is_shut
+
+
+def _told(end: End, use: End, publisher: Instance) -> Diagnostic:
+    state = publisher.state
+    key = state.key if isinstance(state, PlainState) else None
+    name = f' of {key.value!r}' if isinstance(key, Const) else ''
+    who = 'a thread' if isinstance(use.doer, ActivityState) else 'another callback'
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='served-no-more',
+        place=end.place,
+        message=f'this publisher{name} is destroyed while {who} may publish by it ({use.place}): '
+        'that raises InvalidHandle there',
+        help='end the thread first, or publish and change the publisher under one lock, and '
+        'destroy the old one after that'
+        if isinstance(use.doer, ActivityState)
+        else 'publish and change the publisher under one lock, or keep both in one mutually '
+        'exclusive group',
+    )

@@ -1,0 +1,151 @@
+"""
+One executor that is spun at two places at the same time: by two threads, or by two callbacks.
+
+Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``wait_for_ready_callbacks`` goes on with one
+generator while its arguments stay the same), ``__init__.py`` (``rclpy.spin…`` without an executor
+spins the global one, whatever the node). Measured on both: with equal time-outs one of the two
+ends by ``ValueError: generator already executing``; with others each waits for itself, now and
+then with an ``IndexError``. Newer releases refuse (ros2/rclpy pull request 1510).
+``EventsExecutor`` is no such executor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    ExecutorState,
+    GroupState,
+    InsideSpin,
+    Spin,
+    World,
+)
+from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
+from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.model import GroupType
+
+_EVENTS = 'EventsExecutor'
+
+
+def are_concurrent(world: World, first: Spin, second: Spin) -> bool:
+    """Whether ``first`` goes on while ``second``, of the same executor, is begun after it."""
+    if first.executor is not second.executor or exclusive(first.path, second.path):
+        return False
+    if first.thread == second.thread:
+        return False
+    if first.place == second.place and first.nodes == second.nodes:
+        return False  # the same call, followed once more, and not one text of two threads
+    if list(world.spins.values()).index(first) < second.over:
+        return False
+    if first.thread == 0:
+        return first.for_ever and second.from_callback
+    return first.for_ever or first.repeated
+
+
+def note_spun_twice(world: World) -> None:
+    """Tell of executors that are spun twice at a time, when all was followed."""
+    found = (*_by_threads(world), *_by_callbacks(world))
+    world.diagnostics.extend(dict.fromkeys(found))
+
+
+def _by_threads(world: World) -> Iterator[Diagnostic]:
+    for first, second in combinations(world.spins.values(), 2):
+        if are_concurrent(world, first, second) and _is_ordinary(first.executor):
+            is_same = _asks_the_same((first.how, first.timeout), (second.how, second.timeout))
+            is_one = first.place == second.place
+            where = 'by the same call, with another node' if is_one else f'({first.place})'
+            other = f'another thread spins it already {where}'
+            yield _spun_twice(second.executor, second.how, second.place, other, is_same)
+
+
+def _by_callbacks(world: World) -> Iterator[Diagnostic]:
+    inside = [each for each in world.inside_spins if _is_of_another(each)]
+    for each in inside:
+        for spin in world.spins.values():
+            goes_on = spin.executor is each.executor and (spin.for_ever or spin.repeated)
+            if goes_on and not exclusive(spin.path, each.entity.path):
+                is_same = _asks_the_same((spin.how, spin.timeout), (each.how, each.timeout))
+                other = f'it is spun by {spin.how} as well ({spin.place})'
+                yield _spun_twice(each.executor, each.how, each.place, other, is_same)
+    told: set[int] = set()
+    for one, rival in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
+        is_told = id(one.entity) in told and id(rival.entity) in told
+        if one.executor is rival.executor and not is_told and _may_overlap(one, rival):
+            told |= {id(one.entity), id(rival.entity)}
+            is_same = _asks_the_same((one.how, one.timeout), (rival.how, rival.timeout))
+            words = f'another callback, which may run at the same time, does too ({rival.place})'
+            if one is rival:
+                words = 'another run of the same callback, which may coincide with it, does too'
+            yield _spun_twice(one.executor, one.how, one.place, words, is_same)
+
+
+def _is_ordinary(executor: Instance) -> bool:
+    state = executor.state
+    return isinstance(state, ExecutorState) and state.kind != _EVENTS and state.unknown is None
+
+
+def _is_of_another(spin: InsideSpin) -> bool:
+    """Whether it spins another executor than the one that runs the callback."""
+    return spin.executor not in _owners(spin.entity) and _is_ordinary(spin.executor)
+
+
+def _owners(entity: EntityState) -> tuple[Instance, ...]:
+    owner = entity.node.slots.get('__owner__')
+    known = options_of(owner) if isinstance(owner, Value) else ()
+    return tuple(each for each in known if isinstance(each, Instance))
+
+
+def _may_overlap(one: InsideSpin, other: InsideSpin) -> bool:
+    is_one = one.entity is other.entity
+    if set(one.held) & set(other.held) or (is_one and one is not other):
+        return False
+    if exclusive(one.entity.path, other.entity.path):
+        return False
+    mine, theirs = _owners(one.entity), _owners(other.entity)
+    if len(mine) != 1 or len(theirs) != 1:
+        return False
+    if mine != theirs:
+        return True
+    state, group = mine[0].state, one.entity.group.state
+    if state.threads == 1 or state.unknown or state.unresolved or state.threads_unresolved:
+        return False
+    is_open = isinstance(group, GroupState) and group.type is GroupType.REENTRANT
+    return is_open or (not is_one and one.entity.group is not other.entity.group)
+
+
+def _asks_the_same(one: tuple[str, Value | None], other: tuple[str, Value | None]) -> bool:
+    """Whether both go on with one generator: both step with equal time-outs, or none."""
+    steps = all(how.rpartition('.')[2] in ('spin', 'spin_once') for how, _ in (one, other))
+    return steps and _seconds(one[1]) == _seconds(other[1])
+
+
+def _seconds(timeout: Value | None) -> object:
+    if timeout is None:
+        return None
+    return timeout.value if isinstance(timeout, Const) else id(timeout)
+
+
+def _spun_twice(
+    executor: Instance, how: str, place: Place, other: str, is_same: bool
+) -> Diagnostic:
+    state = executor.state
+    name = 'the global executor' if state.is_global else executor.hint or 'an executor'
+    before = (
+        'one of the two may end by ValueError: generator already executing'
+        if is_same
+        else 'each takes what the other waits for'
+    )
+    return Diagnostic(
+        severity=Severity.ERROR if is_same else Severity.WARNING,
+        slug='executor-spun-twice',
+        place=place,
+        message=f'{how} spins {name} while {other}: {before}, and from rclpy 7.1.9 on the second '
+        'ends by RuntimeError',
+        help='spin an executor in one thread, and wait for what comes there in the others'
+        if not state.is_global
+        else 'give each thread an executor of its own, or one executor all nodes',
+    )

@@ -1,0 +1,242 @@
+"""
+What callbacks and threads end while it is served: nodes, entities, executors, rclpy itself.
+
+Measured on rclpy 3.3.21 (its ``executors.py`` and ``task.py`` over those of 7.1.6), 7.1.6 and
+9.1.2: a callback that shuts rclpy down under ``rclpy.spin``, or shuts down the single-threaded
+executor that runs it, waits for its own end on 3.3 and goes on later; a publisher raises when
+rclpy is shut down; an entity destroyed while another thread spins it ends that spin by
+``InvalidHandle`` on 3.3 and 7.1 after some dozen times, and not on 9.1 (``executors.py``, where
+the wait set is read by handle). What raises there are the events of a subscription, which are no
+entities of the node; the timer of a rate has none, and in 10,385 rounds of making, sleeping by and
+destroying one, by a thread and in a pool, no spin ended on 7.1.6.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+    DESTROY,
+    DESTROY_NODE,
+    DESTROY_PUBLISHER,
+    OF_RATE,
+    REMOVE_NODE,
+    SHUTDOWN,
+    SHUTDOWN_EXECUTOR,
+    USED,
+    executor_of,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.executors import nodes_of
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
+from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
+from ros2cc_extract.extract.static.python.machine.world import End, EntityState, Spin, World
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Const,
+    Function,
+    Instance,
+)
+from ros2cc_extract.extract.static.units.destroyed_publishers import published_meanwhile
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import ActivityKind, When
+
+_SINGLE = 'SingleThreadedExecutor'
+_GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
+
+
+def note_ends(world: World) -> None:
+    """Tell of what nobody serves any more, when all was followed."""
+    found = (diagnostic for end in world.ends for diagnostic in _told(end, world))
+    world.diagnostics.extend(dict.fromkeys(found))
+
+
+def _told(end: End, world: World) -> Iterator[Diagnostic]:
+    doer = end.doer
+    if isinstance(doer, EntityState):
+        if end.kind == USED:
+            yield _used(end)
+        elif end.kind in (SHUTDOWN, SHUTDOWN_EXECUTOR) and _waits_for_itself(end, doer, world):
+            yield _waits_for_its_end(end)
+        elif end.kind == SHUTDOWN_EXECUTOR and end.what is executor_of(doer.node):
+            yield _ends_its_executor(end)
+        elif end.kind in (DESTROY_NODE, REMOVE_NODE) and _leaves_nothing(end, doer, world):
+            yield _serves_nothing(end)
+    if end.kind == DESTROY and isinstance(end.what, EntityState):
+        yield from _destroyed(end, end.what, world)
+    if end.kind == DESTROY_PUBLISHER and isinstance(end.what, Instance):
+        yield from published_meanwhile(end, end.what, world)
+
+
+def _spins_of(executor: Instance | None, world: World) -> list[Spin]:
+    return [spin for spin in world.spins.values() if spin.executor is executor]
+
+
+def _waits_for_itself(end: End, doer: EntityState, world: World) -> bool:
+    executor = executor_of(doer.node)
+    if executor is None or executor.state.kind != _SINGLE or not _spins_of(executor, world):
+        return False
+    if end.kind == SHUTDOWN_EXECUTOR:
+        return end.what is executor
+    return bool(executor.state.is_global)
+
+
+def _leaves_nothing(end: End, doer: EntityState, world: World) -> bool:
+    """Whether the node ends in its own callback, and its executor, spun for ever, had no other."""
+    executor = executor_of(doer.node)
+    spins = _spins_of(executor, world)
+    if executor is None or end.what is not doer.node or not spins:
+        return False
+    served = {id(node) for spin in spins for node in (*spin.nodes, *nodes_of(executor))}
+    is_alone = served <= {id(doer.node)}
+    return all(spin.for_ever for spin in spins) and is_alone and not _goes(doer, world)
+
+
+def _goes(doer: EntityState, world: World) -> bool:
+    """Whether the callback ends the program as well, or adds its node somewhere."""
+    deeds = doer.deeds or Deeds()
+    if any(act.name == 'add_node' for act in deeds.changes):
+        return True
+    if any(e.doer is doer and e.kind in (SHUTDOWN, SHUTDOWN_EXECUTOR) for e in world.ends):
+        return True
+    callback = doer.callback
+    function = callback.function if isinstance(callback, Bound) else callback
+    parts = ast.walk(function.node) if isinstance(function, Function) else ()
+    return any(isinstance(part, ast.Raise) or _called(part) in _GOING for part in parts)
+
+
+def _called(part: ast.AST) -> str:
+    function = part.func if isinstance(part, ast.Call) else None
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ''
+
+
+def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnostic]:
+    waits = [block for block in _waits_on(entity, end, world) if block.seconds is None]
+    if waits:
+        yield _awaited(end, entity, waits[0])
+        return
+    if entity.library == OF_RATE:
+        return
+    executor = executor_of(entity.node)
+    spins = _spins_of(executor, world)
+    if executor is None or not spins or executor.state.kind == 'EventsExecutor':
+        return
+    is_by_callback = isinstance(end.doer, EntityState)
+    if _is_main(end.doer) and not any(spin.in_thread for spin in spins):
+        return
+    has_pool = executor.state.threads != 1
+    is_of_other = is_by_callback and executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
+    if has_pool or is_of_other or not is_by_callback:
+        yield _destroyed_meanwhile(end, entity, executor, _is_done_again(end, world))
+
+
+def _is_main(doer: object) -> bool:
+    return isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN
+
+
+def _is_done_again(end: End, world: World) -> bool:
+    """
+    Whether entities come and go there while the program runs.
+
+    One of the set-up goes once, and one of a life-cycle transition with each turn of that.
+    """
+    gone = [each.what for each in world.ends if each.kind == DESTROY and each.place == end.place]
+    made = [each for each in world.entities if each.maker is end.doer]
+    return any(_comes_again(each) for each in (*gone, *made) if isinstance(each, EntityState))
+
+
+def _comes_again(entity: EntityState) -> bool:
+    is_of_set_up = entity.when is When.START
+    is_of_set_up = is_of_set_up and (entity.maker is None or _is_main(entity.maker))
+    return not is_of_set_up and entity.when is not When.CONFIGURE
+
+
+def _waits_on(entity: EntityState, end: End, world: World) -> Iterator[Blocking]:
+    """Calls of others that wait for the answer which ``entity`` takes."""
+    doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
+    for doer in doers:
+        if doer is end.doer or doer.deeds is None:
+            continue
+        for block in doer.deeds.blocking:
+            is_call = block.call in ('client.call', 'send_goal')
+            if is_call and isinstance(block.on, EntityRef) and block.on.number == id(entity):
+                yield block
+
+
+def _used(end: End) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='served-no-more',
+        place=end.place,
+        message=f'a callback shuts rclpy down, and then {end.text}: that raises, and ends the '
+        'spin',
+        help='shut down last, or let the code after the spin do it',
+    )
+
+
+def _waits_for_its_end(end: End) -> Diagnostic:
+    what = 'rclpy' if end.kind == SHUTDOWN else 'the executor that runs it'
+    return Diagnostic(
+        severity=Severity.NOTE,
+        slug='shut-down-in-callback',
+        place=end.place,
+        message=f'a callback shuts down {what} and waits for its own end: on Humble (rclpy 3.3) '
+        'it waits for ever',
+        help='make a future done and spin until that, or raise SystemExit; shut down after the '
+        'spin',
+    )
+
+
+def _ends_its_executor(end: End) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.NOTE,
+        slug='served-no-more',
+        place=end.place,
+        message='a callback shuts down the executor that runs it: the spin ends, perhaps before '
+        'this callback has, and none of its callbacks runs any more',
+        help='make a future done and spin until that; shut down behind the spin',
+    )
+
+
+def _serves_nothing(end: End) -> Diagnostic:
+    does = (
+        'destroys its node' if end.kind == DESTROY_NODE else 'takes its node out of the executor'
+    )
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='served-no-more',
+        place=end.place,
+        message=f'a callback {does}: none of its callbacks runs any more, and the spin goes on '
+        'with nothing to serve',
+        help='end the spin instead: make a future done and spin until that, or raise SystemExit',
+    )
+
+
+def _awaited(end: End, entity: EntityState, wait: Blocking) -> Diagnostic:
+    name = f' {entity.key.value!r}' if isinstance(entity.key, Const) else ''
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='served-no-more',
+        place=end.place,
+        message=f'client{name} is destroyed here while {wait.call} may wait for its answer '
+        f'({wait.source}): nobody takes that any more, and it waits for ever',
+        help='keep the client for as long as the program runs',
+    )
+
+
+def _destroyed_meanwhile(
+    end: End, entity: EntityState, executor: Instance, is_done_again: bool
+) -> Diagnostic:
+    kind = entity.kind.value.replace('_', ' ')
+    return Diagnostic(
+        severity=Severity.WARNING if is_done_again else Severity.NOTE,
+        slug='destroyed-while-spun',
+        place=end.place,
+        message=f'this {kind} is destroyed while another thread spins '
+        f'{executor.hint or "its executor"}: up to Jazzy (rclpy 7.1) that spin may end by '
+        'InvalidHandle',
+        help='keep it and let its callback do nothing, or destroy it when nobody spins',
+    )

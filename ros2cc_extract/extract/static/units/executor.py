@@ -1,0 +1,121 @@
+"""The executor of a unit as a value of the specification."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.python.machine.world import ExecutorState, SetUpWait, Spin
+from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
+from ros2cc_extract.extract.static.python.values.values import Class, Instance
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
+
+ASSUMED_THREADS = 2
+
+
+@dataclass(eq=False)
+class Unit:
+    """
+    An executor and the nodes it serves in the end.
+
+    :param spin: the call that spins it, ``None`` when there is none in sight.
+    :param mark: tells units apart of which a program only ever runs one.
+    :param is_only: the program has no other.
+    :param set_up: waits of the code that sets it up or ends it.
+    """
+
+    executor: Instance | None
+    nodes: list[Instance]
+    spin: Spin | None
+    mark: Mark = NO_MARK
+    is_only: bool = False
+    set_up: list[SetUpWait] = field(default_factory=list)
+
+    @property
+    def state(self) -> ExecutorState | None:
+        """What is known of the executor."""
+        state = self.executor.state if self.executor else None
+        return state if isinstance(state, ExecutorState) else None
+
+    @property
+    def number_of_threads(self) -> int:
+        """As many worker threads as the models get."""
+        number = self.state.threads if self.state else 1
+        return ASSUMED_THREADS if number is None else number
+
+    @property
+    def executor_label(self) -> str:
+        """What the program calls the executor."""
+        return (self.executor.hint if self.executor and self.state else None) or 'executor'
+
+
+def executor_of(unit: Unit, name: str, threads: tuple[str, ...], entry: str | None) -> Executor:
+    """The executor of ``unit``, which ``entry`` starts if any does."""
+    state, spin = unit.state, unit.spin
+    if state is None or unit.executor is None:
+        why = _nested_spin(unit) or Unknown(NO_EXECUTOR, unit.nodes[0].place)
+        return Executor(name=name, threads=threads, kind=why)
+    unresolved = state.unknown or state.unresolved or state.threads_unresolved
+    elsewhere = _spun_elsewhere(unit) if entry is None else None
+    if spin is None and unresolved is None:
+        reason = 'no call that spins this executor is in sight'
+        unresolved = _nested_spin(unit) or Unknown(reason, unit.executor.place)
+    return Executor(
+        name=name,
+        threads=threads,
+        kind=state.unknown or elsewhere or state.kind,
+        threads_source=_threads_source(state),
+        in_thread=spin.in_thread if spin else False,
+        spun=spin.how if spin else None,
+        alternative=unit.mark[0],
+        branch=unit.mark[1],
+        unresolved=unresolved,
+        assumed=_assumed_threads(state),
+        source=spin.place if state.is_global and spin else unit.executor.place,
+    )
+
+
+def _nested_spin(unit: Unit) -> Unknown | None:
+    """Why the executor is not followed where only callbacks spin the nodes."""
+    for node in unit.nodes:
+        if node.state.nested is not None:
+            how, place = node.state.nested
+            return Unknown(f'only {how} inside a callback serves this node', place)
+    return None
+
+
+def _spun_elsewhere(unit: Unit) -> Unknown | None:
+    """Why somebody who is not in sight may serve the nodes by another executor."""
+    spin = unit.spin
+    if spin is None:
+        return None
+    if not spin.for_ever and any(is_handed_over(node) for node in unit.nodes):
+        reason = f'{spin.how} serves this node in passing; who else does is not in sight'
+        return Unknown(reason, spin.place)
+    if spin.for_ever and any(i >= 0 for _, i in beyond(spin.path, unit.nodes[0].path)):
+        reason = f'{spin.how} stands under a condition; who else serves it is not in sight'
+        return Unknown(reason, spin.place)
+    return None
+
+
+def is_handed_over(node: Instance) -> bool:
+    """Whether the node comes from, or goes to, somebody who is not in sight."""
+    made_for_nobody = isinstance(node.cls, Class) and node.place == node.cls.place
+    return node.state.ghost is not None or made_for_nobody
+
+
+def _threads_source(state: ExecutorState) -> str | None:
+    if state.threads_unresolved is not None:
+        return 'unresolved'
+    if state.threads is None:
+        return 'default_cpu_count'
+    return str(state.threads_at) if state.threads_at else None
+
+
+def _assumed_threads(state: ExecutorState) -> str | None:
+    if state.threads is None:
+        return (
+            f'{ASSUMED_THREADS} threads: rclpy takes the number of CPUs at run time, and '
+            f'{ASSUMED_THREADS} where it cannot be had'
+        )
+    return state.assumed

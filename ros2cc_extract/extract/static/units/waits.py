@@ -1,0 +1,550 @@
+"""The waits of one unit: what each waits on, and who may end it, by the names of the unit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+
+from ros2cc_extract.extract.static.concurrency.activities import is_activity
+from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
+    answer_from_outside,
+    why_wiped_out,
+)
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
+    data_is_written_elsewhere,
+    uncalled_wakers,
+)
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
+from ros2cc_extract.extract.static.libraries.standard import child_pipes
+from ros2cc_extract.extract.static.libraries.standard.outside_calls import OF_CHILDREN
+from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
+    ActivityState,
+    Deeds,
+    way_of,
+)
+from ros2cc_extract.extract.static.python.machine.wake_operations import (
+    ClockRef,
+    DataRef,
+    EntityRef,
+    ResourceRef,
+    SettableRef,
+    TopicRef,
+    Waking,
+    Word,
+)
+from ros2cc_extract.extract.static.python.machine.world import End, EntityState, World
+from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
+from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
+from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
+from ros2cc_extract.extract.static.units.wakers.queue_consumers import (
+    may_find_it_done,
+    taken_by_itself,
+)
+from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
+    forgets,
+    is_unheard,
+    why_gone,
+    why_lost,
+    why_unspun,
+)
+from ros2cc_extract.extract.static.units.wakers.unique_waker import the_setter
+from ros2cc_extract.extract.static.units.wakers.unsendable_messages import (
+    comes_unasked,
+    is_first,
+    sent_in_hold,
+    unsent_before_end,
+)
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import (
+    BY_ITSELF,
+    OUTSIDE,
+    POLLING_LOOP,
+    TIME,
+    Access,
+    Blocking,
+    Needs,
+    Waker,
+)
+from ros2cc_extract.spec.model import ActivityKind
+
+# What is waited for of one object may be several things.
+_COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
+_KEPT = 'it is kept in a collection, and who takes it out could not be followed'
+NOWHERE = Place('')
+_OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
+_PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
+
+Doer = EntityState | ActivityState
+
+
+@dataclass
+class _Kept:
+    """The waits of one callback or activity that the unit tells of, and where each raw one is."""
+
+    raw: list[Blocking] = field(default_factory=list)
+    named: list[Blocking] = field(default_factory=list)
+    places: dict[object, int] = field(default_factory=dict)
+
+
+class UnitWaits:
+    """
+    Names what the callbacks and activities of a unit wait for.
+
+    :param names: of entities, activities, nodes and the executor, by their identity.
+    """
+
+    def __init__(self, world: World, names: dict[int, str], doers: Iterable[Doer]) -> None:
+        self._world = world
+        self._names = names
+        self._resources: dict[object, str] = {}
+        self._taken: dict[str, int] = {}
+        self._settled = dict(names)
+        for number, wakings in world.wakings.items():
+            setter = the_setter(wakings)
+            if setter is not None and id(setter) in names:
+                self._settled[number] = names[id(setter)]
+        doers = tuple(doers)
+        self._doers = doers
+        self._kept = {id(doer): self._keep(doer) for doer in doers}
+
+    def of(self, doer: Doer) -> tuple[Blocking, ...]:
+        """The waits of ``doer``."""
+        kept = self._kept[id(doer)]
+        pairs = zip(kept.raw, kept.named, strict=True)
+        return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
+
+    def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
+        """Waits of code that no callback runs, each as it was met and as the unit tells it."""
+        doer = ActivityState(ActivityKind.MAIN, NOWHERE, deeds=Deeds(blocking=raws))
+        kept = self._kept[id(doer)] = self._keep(doer)
+        named = self.of(doer)
+        del self._kept[id(doer)]
+        return tuple(zip(kept.raw, named, strict=True))
+
+    def _keep(self, doer: Doer) -> _Kept:
+        """Waits for one of several that have no name here are alike."""
+        kept = _Kept()
+        for raw in (doer.deeds or Deeds()).blocking:
+            if not self._is_none(raw, doer) and not self._gives_back(raw, doer):
+                named = self._named(raw)
+                if named not in kept.named:
+                    kept.raw.append(raw)
+                    kept.named.append(named)
+                kept.places[way_of(raw)] = kept.named.index(named) + 1
+            else:
+                kept.places[way_of(raw)] = len(kept.named)
+        return kept
+
+    def _is_none(self, raw: Blocking, doer: Doer) -> bool:
+        """Whether it never waits: it was asked before, and nobody else changes the answer."""
+        reference = raw.resource
+        if not isinstance(reference, ResourceRef) or not reference.asked:
+            return False
+        rival = WAITS[raw.call].rival
+        if rival is None:
+            return True
+        wakings = wakings_of(self._world, reference)
+        takers = {id(waking.by): waking.by for waking in wakings if waking.word is rival}
+        return len(takers) < 2 or keeps_to_itself(doer, takers.values())
+
+    def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
+        """Whether who takes a semaphore gives it back too, so that it is a lock."""
+        reference = raw.resource
+        if raw.call != 'Semaphore.acquire' or not isinstance(reference, ResourceRef):
+            return False
+        wakings = wakings_of(self._world, reference)
+        given = [waking for waking in wakings if waking.word is Word.RELEASE]
+        initial = self._initial(reference, given)
+        return initial != 0 and initial_permits.is_plain_lock(raw, doer, self._doers, given)
+
+    def _named(self, raw: Blocking) -> Blocking:
+        resource = raw.resource
+        if isinstance(raw.on, DataRef):
+            return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
+        if isinstance(raw.on, TopicRef):
+            return replace(raw, on=str(raw.on), resource=str(raw.on))
+        if isinstance(raw.on, ClockRef):
+            return replace(raw, on=self._names.get(raw.on.number), resource=str(raw.on))
+        on = _waited_name(raw.on, self._settled)
+        if isinstance(resource, ResourceRef):
+            on = self._the_waker(raw, resource) or (str(raw.on) if on is not None else None)
+        if isinstance(resource, ResourceRef):
+            resource = self._resource(resource)
+        elif isinstance(raw.on, EntityRef) and isinstance(on, str):
+            resource = on
+        return replace(raw, on=on, foreign=self._is_foreign(raw.on), resource=resource)
+
+    def _the_waker(self, raw: Blocking, reference: ResourceRef) -> str | None:
+        """The one callback that ends a wait, where nothing else can."""
+        wakings = wakings_of(self._world, reference)
+        setter = the_setter(wakings, reference.ended_by)
+        mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        is_open = raw.escapes is not None or self._why_open(mine, reference) is not None
+        is_open = is_open or self._initial(reference, mine) != 0
+        return None if setter is None or is_open else self._names.get(id(setter))
+
+    def _resource(self, reference: ResourceRef) -> str:
+        key = (reference.number, reference.ended_by)
+        known = self._resources.get(key)
+        if known is None:
+            text = str(reference) + _PARTS.get(min(reference.ended_by, key=str), '')
+            number = self._taken[text] = self._taken.get(text, 0) + 1
+            known = text if number == 1 else f'{text}#{number}'
+            self._resources[key] = known
+        return known
+
+    def _is_foreign(self, on: object) -> bool:
+        """Whether nothing but threads of the user's own sets what is waited for."""
+        if not isinstance(on, SettableRef):
+            return False
+        wakings = self._world.wakings.get(on.number, ())
+        setters = [waking for waking in wakings if waking.word is Word.SET]
+        return bool(setters) and all(is_activity(waking.by) for waking in setters)
+
+    def _the_writer(self, on: DataRef) -> str:
+        """The one callback that writes what a loop waits for, else the name of the data."""
+        names = {
+            name for doer, _ in self._writes(on) if (name := self._names.get(id(doer))) is not None
+        }
+        is_open = data_is_written_elsewhere(self._world, on.names) is not None
+        is_one = len(names) == 1 and not is_open
+        doer = next((doer for doer, _ in self._writes(on)), None)
+        return names.pop() if is_one and not is_activity(doer) else str(on)
+
+    def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
+        """Who writes what a loop waits for, but for what its own callback did before."""
+        for doer in self._doers:
+            for access in (doer.deeds or Deeds()).writes:
+                is_before = (access.name, access.source) in on.before
+                if access.name in on.names and not is_before:
+                    yield doer, access
+
+    def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
+        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
+        by = [clock if isinstance(clock, str) else OUTSIDE]
+        if not any(self._senders(TopicRef(topic))):
+            by.append(OUTSIDE)
+        return tuple(Waker(by=each) for each in dict.fromkeys(by))
+
+    def _writers(self, on: DataRef) -> Iterator[Waker]:
+        for doer, access in self._writes(on):
+            yield self._does(doer, access.name, access.source)
+
+    def _senders(self, topic: TopicRef) -> Iterator[Waker]:
+        """Who publishes what is waited for; the names are compared as they are written."""
+        for doer in self._doers:
+            for act in (doer.deeds or Deeds()).publishes:
+                if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
+                    yield self._does(doer, act.name, act.source)
+
+    def _at_end(self, on: DataRef, doer: Doer) -> Iterator[Waker]:
+        """What the program does when the spin has ended, which ends its threads from outside."""
+        for name in sorted(on.names) if is_activity(doer) else ():
+            by, place = self._world.other_writes.get(name, ('', None))
+            if by is None:
+                yield Waker(by=OUTSIDE, source=place)
+
+    def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
+        """A write or a message of ``doer`` that ends a wait."""
+        behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
+        after = self._kept[id(doer)].places.get(behind, 0)
+        return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
+
+    def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
+        if isinstance(raw.on, ClockRef):
+            return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
+        if isinstance(raw.on, TopicRef):
+            senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
+            return replace(named, wakers=senders)
+        if isinstance(raw.on, DataRef):
+            return self._of_data(raw, raw.on, named, doer)
+        forked = self._world.forked
+        if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
+            raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
+        unread = child_pipes.unread_at(self._world, raw, doer.deeds or Deeds())
+        named = replace(named, unread=unread)
+        row = WAITS.get(raw.call, NO_ROW)
+        wakers = [Waker(by=by) for by in row.always]
+        escapes = raw.escapes
+        if isinstance(raw.resource, ResourceRef):
+            more, why = self._wakers_of(raw, raw.resource, doer)
+            wakers += more
+            escapes = escapes or why
+            named = replace(named, forgets=self._forgets(raw.resource, doer))
+            wakings = wakings_of(self._world, raw.resource)
+            named = replace(named, answer_to=self._answer_to(raw, raw.resource, doer))
+            if is_activity(doer):
+                named = replace(named, at_end=self._ended_last(raw.resource))
+            given = [w for w in wakings if w.word in raw.resource.ended_by]
+            initial = self._initial(raw.resource, wakings)
+            if given and may_find_it_done(raw, wakings, doer):
+                initial = None
+            number = initial_permits.counted(raw, initial, self._doers, given)
+            is_sure = initial != 0 and escapes is None
+            taken = taken_by_itself(raw, self._world, self._doers) if is_sure else None
+            if taken is not None:
+                wakers = [Waker(by=TIME, source=taken)]
+            elif number:
+                named = replace(named, initial=number)
+            elif initial != 0:
+                # A model of so many runs cannot say when they are used up.
+                many = 'some' if initial is None else f'the first {initial}'
+                reason = f'{many} {BY_ITSELF}'
+                escapes = escapes or Unknown(reason, raw.source)
+                named = replace(named, initial=initial_permits.few(initial))
+        elif row.ended_by and isinstance(raw.on, EntityRef):
+            is_here = isinstance(named.on, str) and named.on in self._names.values()
+            wakers.append(Waker(by=str(named.on) if is_here else OUTSIDE))
+        elif row.ended_by and escapes is None:
+            unknown = Unknown('what is waited for is not known', raw.source)
+            escapes = raw.on if isinstance(raw.on, Unknown) else unknown
+        if escapes is None and not _ends_by_itself(wakers) and not named.initial:
+            named = replace(named, unsent=self._unsent(raw, doer))
+        return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
+
+    def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
+        """A loop that waits until somebody has written what it reads."""
+        writers = tuple(dict.fromkeys((*self._writers(on), *self._at_end(on, doer))))
+        why = data_is_written_elsewhere(self._world, on.names)
+        by = [writer for writer, _ in self._writes(on)]
+        unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
+        unsure = unsure or why_unspun(self._world, by, doer, self._name)
+        if unsure is not None:
+            writers = _unsure(writers)
+        asked = answer_from_outside(on.sent, by, self._world)
+        is_poll = raw.call == POLLING_LOOP and raw.seconds is None
+        asked = asked if is_poll and not is_activity(doer) else None
+        is_open = why is not None or unsure is not None or _ends_by_itself(writers)
+        sent = on.sent_by_now
+        unsent = None if is_open else unsent_before_end(raw, sent, by, doer, self._world)
+        return replace(
+            named, wakers=writers, escapes=why or unsure, answer_to=asked, unsent=unsent
+        )
+
+    def _unsent(self, raw: Blocking, doer: Doer) -> str | None:
+        """The topics on which nobody in sight publishes before the wait has ended."""
+        reference = raw.resource
+        if not isinstance(reference, ResourceRef) or _is_in_turn(reference, doer):
+            return None
+        stays = reference.is_kept and reference.number not in self._world.cleared
+        if stays and not is_first(raw, reference, doer):
+            return None
+        by = [
+            waking.by
+            for waking in wakings_of(self._world, reference)
+            if waking.word in reference.ended_by
+            and not comes_last(waking, self._world)
+            and (waking.by is doer or comes_unasked(waking, reference))
+        ]
+        sent = reference.sent
+        if self._forgets(reference, doer):
+            sent = sent_in_hold(reference, doer)
+        return unsent_before_end(raw, sent, by, doer, self._world)
+
+    def _wakers_of(
+        self, raw: Blocking, reference: ResourceRef, doer: Doer
+    ) -> tuple[list[Waker], Unknown | None]:
+        wakings = wakings_of(self._world, reference)
+        mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        uneven: Unknown | None = None
+        if Word.ARRIVE in reference.ended_by:
+            visits = barriers.visits_of(reference, self._doers)
+            uneven = barriers.why_rounds_differ(raw, reference, visits, mine)
+            mine = [waking for waking in mine if waking.by is not doer]
+            if reference.parties == 1:
+                return [Waker(by=TIME)], None
+            if barriers.is_in_vain(reference, visits, mine):
+                return [], self._why_open(mine, reference)
+            mine = barriers.of_its_round(raw, doer, visits, mine)
+        found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
+        unsure = uneven or self._why_unsure(raw, reference, mine, doer)
+        unsure = unsure or why_no_thread(mine, doer, self._name)
+        if unsure is not None:
+            found = list(_unsure(found))
+        if not mine and reference.number in self._world.interruptible:
+            found = [Waker(by=OUTSIDE, source=raw.source)]
+        why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer, self._world)
+        return found, why
+
+    def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
+        """What the wait is an answer to; a thread that takes items in turn waits for no answer."""
+        if raw.seconds is not None or _is_in_turn(reference, doer):
+            return None
+        wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
+        by = [waking.by for waking in wakings if not comes_last(waking, self._world)]
+        return answer_from_outside(reference.sent, by, self._world)
+
+    def _forgets(self, reference: ResourceRef, doer: Doer) -> bool:
+        wakings = wakings_of(self._world, reference)
+        return forgets(reference, [w for w in wakings if w.word in reference.ended_by], doer)
+
+    def _why_unsure(
+        self, raw: Blocking, reference: ResourceRef, mine: list[Waking], doer: Doer
+    ) -> Unknown | None:
+        """Why those that end a wait may be gone by then, or come too early."""
+        stays = reference.is_kept and reference.number not in self._world.cleared
+
+        def comes_after(end: End) -> bool:
+            """Of one's own waits the first has ended, and with it all."""
+            return stays and self._is_behind(end, raw, doer)
+
+        wakers = [waking.by for waking in mine]
+        # An error that ends a thread is what a join waits for.
+        gone = [None if waking.word is Word.END else waking.by for waking in mine]
+        why = why_gone(self._world, gone, comes_after, self._name)
+        why = why or why_unspun(self._world, wakers, doer, self._name)
+        if why is not None or forgets(reference, mine, doer):
+            return why
+        why = why_lost(self._world, reference, mine, doer, self._doers, self._name)
+        is_for_ever = raw.seconds is None and why is None
+        return why_wiped_out(reference, mine, doer, self._doers) if is_for_ever else why
+
+    def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
+        """Whether ``doer`` itself ends it, when it has waited."""
+        behind = self._kept[id(doer)].places.get(end.behind, 0)
+        mine_at = self._kept[id(doer)].places.get(way_of(raw), 0)
+        return end.doer is doer and 0 < mine_at <= behind
+
+    def _of_main_after(self, raw: Blocking, doer: Doer) -> Callable[[End], bool]:
+        """What ``main``, which runs once, ends when it has waited is there while it waits."""
+        is_main = isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN
+        return lambda end: is_main and self._is_behind(end, raw, doer)
+
+    def _name(self, doer: object) -> str | None:
+        return self._names.get(id(doer))
+
+    def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
+        """Why somebody may end the wait who is not known."""
+        given = self._world.given.get(reference.number)
+        if given is not None:
+            return given
+        if reference.asked:
+            return Unknown('somebody else may have taken what was asked for')
+        uncalled = next((w for w in mine if w.uncalled is not None), None)
+        if uncalled is not None:
+            return Unknown(
+                f'nobody in sight calls {uncalled.uncalled}, which ends it', uncalled.place
+            )
+        return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
+
+    def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
+        by, place = waking.by, waking.place
+        if by is None:
+            if waking.uncalled is None and not comes_last(waking, self._world):
+                yield from self._by_set_up(waking, reference)
+            return
+        name = self._names.get(id(by))
+        if name is None:
+            yield Waker(by=OUTSIDE, source=place)
+            return
+        after = None if waking.word is Word.END else self.after(waking)
+        stays = reference.is_kept and reference.number not in self._world.cleared
+        yield Waker(
+            by=name,
+            source=place,
+            after=after,
+            conditional=self._may_fail(waking, reference, doer, stays=stays),
+            held=waking.held,
+        )
+
+    def _may_fail(
+        self, waking: Waking, reference: ResourceRef, doer: Doer, *, stays: bool
+    ) -> bool:
+        """Whether ``waking`` perhaps does not come, or not while ``doer`` waits."""
+        if waking.conditional and not (stays and waking.unless_done):
+            return True
+        if self._forgets(reference, doer) and is_unheard(waking, doer):
+            return True
+        if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
+            return True  # it notifies before it waits itself
+        return is_kept_out(waking, reference, doer, self._doers)
+
+    def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
+        """What is set before anything else runs stays so, unless it is taken back."""
+        if waking.word is Word.SET and reference.is_kept:
+            is_open = waking.conditional or reference.number in self._world.cleared
+            yield Waker(by=TIME, source=waking.place, conditional=is_open)
+        elif (
+            waking.word in (Word.PUT, Word.RELEASE, Word.GET, Word.DONE) and not waking.is_counted
+        ):
+            yield Waker(by=TIME, source=waking.place, conditional=True)
+
+    def _ended_last(self, reference: ResourceRef) -> Place | None:
+        """Where the program ends a wait when its spin is over."""
+        wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
+        last = (waking for waking in wakings if comes_last(waking, self._world))
+        return next((waking.place for waking in last), None)
+
+    def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
+        """How many waits end without a waker, as the set-up leaves it."""
+        if reference.initial is None or reference.is_kept:
+            return reference.initial
+        early = [
+            w
+            for w in mine
+            if w.by is None and w.uncalled is None and not comes_last(w, self._world)
+        ]
+        counted = [w for w in early if w.word in (Word.PUT, Word.RELEASE) and w.is_counted]
+        return reference.initial + len(counted)
+
+    def after(self, waking: Waking) -> int:
+        """How many of its own waits the doer of ``waking`` has behind it then."""
+        kept = self._kept.get(id(waking.by))
+        return kept.places.get(waking.behind, 0) if kept is not None else 0
+
+
+def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
+    """
+    What is done to an object.
+
+    A callback makes an object of its own each time; who ends the wait for one of them, from one
+    place, ends it for all, where nothing is seen that ends it for this one.
+    """
+    known = world.wakings.get(reference.number)
+    if known is not None:
+        return known
+    return [waking for number in reference.like for waking in world.wakings.get(number, ())]
+
+
+def comes_last(waking: Waking, world: World) -> bool:
+    """Whether the set-up does it when its last spin is over, and no callback runs any more."""
+    is_behind = 0 < waking.spins == world.main_spins
+    return waking.by is None and (waking.after_spin or is_behind)
+
+
+def _is_in_turn(reference: ResourceRef, doer: Doer) -> bool:
+    """Whether a thread takes what others give it, one by one."""
+    return is_activity(doer) and not reference.is_kept
+
+
+def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
+    return any(waker.by in (OUTSIDE, TIME) for waker in wakers)
+
+
+def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
+    """The same wakers, of which nobody knows whether they come."""
+    return tuple(replace(waker, conditional=True) for waker in wakers)
+
+
+def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: World) -> Unknown | None:
+    """Why it is not known whether anybody ends a wait that nobody in sight ends."""
+    if mine or not isinstance(raw.resource, ResourceRef):
+        return None
+    words = raw.resource.ended_by
+    if Word.ARRIVE in words and isinstance(doer, ActivityState) and doer.count != 1:
+        return Unknown('how many threads come there is not known', raw.source)
+    if words == {Word.END}:
+        is_join = raw.call.endswith('.join')
+        reason = 'nobody in sight starts it' if is_join else 'its end is not in sight'
+        return Unknown(reason, raw.source)
+    kept = world.kept_inside.get(raw.resource.number)
+    return Unknown(_KEPT, kept) if kept is not None else None
+
+
+def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
+    if isinstance(on, SettableRef):
+        return names.get(on.number) or str(on)
+    if isinstance(on, EntityRef):
+        return names.get(on.number) or Unknown('an entity of another executor')
+    return on if isinstance(on, (str, Unknown)) else None

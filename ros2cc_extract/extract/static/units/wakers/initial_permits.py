@@ -1,0 +1,87 @@
+"""
+What there is to take at first: the value of a semaphore, the room in a bounded queue.
+
+Whoever gives back in each run what it takes uses up nothing, so that the number at first holds for
+every run and the model can count it. Else it is a matter of how many runs there were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
+    ActivityState,
+    Deeds,
+    way_of,
+)
+from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.python.machine.world import EntityState
+from ros2cc_extract.spec.deeds import Blocking
+
+Doer = EntityState | ActivityState
+# More is not counted: a model of so many runs could not use it up.
+_COUNTED = 8
+
+
+def counted(
+    raw: Blocking, initial: int | None, doers: Sequence[Doer], given: Sequence[Waking]
+) -> int:
+    """How many waits like ``raw`` end by themselves in every run; 0 where that is not known."""
+    takers = [doer for doer in doers if any(_takes(raw, doer))]
+    return few(initial) if all(_gives_back(raw, doer, given) for doer in takers) else 0
+
+
+def few(initial: int | None) -> int:
+    """So many waits end by themselves, where a model may use them up; 0 if there are too many."""
+    return initial if initial is not None and 0 < initial <= _COUNTED else 0
+
+
+def is_plain_lock(
+    raw: Blocking, doer: Doer, doers: Sequence[Doer], given: Sequence[Waking]
+) -> bool:
+    """
+    Whether a semaphore is taken as a lock of which nothing more is to be said.
+
+    Everybody who takes it gives it back, and waits for nothing meanwhile, nor takes it twice.
+    """
+    if not any(waking.by is doer for waking in given):
+        return False
+    return all(
+        len(list(_takes(raw, each))) == 1
+        and all(block.times == 1 for block in _takes(raw, each))
+        and not _waits_meanwhile(raw, each, given)
+        for each in doers
+        if any(_takes(raw, each))
+    )
+
+
+def _takes(raw: Blocking, doer: Doer) -> Iterator[Blocking]:
+    """The waits of ``doer`` for the same thing."""
+    for block in (doer.deeds or Deeds()).blocking:
+        if block.call == raw.call and _number(block) == _number(raw):
+            yield block
+
+
+def _number(block: Blocking) -> int | None:
+    return block.resource.number if isinstance(block.resource, ResourceRef) else None
+
+
+def _gives_back(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bool:
+    taken = list(_takes(raw, doer))
+    own = [waking for waking in given if waking.by is doer]
+    is_sure = not any(block.times > 1 or block.seconds is not None for block in taken)
+    return is_sure and len(own) >= len(taken) and not any(w.conditional for w in own)
+
+
+def _waits_meanwhile(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bool:
+    """Whether ``doer`` waits for something else before it gives back what it took."""
+    blocks = (doer.deeds or Deeds()).blocking
+    ways = [way_of(block) for block in blocks]
+    last = [ways.index(w.behind) for w in given if w.by is doer and w.behind in ways]
+    mine = [number for number, block in enumerate(blocks) if _number(block) == _number(raw)]
+    held = blocks[mine[0] + 1 : max(last, default=-1) + 1] if mine else []
+    return any(
+        block.seconds is None and WAITS.get(block.call, NO_ROW).ended_by and block.call != raw.call
+        for block in held
+    )

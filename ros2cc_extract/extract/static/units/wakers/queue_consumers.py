@@ -1,0 +1,111 @@
+"""
+Threads that empty a queue round by round, and wait for nobody else meanwhile.
+
+Whoever waits for room in it goes on when such a thread has taken the next item, however large the
+queue is and however often somebody puts: no number of runs uses it up. Whoever joins it goes on
+when such a thread has done the last one, and at once where there is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
+from ros2cc_extract.extract.static.python.machine.wake_operations import (
+    DataRef,
+    ResourceRef,
+    Waking,
+    Word,
+)
+from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.units.wakers.initial_permits import Doer
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.model import ActivityKind
+
+_ENDED_BY = {'Queue.put': Word.GET, 'Queue.join': Word.DONE}
+
+
+def may_find_it_done(raw: Blocking, wakings: Iterable[Waking], doer: Doer) -> bool:
+    """Whether who joins a queue has put nothing in itself: it may be empty, and all be done."""
+    puts = (waking.by for waking in wakings if waking.word is Word.PUT)
+    return raw.call == 'Queue.join' and not any(by is doer for by in puts)
+
+
+def taken_by_itself(raw: Blocking, world: World, doers: Sequence[Doer]) -> Place | None:
+    """
+    Where a thread takes out of the queue, or is done, for sure.
+
+    Nothing but its own work keeps it from that.
+    """
+    queue, word = raw.resource, _ENDED_BY.get(raw.call)
+    if word is None or not isinstance(queue, ResourceRef):
+        return None
+    wakings = world.wakings.get(queue.number, ())
+    if any(w.word is Word.PUT and w.is_sign and isinstance(w.by, EntityState) for w in wakings):
+        return None  # that may be the last one
+    for waking in wakings:
+        by = waking.by
+        if waking.word is not word or not isinstance(by, ActivityState):
+            continue
+        is_sure = waking.in_loop and not waking.conditional and _is_begun(by)
+        if is_sure and _goes_on(by, queue, world, doers):
+            return waking.place
+    return None
+
+
+def _is_begun(thread: ActivityState) -> bool:
+    """Whether the set-up starts it for certain."""
+    is_one = thread.kind is ActivityKind.THREAD and thread.count == 1 and not thread.path
+    starts = thread.starts
+    return is_one and bool(starts) and all(s.by is None and not s.conditional for s in starts)
+
+
+def _goes_on(
+    thread: ActivityState, queue: ResourceRef, world: World, doers: Sequence[Doer]
+) -> bool:
+    others = [block for block in thread.deeds.blocking if not _takes(block, queue)]
+    for block in others:
+        if block.call == WORKING_LOOP:
+            if _is_ended_by_callbacks(block, world, doers):
+                return False
+        elif not _ends_by_itself(block):
+            return False
+    return not _may_be_locked_out(thread, doers)
+
+
+def _takes(block: Blocking, queue: ResourceRef) -> bool:
+    on = block.resource
+    is_same = isinstance(on, ResourceRef) and on.number == queue.number
+    return is_same and block.call == 'Queue.get'
+
+
+def _ends_by_itself(block: Blocking) -> bool:
+    row = WAITS.get(block.call, NO_ROW)
+    return isinstance(block.seconds, float | int) or row.always == (TIME,)
+
+
+def _is_ended_by_callbacks(loop: Blocking, world: World, doers: Sequence[Doer]) -> bool:
+    """Who ends the work of the thread while callbacks run leaves them without it."""
+    on = loop.resource if loop.resource is not None else loop.on
+    if isinstance(on, DataRef):
+        callbacks = [doer for doer in doers if isinstance(doer, EntityState)]
+        writes = (write for each in callbacks if each.deeds for write in each.deeds.writes)
+        return any(write.name in on.names for write in writes)
+    if isinstance(on, ResourceRef):
+        wakings = world.wakings.get(on.number, ())
+        return any(isinstance(waking.by, EntityState) for waking in wakings)
+    return True
+
+
+def _may_be_locked_out(thread: ActivityState, doers: Sequence[Doer]) -> bool:
+    """Whether somebody holds, while it waits for others, a lock that the thread takes."""
+    mine = {act.name for act in thread.deeds.locks}
+    return any(
+        not mine.isdisjoint(lock.removesuffix(RE_ENTRANT) for lock in block.held)
+        for doer in doers
+        if doer is not thread
+        for block in (doer.deeds or Deeds()).blocking
+        if not _ends_by_itself(block)
+    )

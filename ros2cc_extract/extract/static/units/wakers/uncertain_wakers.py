@@ -1,0 +1,264 @@
+"""
+Wakers that may be gone when somebody waits, or come before he does.
+
+A timer that is cancelled or never started, a callback whose entity or node is destroyed, and what
+runs once only, which a condition forgets when nobody waits yet. Sources: rclpy 7.1.6 and 9.1.2,
+``node.py`` (``create_timer``), ``timer.py`` (``cancel``, ``reset``), ``executors.py``; CPython
+3.12, ``threading.py`` (``Condition.notify``). Where another waker is left, nothing is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import Notifier, is_heard
+from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+    CANCEL,
+    DESTROY,
+    DESTROY_NODE,
+    RAISES,
+    REMOVE_NODE,
+    SHUTDOWN,
+    executor_of,
+)
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
+from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.python.machine.world import End, EntityState, World
+from ros2cc_extract.extract.static.python.values.values import Instance
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP
+from ros2cc_extract.spec.model import EntityKind, When
+
+Doer = EntityState | ActivityState
+Names = Callable[[object], str | None]
+_RECURRING = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE)
+_RISING = (
+    EntityKind.TIMER,
+    EntityKind.SUBSCRIPTION,
+    EntityKind.SERVICE,
+    EntityKind.DONE_CALLBACK,
+    EntityKind.GUARD_CONDITION,
+)
+_ONCE = (EntityKind.DONE_CALLBACK, EntityKind.TASK, EntityKind.LIFECYCLE_SERVICE)
+_DOES = {
+    CANCEL: 'cancels the timer of {}, which ends it',
+    DESTROY: 'destroys what calls {}, which ends it',
+    DESTROY_NODE: 'destroys the node of {}, which ends it',
+    REMOVE_NODE: 'takes the node of {}, which ends it, out of the executor',
+}
+
+
+def why_gone(
+    world: World, wakers: Sequence[object], is_harmless: Callable[[End], bool], name: Names
+) -> Unknown | None:
+    """
+    Why none of ``wakers`` may be called any more.
+
+    :param is_harmless: of an end that surely comes after the wait.
+    """
+    reasons = []
+    for waker in wakers:
+        why = _why_one_is_gone(world, waker, is_harmless, name)
+        if why is None:
+            return None
+        reasons.append(why)
+    return reasons[0] if reasons else None
+
+
+def _why_one_is_gone(
+    world: World, waker: object, is_harmless: Callable[[End], bool], name: Names
+) -> Unknown | None:
+    if isinstance(waker, ActivityState):
+        return _why_thread_ends(world, waker, is_harmless, name)
+    if not isinstance(waker, EntityState):
+        return None
+    its_name = name(waker) or 'a callback'
+    if waker.dormant is not None and not waker.restarted:
+        return Unknown(f'nobody in sight starts the timer of {its_name}', waker.dormant)
+    for end in world.ends:
+        if _is_of(end, waker) and not _ends_all(end, world) and not is_harmless(end):
+            doer = 'a thread' if isinstance(end.doer, ActivityState) else 'a callback'
+            does = _DOES[end.kind].format(its_name)
+            return Unknown(f'{name(end.doer) or doer} {does}', end.place)
+    return None
+
+
+def _why_thread_ends(
+    world: World, thread: ActivityState, is_harmless: Callable[[End], bool], name: Names
+) -> Unknown | None:
+    """An error that nothing catches ends a thread whose loop others wait for."""
+    calls = {block.call for block in thread.deeds.blocking}
+    if not thread.loops and calls.isdisjoint((WORKING_LOOP, POLLING_LOOP)):
+        return None
+    for end in world.ends:
+        if end.kind == RAISES and end.doer is thread and not is_harmless(end):
+            its_name = name(thread) or 'a thread'
+            return Unknown(f'{its_name}, which ends it, may end by {end.text}', end.place)
+    return None
+
+
+def _is_of(end: End, waker: EntityState) -> bool:
+    is_its_own = end.what is waker and waker.when is not When.CALLBACK  # else made again
+    if end.kind == CANCEL:
+        return is_its_own and not waker.restarted
+    if end.kind == DESTROY:
+        return is_its_own
+    return end.kind in (DESTROY_NODE, REMOVE_NODE) and end.what is waker.node
+
+
+def _ends_all(end: End, world: World) -> bool:
+    """Whether its doer shuts rclpy down as well."""
+    return any(other.doer is end.doer and other.kind == SHUTDOWN for other in world.ends)
+
+
+def why_unspun(
+    world: World, wakers: Sequence[object], doer: object, name: Names
+) -> Unknown | None:
+    """
+    Why the thread that would run all of ``wakers`` may have ended while another thread waits.
+
+    What a callback raises rises out of the spin (measured with rclpy 7.1.6 and 9.1.2, on one
+    thread and on a pool; ``SystemExit`` on one thread alone), and ends the thread that spins.
+    """
+    if not isinstance(doer, ActivityState) or not wakers:
+        return None
+    served = [waker.node for waker in wakers if isinstance(waker, EntityState)]
+    executors = {id(executor): executor for executor in map(executor_of, served)}
+    executor = next(iter(executors.values()), None)
+    if len(served) != len(wakers) or len(executors) != 1 or executor is None:
+        return None
+    spins = [spin for spin in world.spins.values() if spin.executor is executor]
+    if not spins or any(spin.is_tried or not spin.in_thread for spin in spins):
+        return None
+    for end in world.ends:
+        if end.kind == RAISES and _rises(end, executor):
+            who = name(end.doer) or 'a callback'
+            reason = f'{who} raises {end.text}, which ends the thread that spins'
+            return Unknown(reason, end.place)
+    return None
+
+
+def _rises(end: End, executor: Instance) -> bool:
+    doer = end.doer
+    if not isinstance(doer, EntityState) or doer.kind not in _RISING:
+        return False
+    is_exit = end.text in ('SystemExit', 'ExternalShutdownException')
+    is_single = executor.state.kind == 'SingleThreadedExecutor'
+    return executor_of(doer.node) is executor and (is_single or not is_exit)
+
+
+def why_lost(
+    world: World,
+    reference: ResourceRef,
+    mine: Sequence[Waking],
+    doer: Doer,
+    doers: Sequence[Doer],
+    name: Names,
+) -> Unknown | None:
+    """
+    Why what ends a wait, which comes once only, may come before anybody waits.
+
+    What a condition forgets is the model's to say, see ``forgets``.
+    """
+    if not mine or not all(_comes_once(waking, doer) for waking in mine):
+        return None
+    when = _when_lost(world, reference, mine, doer, doers)
+    if when is None:
+        return None
+    first = mine[0]
+    who = name(first.by) or 'a callback'
+    return Unknown(f'{who}, which ends it, runs once only, and perhaps {when}', first.place)
+
+
+def _when_lost(
+    world: World,
+    reference: ResourceRef,
+    mine: Sequence[Waking],
+    doer: Doer,
+    doers: Sequence[Doer],
+) -> str | None:
+    if reference.is_kept:
+        clears = world.cleared.get(reference.number, {})
+        is_wiped_out = any(not _is_before(clear, each, mine) for clear, each in clears.items())
+        return 'before it is cleared' if is_wiped_out else None
+    guard = reference.guard
+    if guard is None:
+        return None
+    notifiers = [_notifier(waking) for waking in mine]
+    if not is_heard(guard, notifiers):
+        return 'before anybody waits'
+    wakers = [waking.by for waking in mine]
+    others = (each for each in doers if each not in wakers)
+    names = guard.names.intersection(*(each.wrote for each in notifiers))
+    taken_back = any(names & _written_by(other) for other in others)
+    return 'what it tells is taken back' if taken_back and _comes_again(world, doer) else None
+
+
+def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:
+    """Whether who clears an event asks only behind that for what sets it."""
+    by, _ = clear
+    return all(
+        isinstance(waking.by, EntityState)
+        and waking.by.kind is EntityKind.DONE_CALLBACK
+        and waking.by.maker is by
+        and waking.by.number >= entities
+        for waking in mine
+    )
+
+
+def _notifier(waking: Waking) -> Notifier:
+    by = waking.by
+    if not isinstance(by, (EntityState, ActivityState)):
+        return Notifier(waking, None, frozenset(), {})
+    stored = by.deeds.stored if by.deeds is not None else {}
+    return Notifier(waking, by.place, _written_by(by), stored)
+
+
+def _written_by(doer: Doer) -> frozenset[str]:
+    return frozenset(access.name for access in doer.deeds.writes) if doer.deeds else frozenset()
+
+
+def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
+    """
+    Whether a wait misses what comes before it, where the model has the coming of some wakers.
+
+    It has what comes by itself again and again, and what comes once; of the others nobody says
+    whether they come in time, see ``is_unheard``.
+    """
+    guard = reference.guard
+    if guard is None or not any(_is_modelled(waking, doer) for waking in mine):
+        return False
+    return not is_heard(guard, [_notifier(waking) for waking in mine])
+
+
+def is_unheard(waking: Waking, doer: Doer) -> bool:
+    """Whether a waker of a wait that ``forgets`` perhaps comes while nobody waits."""
+    return not _is_modelled(waking, doer)
+
+
+def _is_modelled(waking: Waking, doer: Doer) -> bool:
+    by = waking.by
+    if waking.repeats or waking.conditional:
+        return False
+    if isinstance(by, EntityState):
+        return by.kind in _RECURRING and (by.when is not When.CALLBACK or by.maker is doer)
+    return _comes_once(waking, doer)
+
+
+def _comes_once(waking: Waking, doer: Doer) -> bool:
+    """Whether it comes once, or once for each time that ``doer`` itself begins it."""
+    by = waking.by
+    if isinstance(by, EntityState):
+        is_asked_for = by.kind is EntityKind.DONE_CALLBACK and by.maker is doer
+        return is_asked_for or (by.one_shot and not by.restarted)
+    if not isinstance(by, ActivityState) or by.loops or waking.repeats:
+        return False
+    return by.count == 1 or all(start.by is doer for start in by.starts)
+
+
+def _comes_again(world: World, doer: Doer) -> bool:
+    """Whether it surely runs more than once, as long as the program does."""
+    if isinstance(doer, ActivityState):
+        return doer.loops
+    is_plain = not doer.one_shot and not doer.destroyed and doer.kind not in _ONCE
+    return is_plain and not any(e.doer is doer and e.kind != RAISES for e in world.ends)
