@@ -28,7 +28,7 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.search import Symmetry
+from ros2cc_extract.checker.engines.search import Symmetry
 from ros2cc_extract.generator import build
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import (

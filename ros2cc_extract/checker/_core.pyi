@@ -1,6 +1,6 @@
 from collections.abc import Callable, Sequence
 
-from ros2cc_extract.checker.nativecode import Family, Predicate
+from ros2cc_extract.checker.engines.native_tables import Family, Predicate
 
 OPERATIONS: list[str]
 

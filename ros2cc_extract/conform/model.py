@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ros2cc_extract.checker.api import Model
-from ros2cc_extract.checker.layout import Field, Layout
-from ros2cc_extract.checker.moves import Moving, Plan
-from ros2cc_extract.checker.network import Edge, Network, Process
-from ros2cc_extract.checker.semantics import Edges, Semantics
+from ros2cc_extract.checker.engines.generated_successors import Moving, Plan
+from ros2cc_extract.checker.engines.state_layout import Field, Layout
+from ros2cc_extract.checker.network.network import Edge, Network, Process
+from ros2cc_extract.checker.network.semantics import Edges, Semantics
 from ros2cc_extract.conform.observations import Act
 from ros2cc_extract.generator.events import read_annotation
 

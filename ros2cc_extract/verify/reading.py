@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits
-from ros2cc_extract.checker.limits import seconds_reason
+from ros2cc_extract.checker.engines.limits import seconds_reason
 from ros2cc_extract.deadline import GRACE_S, TimeOverError, alarm
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place

@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 
 from ros2cc_extract.checker.api import (
-    MOST_MODEL_BYTES,
     Answer,
     CheckResult,
     EngineKind,
@@ -29,8 +28,9 @@ from ros2cc_extract.checker.api import (
     read_queries,
 )
 from ros2cc_extract.checker.api import Verdict as Verdict
-from ros2cc_extract.checker.dives import dive
-from ros2cc_extract.checker.waypoints import refute
+from ros2cc_extract.checker.refutation.random_runs import dive
+from ros2cc_extract.checker.refutation.waypoints import refute
+from ros2cc_extract.checker.uppaal.model import MOST_MODEL_BYTES
 from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build

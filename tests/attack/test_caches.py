@@ -30,7 +30,7 @@ EVIL, EVIL_OF_RECORD = 12, 1_000
 RUN_MANY = """
 import functools, io, json, sys
 from ros2cc_extract import cachefile
-from ros2cc_extract.checker.uppaal import parsing
+from ros2cc_extract.checker.uppaal.language import parsing
 from ros2cc_extract.cli.main import main
 for line in sys.stdin:
     cachefile._own_folder.cache_clear()

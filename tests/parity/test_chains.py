@@ -21,7 +21,7 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.search import NO_REDUCTIONS, Symmetry
+from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Symmetry
 from tests.support.crowds import random_crowd
 from tests.support.networks import RandomModel, random_model
 

@@ -20,7 +20,7 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.semantics import Semantics
+from ros2cc_extract.checker.network.semantics import Semantics
 from tests.support.networks import RandomModel, random_model
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')

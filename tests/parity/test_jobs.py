@@ -27,7 +27,7 @@ from tests.support.published import one_group, published_model
 from tests.support.small import single
 
 native = pytest.importorskip(
-    'ros2cc_extract.checker.native', reason='the native core is not built'
+    'ros2cc_extract.checker.engines.native', reason='the native core is not built'
 )
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')
 

@@ -14,9 +14,9 @@ from random import Random
 
 import pytest
 
-from ros2cc_extract.checker.semantics import Semantics, State
-from ros2cc_extract.checker.uppaal.document import read_document
-from ros2cc_extract.checker.uppaal.elaborate import elaborate
+from ros2cc_extract.checker.network.semantics import Semantics, State
+from ros2cc_extract.checker.uppaal.elaboration.elaborate import elaborate
+from ros2cc_extract.checker.uppaal.files.document import read_document
 from ros2cc_extract.generator.build import Profile, render
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.model import (

@@ -22,7 +22,7 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.search import Symmetry
+from ros2cc_extract.checker.engines.search import Symmetry
 from ros2cc_extract.errors import ModelFormatError
 from tests.support.rich_networks import rich_model
 

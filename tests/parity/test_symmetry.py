@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from ros2cc_extract.checker.analyses.symmetry import Family, families
 from ros2cc_extract.checker.api import (
     CheckResult,
     EngineKind,
@@ -22,9 +23,8 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.search import Symmetry, formulas_of
-from ros2cc_extract.checker.semantics import Semantics, State
-from ros2cc_extract.checker.symmetry import Family, families
+from ros2cc_extract.checker.engines.search import Symmetry, formulas_of
+from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.places import Place
 from tests.support.crowds import random_crowd
 

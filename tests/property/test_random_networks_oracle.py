@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import pytest
 
 from ros2cc_extract.checker.api import EngineKind, Query, check, read_model
-from ros2cc_extract.checker.network import Expr, Property, QueryKind
-from ros2cc_extract.checker.semantics import Semantics, State
+from ros2cc_extract.checker.network.network import Expr, Property, QueryKind
+from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.places import Place
 from tests.support.networks import random_model
 

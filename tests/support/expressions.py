@@ -6,7 +6,7 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ros2cc_extract.checker.network import INT32
+from ros2cc_extract.checker.network.network import INT32
 
 #: Values of the variables that an expression may read.
 VARIABLES = {'x': -7, 'y': 3, 'z': 0, 'big': 30000, 'yes': 1, 'no': 0}

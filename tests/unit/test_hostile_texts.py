@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.checker.named import NamedState
+from ros2cc_extract.checker.runs.printed_runs import NamedState
 from ros2cc_extract.conform.trace import read_traces
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.recording import read_recording

@@ -20,7 +20,7 @@ enum class Op : int32_t {
 #undef CORE_ENUM
 };
 
-// An expression or statement; what a, b and c mean depends on the operation (nativecode.py).
+// An expression or statement; what a, b and c mean depends on the operation (native_tables.py).
 struct Node {
   Op op;
   int32_t a, b, c;
@@ -59,7 +59,7 @@ struct Range {
   int32_t low, high;
 };
 
-// What may be forgotten once a process has arrived somewhere: see dead.py. The place is its
+// What may be forgotten once a process has arrived somewhere: see dead_variables.py. The place is its
 // location and the values of its controls, counted through as one number.
 struct Control {
   int32_t slot, low, stride;

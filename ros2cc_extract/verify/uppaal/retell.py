@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Model, Query, load_model, model_text, read_model
-from ros2cc_extract.checker.named import NamedState, replay_named
+from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build

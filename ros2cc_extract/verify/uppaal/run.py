@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ros2cc_extract.checker.api import EdgeRef, Model, Run, StateView
-from ros2cc_extract.checker.named import NamedState, where_time_passes
-from ros2cc_extract.checker.uppaal.document import TemplateNode, read_document
+from ros2cc_extract.checker.runs.printed_runs import NamedState, where_time_passes
+from ros2cc_extract.checker.uppaal.files.document import TemplateNode, read_document
 from ros2cc_extract.errors import InputError
 
 _MEND_LINES = 'save the model from UPPAAL, which writes each edge on lines of its own'

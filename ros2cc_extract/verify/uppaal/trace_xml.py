@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
-from ros2cc_extract.checker.named import NamedState
-from ros2cc_extract.checker.uppaal.document import EdgeNode
+from ros2cc_extract.checker.runs.printed_runs import NamedState
+from ros2cc_extract.checker.uppaal.files.document import EdgeNode
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 from ros2cc_extract.verify.uppaal.run import UppaalRun, location_names

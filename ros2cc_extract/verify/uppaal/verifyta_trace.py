@@ -15,7 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros2cc_extract.checker.named import NamedState
+from ros2cc_extract.checker.runs.printed_runs import NamedState
 
 _ITEM = re.compile(r'^(State|Transitions?|Delay)\b:?', re.MULTILINE)
 _LOCATIONS = re.compile(r'\(\s+(.*?)\s+\)(?=\s|$)', re.DOTALL)

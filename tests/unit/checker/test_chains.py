@@ -14,7 +14,7 @@ from ros2cc_extract.checker.api import (
     Verdict,
     check,
 )
-from ros2cc_extract.checker.search import NO_REDUCTIONS, Symmetry
+from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Symmetry
 from tests.support.small import ask, automaton, labels_of, network, single
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')

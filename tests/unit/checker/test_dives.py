@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.checker.api import Limits, Model, Query, Verdict
-from ros2cc_extract.checker.dives import dive
+from ros2cc_extract.checker.refutation.random_runs import dive
 from tests.support.small import automaton, network
 
 COUNTERS = 12

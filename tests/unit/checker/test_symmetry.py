@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from ros2cc_extract.checker.analyses.symmetry import families
 from ros2cc_extract.checker.api import (
     CheckResult,
     EngineKind,
@@ -16,8 +17,7 @@ from ros2cc_extract.checker.api import (
     check,
     read_model,
 )
-from ros2cc_extract.checker.search import Symmetry, formulas_of
-from ros2cc_extract.checker.symmetry import families
+from ros2cc_extract.checker.engines.search import Symmetry, formulas_of
 from ros2cc_extract.places import Place
 from tests.support.published import formulas, one_group, published_model
 from tests.support.small import automaton, network

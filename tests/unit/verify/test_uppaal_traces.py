@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from ros2cc_extract.checker.api import Model, Query, Run, check, read_model
-from ros2cc_extract.checker.named import NamedState, replay_named
+from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.places import Place
 from ros2cc_extract.verify.evidence import Names, tell
