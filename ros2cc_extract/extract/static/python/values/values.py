@@ -11,13 +11,9 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ros2cc_extract.places import Place, Unknown
-
-if TYPE_CHECKING:
-    from ros2cc_extract.extract.static.python.machine.machine import Machine
-
 
 _TEXT_LIMIT = 60
 
@@ -405,8 +401,13 @@ class Call:
         return Call(self.place, args, self.keywords, self.more, self.text, moved)
 
 
-Handler = Callable[['Machine', Value, Call], Value]
-"""A library function: the machine, the receiver (or what stands before the dot), the call."""
+Handler = Callable[[Any, Value, Call], Value]
+"""
+A library function: the machine, the receiver (or what stands before the dot), the call.
+
+Which machine it needs is for the function to say: one of ``math`` is content with any, one of
+``threading`` needs one that notes who waits.
+"""
 
 
 class Native(Value):
