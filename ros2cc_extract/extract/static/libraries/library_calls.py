@@ -19,13 +19,13 @@ from ros2cc_extract.extract.static.libraries.rclpy.nodes import (
     make_node,
 )
 from ros2cc_extract.extract.static.libraries.standard.futures import is_pool, note_leaving
-from ros2cc_extract.extract.static.python.machine.escape import reached
 from ros2cc_extract.extract.static.python.machine.library_table import LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.wake_operations import Word
 from ros2cc_extract.extract.static.python.machine.world import NodeState, PlainState
 from ros2cc_extract.extract.static.python.objects import reanalysis
 from ros2cc_extract.extract.static.python.objects.allocation_sites import made_before, remember
+from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,

@@ -25,13 +25,13 @@ from ros2cc_extract.extract.static.libraries.rclpy import (
 )
 from ros2cc_extract.extract.static.libraries.standard import (
     asyncio_loops,
-    builtin_functions,
     futures,
     outside_calls,
     queues,
     servers,
     threads,
 )
+from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.machine.library_table import Library, merged
 
 _BY_LAST_NAME = frozenset(

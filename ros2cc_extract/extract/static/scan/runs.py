@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
-from ros2cc_extract.extract.static.concurrency.accesses.fixed_point import next_round
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks import note_unanswered
@@ -28,6 +27,7 @@ from ros2cc_extract.extract.static.python.language.plain_data_calls import (
     leads_nowhere,
     may_make_entities,
 )
+from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
 from ros2cc_extract.extract.static.python.machine.machine import BudgetError
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds

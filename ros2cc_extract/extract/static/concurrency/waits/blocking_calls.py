@@ -28,7 +28,6 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WAITS,
     WaitRow,
 )
-from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import SETTABLE, is_of_loop
 from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import is_ready as is_ready_for
@@ -37,6 +36,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
     Deeds,
     way_of,
 )
+from ros2cc_extract.extract.static.python.machine.waitable_objects import SETTABLE, is_of_loop
 from ros2cc_extract.extract.static.python.machine.wake_operations import (
     ClockRef,
     DataRef,

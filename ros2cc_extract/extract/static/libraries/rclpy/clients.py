@@ -9,7 +9,6 @@ from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
     note_published,
     note_use,
 )
-from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import OF_POOL
 from ros2cc_extract.extract.static.libraries.done_callbacks import (
     add_done_callback,
     begin_anew,
@@ -26,6 +25,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.nodes import NODE, mark_destr
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
+from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
 from ros2cc_extract.extract.static.python.machine.wake_operations import Word
 from ros2cc_extract.extract.static.python.machine.world import (
     Cut,

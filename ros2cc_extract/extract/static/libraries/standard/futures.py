@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
-from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import OF_POOL
 from ros2cc_extract.extract.static.libraries.done_callbacks import (
     add_done_callback,
     begin_anew,
@@ -21,6 +20,7 @@ from ros2cc_extract.extract.static.libraries.standard.pool_tasks import WORKERS
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
+from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
 from ros2cc_extract.extract.static.python.machine.wake_operations import Word
 from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.objects import loops

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.accesses import torn_updates
-from ros2cc_extract.extract.static.python.machine.escape import note_kept
 from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
 from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
@@ -18,6 +17,7 @@ from ros2cc_extract.extract.static.python.machine.world import (
 )
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
+from ros2cc_extract.extract.static.python.objects.escape import note_kept
 from ros2cc_extract.extract.static.python.values.assumed_defaults import items_by_default
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items

@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.program.relevance import MAKING, reassigned_attributes
+from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.language import open_tests
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
-from ros2cc_extract.extract.static.python.objects import builtin_methods, subclass_registry
+from ros2cc_extract.extract.static.python.objects import subclass_registry
 from ros2cc_extract.extract.static.python.objects.metaclasses import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.enumerations import Member

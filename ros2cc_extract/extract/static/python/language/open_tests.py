@@ -12,7 +12,6 @@ import ast
 from collections.abc import Sequence as Several
 
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks, lost_notifies
-from ros2cc_extract.extract.static.concurrency.accesses.fixed_point import note_met
 from ros2cc_extract.extract.static.program.relevance import (
     assignments_of_attributes,
     noted_on,
@@ -20,6 +19,7 @@ from ros2cc_extract.extract.static.program.relevance import (
     walk,
 )
 from ros2cc_extract.extract.static.python.machine.dependences import Asked, computed_from, names_in
+from ros2cc_extract.extract.static.python.machine.fixed_point import note_met
 from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects import loops

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.machine.world import EntityState
 from ros2cc_extract.extract.static.python.values.assumed_defaults import (
     assumption,

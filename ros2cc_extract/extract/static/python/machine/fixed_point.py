@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ros2cc_extract.extract.static.concurrency.waits.waitable_objects import is_waited_on
+from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.machine.world import Cut, EntityState, World, note_once
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

@@ -7,15 +7,16 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
+from ros2cc_extract.extract.static.python.builtins.methods_by_name import methods_named_like
+from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_order
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_items
-from ros2cc_extract.extract.static.python.objects import builtin_methods, loops
+from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import field
-from ros2cc_extract.extract.static.python.objects.map_and_zip import filtered, mapped, zipped
 from ros2cc_extract.extract.static.python.objects.memoization import keep_results
-from ros2cc_extract.extract.static.python.objects.methods_by_name import methods_named_like
-from ros2cc_extract.extract.static.python.objects.sorting import identity, in_order
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2cc_extract.extract.static.python.machine.escape import note_kept
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.objects.escape import note_kept
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
