@@ -85,11 +85,16 @@ def _root(version: str, machine: str, work: Path, packages: Sequence[str]) -> Pa
 
 
 def _of_suite(suite: str, name: str, packages: list[str], root: Path) -> Path | None:
-    if (root / 'complete').exists():
+    # Another revision may have asked for less, and what is bound to its place works only there.
+    complete, asked = root / 'complete', '\n'.join([str(root), *packages])
+    if complete.exists() and complete.read_text(encoding='utf-8') == asked:
         return root
     if not shutil.which('apt-get') or not _archive():
         return None
-    return root if _unpack(suite, name, packages, root) else None
+    if not _unpack(suite, name, packages, root):
+        return None
+    complete.write_text(asked, encoding='utf-8')
+    return root
 
 
 def _archive() -> str:
@@ -133,5 +138,4 @@ def _unpack(suite: str, name: str, packages: list[str], root: Path) -> bool:
         unpacked = subprocess.run(['dpkg-deb', '--fsys-tarfile', package], capture_output=True)
         tar = ['tar', '-x', '--keep-directory-symlink', '--no-same-owner', '-C', root]
         subprocess.run(tar, input=unpacked.stdout, check=True)
-    (root / 'complete').touch()
     return True
