@@ -12,6 +12,7 @@ from ros2cc_extract.checker.network.network import Property
 from ros2cc_extract.checker.runs.answers import Answer, CheckResult
 from ros2cc_extract.checker.runs.replay import Replayer
 from ros2cc_extract.checker.runs.run import EdgeRef, Run, StateView, Step
+from ros2cc_extract.checker.runs.twins import twins_of, with_twins
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import (
     Model,
@@ -112,7 +113,9 @@ def _check(
     jobs: int,
 ) -> CheckResult:
     chosen = choose(engine)
-    properties = _properties(model, queries, limits)
+    twins = twins_of([query.formula for query in queries])
+    asked = [query for number, query in enumerate(queries) if number not in twins]
+    properties = _properties(model, asked, limits)
     if properties is None:
         return _unsearched(queries, limits, chosen)
     network = model.network
@@ -126,7 +129,7 @@ def _check(
         jobs=jobs,
     )
     replayer = Replayer(model.elaboration, network, fairness)
-    answers = tuple(
+    told = [
         Answer(
             query=query,
             verdict=outcome.verdict,
@@ -136,8 +139,9 @@ def _check(
             if outcome.path
             else None,
         )
-        for query, prop, outcome in zip(queries, properties, result.outcomes, strict=True)
-    )
+        for query, prop, outcome in zip(asked, properties, result.outcomes, strict=True)
+    ]
+    answers = with_twins(queries, told, twins)
     if result.reduce is not None:
         for answer in answers:
             _ = answer.path  # a reduction that goes wrong must fail before its verdict is seen

@@ -41,6 +41,11 @@ class Answer:
         """
         return self.replay() if self.replay else None
 
+    def shown(self) -> Run:
+        """Give the path to whoever asked the opposite; there must be one."""
+        assert self.path is not None
+        return self.path
+
 
 @dataclass(frozen=True, kw_only=True)
 class CheckResult:

@@ -256,8 +256,10 @@ def test_an_activity_shares_the_name_space() -> None:
 
 @pytest.mark.parametrize('opening', ['[', '{a: ', '- ', '? '])
 def test_a_text_of_brackets_is_refused_where_it_gets_too_deep(opening: str) -> None:
-    # PyYAML 6.0.2 ends the process here: its composer calls itself in C.
+    # PyYAML 6.0.2 ends the process here: its composer calls itself in C. That of 6.0.4 reads 1,000
+    # of these brackets ahead, and refuses them itself.
     with pytest.raises(SpecFormatError) as refused:
         read_specs(opening * 50_000, 'deep.yaml')
     assert refused.value.what == 'the YAML is nested too deeply'
-    assert refused.value.place == Place('deep.yaml', 1, 100 * len(opening) + 1)
+    columns = [100 * len(opening) + 1, *([1_001] if opening == '[' else [])]
+    assert refused.value.place in [Place('deep.yaml', 1, column) for column in columns]

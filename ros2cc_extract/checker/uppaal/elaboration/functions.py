@@ -15,6 +15,7 @@ from ros2cc_extract.checker.network.network import (
     Assign,
     Call,
     Check,
+    Const,
     Element,
     Evaluate,
     Expr,
@@ -33,6 +34,7 @@ from ros2cc_extract.checker.uppaal.elaboration.arguments import (
     Arguments,
     no_function,
 )
+from ros2cc_extract.checker.uppaal.elaboration.constant_calls import ConstantCalls
 from ros2cc_extract.checker.uppaal.elaboration.expressions import Expressions
 from ros2cc_extract.checker.uppaal.elaboration.inlining import is_expression, statements_of
 from ros2cc_extract.checker.uppaal.elaboration.types import (
@@ -88,6 +90,8 @@ class FunctionCompiler:
         self._open: list[FunctionSymbol] = []
         self._too_large: set[FunctionSymbol] = set()
         self._are_expressions: dict[FunctionSymbol, bool] = {}
+        self._counted = ConstantCalls(expressions.types.named)
+        self._are_numbers: set[FunctionSymbol] = set()
 
     def call(self, node: syntax.Call, scope: Scope) -> Expr:
         """Elaborate a call."""
@@ -111,13 +115,24 @@ class FunctionCompiler:
             # Queries call the same functions with the same constants by the hundred.
             key = (symbol, *(value.low for _, value in arguments.values.values()))
             if key not in self._constant_calls:
-                inlined = self._inlined(symbol, arguments)
-                self._constant_calls[key] = inlined or self._real_call(symbol, arguments)
+                self._constant_calls[key] = self._of_constants(symbol, arguments)
             return self._constant_calls[key]
         finally:
             self._open.pop()
 
     # -- calls ---------------------------------------------------------------------------
+    def _of_constants(self, symbol: FunctionSymbol, arguments: Arguments) -> Expr:
+        if symbol in self._are_numbers:
+            numbers = [value.low for _, value in arguments.values.values()]
+            counted = self._counted.of_call(symbol, numbers)
+            if counted is not None:
+                return const(counted)
+        found = self._inlined(symbol, arguments) or self._real_call(symbol, arguments)
+        if isinstance(found, Const):
+            # All of its body was elaborated, what is not taken too.
+            self._are_numbers.add(symbol)
+        return found
+
     def updates(self, node: syntax.Call, scope: Scope) -> list[Expr] | None:
         """
         Return the assignments of a called function that is nothing but assignments.

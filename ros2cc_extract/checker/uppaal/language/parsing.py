@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.checker.uppaal.language.precedence import MAX_DEPTH, NestingError
+from ros2cc_extract.checker.uppaal.language.query_shapes import Maker, maker_of, shape_of
 from ros2cc_extract.errors import ModelFormatError
 from ros2cc_extract.places import Place
 
@@ -148,6 +149,15 @@ def _is_in_system_line(text: str, lines: int, before: str) -> bool:
 
 def parse_query(text: str, place: Place) -> syntax.Query:
     """Parse one query."""
-    result = parse(text, Start.QUERY, place)
+    shape, numbers = shape_of(text)
+    try:
+        result = _query_maker(shape, place.line)(numbers)
+    except ModelFormatError:
+        result = parse(text, Start.QUERY, place)  # which tells of the text as it stands
     assert isinstance(result, syntax.Query)
     return result
+
+
+@functools.lru_cache(maxsize=4096)
+def _query_maker(shape: str, line: int) -> Maker:
+    return maker_of(parse(shape, Start.QUERY, Place('query', line)))
