@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_cou
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
 from ros2cc_extract.extract.static.program.relevance import reassigned_attributes, unmangled
-from ros2cc_extract.extract.static.python.machine.machine import Frame
+from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.world import (
     RECENT,
     AccessKind,

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
+from ros2cc_extract.extract.static.concurrency.waits.clock_durations import time_from_now
 from ros2cc_extract.extract.static.libraries import tables
 from ros2cc_extract.extract.static.libraries.rclpy.clients import (
     NODE_EXECUTOR,
@@ -251,6 +253,10 @@ class Libraries(Machine):
         if is_stock or (isinstance(value, Instance) and is_counter(self.world, value)):
             self.note_wake(value, Word.RELEASE, place)
             self.note_release(value)
+
+    def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
+        """What an operator gives that a library defines."""
+        return time_from_now(op, left, right)
 
     def awaited(self, future: Instance, place: Place) -> Value:
         """What awaiting a future gives."""

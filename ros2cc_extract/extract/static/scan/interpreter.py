@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.effects import Effects
+from ros2cc_extract.extract.static.concurrency.notes import Notes
 from ros2cc_extract.extract.static.libraries.library_calls import Libraries
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.python.language.assignments import Assignments
@@ -30,7 +30,7 @@ class Interpreter(
     Comprehensions,
     Libraries,
     Imports,
-    Effects,
+    Notes,
 ):
     """One run of one program."""
 

@@ -28,8 +28,8 @@ from ros2cc_extract.extract.static.python.language.plain_data_calls import (
     may_make_entities,
 )
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
+from ros2cc_extract.extract.static.python.machine.frame import BudgetError
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
-from ros2cc_extract.extract.static.python.machine.machine import BudgetError
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
 from ros2cc_extract.extract.static.python.machine.world import Cut, EntityState, NodeState, World
 from ros2cc_extract.extract.static.python.objects.reanalysis import both

@@ -15,7 +15,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import EntityState, World
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Const, Value, options_of
 from ros2cc_extract.places import Place
@@ -97,6 +98,14 @@ def _name_of(test: ast.expr) -> str | None:
     if isinstance(test, ast.Attribute):
         return test.attr
     return test.id if isinstance(test, ast.Name) else None
+
+
+def constant(machine: Machine, value: ast.expr, frame: Frame) -> str | None:
+    """What a name, or an attribute, or a literal stands for, if that is one constant."""
+    if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
+        return None
+    with machine.world.reading.apart():
+        return text_of(machine.evaluate(value, frame))
 
 
 def text_of(value: Value) -> str | None:

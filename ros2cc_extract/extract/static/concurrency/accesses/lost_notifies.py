@@ -9,8 +9,6 @@ notifier writes, or has begun in that hold what notifies: that cannot go on befo
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import lock_of, locks_named
@@ -23,7 +21,6 @@ from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import EntityKind
 
 CONDITION_WAITS = frozenset({'Condition.wait', 'Condition.wait_for'})
-NOTHING_ASKED = Asked(frozenset(), frozenset(), is_open=False)
 # They answer from what they are given, or for the whole program.
 _PLAIN = frozenset({'ok', 'len', 'bool', 'any', 'all', 'isinstance'})
 
@@ -67,16 +64,6 @@ def _may_rest_on_more(test: ast.expr) -> bool:
 
 def _name_of(function: ast.expr) -> str:
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-
-
-@contextmanager
-def in_loop(world: World, asked: Asked) -> Iterator[None]:
-    """What is followed inside is done because of the test of a loop."""
-    world.reading.loops.append(asked)
-    try:
-        yield
-    finally:
-        world.reading.loops.pop()
 
 
 def note_begun(world: World, place: Place) -> None:

@@ -14,7 +14,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.accesses import collection_aliases
 from ros2cc_extract.extract.static.program.relevance import noted_on, unmangled, walk
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds, Piece
 from ros2cc_extract.extract.static.python.machine.world import RECENT, EntityState, World
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive

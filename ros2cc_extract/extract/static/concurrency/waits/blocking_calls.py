@@ -174,7 +174,7 @@ class Waits(Machine):
             reference.number = id(clock)
             self.note_loop_on_data(name, reference, None, place)
 
-    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
+    def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called, perhaps by the name of a wait."""
         waking = waking_of(call.text)
         if waking is not None:

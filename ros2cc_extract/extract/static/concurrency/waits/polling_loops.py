@@ -24,7 +24,8 @@ from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks imp
 )
 from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.machine.wake_operations import DataRef, ResourceRef

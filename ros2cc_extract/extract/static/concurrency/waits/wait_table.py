@@ -16,9 +16,6 @@ from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
 INITIAL = '__initial__'
 """Slot of a semaphore for its value, and of a queue for its size."""
 
-AWAITED = '__awaited__'
-"""Slot of a coroutine of a library: what happens when it is awaited."""
-
 
 SPIN_UNTIL = 'spin_until_future_complete'
 """How code that no callback runs waits for a future, and spins meanwhile."""

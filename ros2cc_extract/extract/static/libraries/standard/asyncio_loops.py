@@ -12,12 +12,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
 from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_in_executor
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
-from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.library_table import (
+    AWAITED,
+    Library,
+    LibraryClass,
+)
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP
 from ros2cc_extract.extract.static.python.machine.wake_operations import LoopRun, LoopTouch, Word

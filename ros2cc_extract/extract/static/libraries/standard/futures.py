@@ -8,7 +8,6 @@ leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threads
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
 from ros2cc_extract.extract.static.libraries.done_callbacks import (
     add_done_callback,
     begin_anew,
@@ -17,7 +16,11 @@ from ros2cc_extract.extract.static.libraries.done_callbacks import (
     may_be_done,
 )
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import WORKERS
-from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.library_table import (
+    AWAITED,
+    Library,
+    LibraryClass,
+)
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL

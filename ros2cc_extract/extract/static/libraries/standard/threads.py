@@ -147,7 +147,7 @@ def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
         with world.reading.of(found):
             machine.call(predicate, Call(call.place))
     asked = Asked(frozenset(found), lost_notifies.holds_of(world), is_open=True)
-    with lost_notifies.in_loop(world, asked):
+    with world.reading.in_loop(asked):
         machine.note_blocking(
             'Condition.wait_for', receiver, call.argument(1, 'timeout'), call.place
         )

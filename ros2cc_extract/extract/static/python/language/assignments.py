@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from ros2cc_extract.extract.static.concurrency.accesses import torn_updates
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
     ExecutorState,
@@ -48,10 +48,10 @@ class Assignments(Machine):
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):
-            torn_updates.note_changed(self, target, frame)
+            self.note_part(target, frame)
             self._assign_attribute(target, value, frame)
         elif isinstance(target, ast.Subscript):
-            torn_updates.note_changed(self, target, frame)
+            self.note_part(target, frame)
             self._assign_item(target, value, frame)
         elif isinstance(target, (ast.Tuple, ast.List)):
             self._unpack(target.elts, value, frame)

@@ -6,19 +6,13 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import AWAITED
 from ros2cc_extract.extract.static.program.relevance import is_test, mangled
 from ros2cc_extract.extract.static.python.language import plain_data_calls
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
+from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
-from ros2cc_extract.extract.static.python.machine.machine import (
-    ENTRIES,
-    BudgetError,
-    CannotCallError,
-    Frame,
-    Machine,
-)
+from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
+from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_all
 from ros2cc_extract.extract.static.python.machine.world import Cut, PlainState, note_once
 from ros2cc_extract.extract.static.python.objects import memoization, subclass_registry
@@ -83,7 +77,7 @@ class Calls(Machine):
         """The result of calling something that cannot be followed."""
         self.library_call(function, call)
         if isinstance(function, Mystery):
-            self.note_unknown_wait(function, call)
+            self.note_unknown_call(function, call)
             return Mystery(function.unknown, call.text or f'{function.text}(…)')
         name = function.name if isinstance(function, Library) else 'this value'
         return self.mystery(f'result of {name}, which is not followed', call.place, name)
@@ -158,7 +152,7 @@ class Calls(Machine):
         if isinstance(function.node, ast.Lambda):
             return self.evaluate(function.node.body, frame)
         flow = self.execute_block(function.node.body, frame)
-        flag_locks.leave(self.world, frame, goes_on=bool(flow & NEXT))
+        self.note_left(frame, goes_on=bool(flow & NEXT))
         if frame.known_at_return:
             ends = [self.world.ready] if flow & NEXT else []
             self.world.ready = of_all([*ends, *frame.known_at_return])

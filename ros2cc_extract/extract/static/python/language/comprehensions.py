@@ -8,7 +8,8 @@ from collections.abc import Sequence as Items
 
 from ros2cc_extract.extract.static.python.language import open_tests
 from ros2cc_extract.extract.static.python.machine import path_facts
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import Mystery, Scope, Value

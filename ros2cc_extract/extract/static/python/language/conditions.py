@@ -8,7 +8,8 @@ from functools import partial
 
 from ros2cc_extract.extract.static.python.language import open_tests
 from ros2cc_extract.extract.static.python.machine import path_facts
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.values import (

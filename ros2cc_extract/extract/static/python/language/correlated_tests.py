@@ -10,7 +10,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import options_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import When

@@ -7,13 +7,12 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static.concurrency.accesses import torn_updates
-from ros2cc_extract.extract.static.concurrency.waits.clock_durations import time_from_now
 from ros2cc_extract.extract.static.program.relevance import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.language import conditions, open_tests
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind, note_once
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values import constant_folding
@@ -87,8 +86,7 @@ class Expressions(Machine):
             return (), Unknown('one of several sequences, depending on a branch', place)
         if isinstance(value, Mystery):
             return (), Unknown(value.unknown.reason, value.unknown.at or place)
-        if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
-            self.note_blocking('Executor.map', value, None, place)
+        self.note_results(value, place)
         return (), Unknown('a sequence that could not be followed', place)
 
     def truth(self, value: Value) -> bool | None:
@@ -124,7 +122,7 @@ class Expressions(Machine):
         folded = constant_folding.binary(op, left, right)
         if folded is not None:
             return folded
-        later = time_from_now(op, left, right)
+        later = self.library_operation(op, left, right)
         if later is not None:
             return later
         for side in (left, right):
@@ -218,7 +216,7 @@ def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
     _note_choice(machine, node, frame)
     function = _called(machine, node.func, frame)
     call = arguments(machine, node, frame)
-    torn_updates.note_sent(machine, function, node, frame)
+    machine.note_call(function, node, frame)
     if isinstance(function, Mystery):
         call.text = node
         _note_abort(machine, node, call.place)
@@ -239,7 +237,7 @@ def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
         function = machine.evaluate(node, frame)
         _note_within(machine, node, frame)
         return function
-    torn_updates.note_changed(machine, node.value, frame, f'.{node.attr}')
+    machine.note_part(node.value, frame, f'.{node.attr}')
     noted, machine.world.deeds = machine.world.deeds, None
     function = machine.evaluate(node, frame)
     machine.world.deeds = noted

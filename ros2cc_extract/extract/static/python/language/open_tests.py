@@ -11,7 +11,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence as Several
 
-from ros2cc_extract.extract.static.concurrency.accesses import flag_locks, lost_notifies
 from ros2cc_extract.extract.static.program.relevance import (
     assignments_of_attributes,
     noted_on,
@@ -20,7 +19,8 @@ from ros2cc_extract.extract.static.program.relevance import (
 )
 from ros2cc_extract.extract.static.python.machine.dependences import Asked, computed_from, names_in
 from ros2cc_extract.extract.static.python.machine.fixed_point import note_met
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values.containers import Collection, Sequence
@@ -63,19 +63,8 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     reading.tests[place] = known | found | computed_from(node.test, frame.sources)
     if node is outer:
         reading.tested_at[place] = calls
-        flag_locks.note_test(
-            reading, node, found, place, lambda each: _constant(machine, each, frame)
-        )
-    lost_notifies.note_test(machine.world, node.test, place, reading.tests[place])
+    machine.note_branch(node, found, place, frame, is_first=node is outer)
     return holds
-
-
-def _constant(machine: Machine, value: ast.expr, frame: Frame) -> str | None:
-    """What a name, or an attribute, or a literal stands for, if that is one constant."""
-    if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
-        return None
-    with machine.world.reading.apart():
-        return flag_locks.text_of(machine.evaluate(value, frame))
 
 
 def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:
@@ -84,8 +73,7 @@ def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool |
     with machine.world.reading.of(found):
         holds = decide(machine, node.test, frame)
     names = frozenset(found) | computed_from(node.test, frame.sources)
-    place = frame.place(node)
-    return holds, lost_notifies.note_test(machine.world, node.test, place, names, repeats=True)
+    return holds, machine.asked_by_loop(node, names, frame.place(node))
 
 
 def note_rounds(loop: ast.While, frame: Frame) -> None:

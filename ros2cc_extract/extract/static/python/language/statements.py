@@ -14,13 +14,6 @@ from functools import partial, reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static.concurrency.accesses import (
-    atomic_updates,
-    flag_locks,
-    lost_notifies,
-    torn_updates,
-)
-from ros2cc_extract.extract.static.concurrency.waits import end_operations, polling_loops
 from ros2cc_extract.extract.static.python.language import (
     correlated_tests,
     open_tests,
@@ -37,7 +30,9 @@ from ros2cc_extract.extract.static.python.machine.block_exits import (
     NEXT,
     RETURN,
 )
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.store import Writes
 from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
@@ -196,7 +191,7 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
-    with atomic_updates.noted(machine, node, frame):
+    with machine.in_one_piece(node, frame):
         for target in node.targets:
             machine.assign(target, value, frame)
     machine.world.reading.flowing = frozenset()
@@ -217,9 +212,9 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     noted, machine.world.deeds = machine.world.deeds, None
     old = machine.evaluate(load, frame)
     machine.world.deeds = noted
-    with atomic_updates.noted(machine, node, frame):
+    with machine.in_one_piece(node, frame):
         machine.note_update(load, frame, AccessKind.UPDATE)
-        torn_updates.note_changed(machine, load, frame)
+        machine.note_part(load, frame)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
         machine.charge(len(items))
@@ -245,7 +240,7 @@ def _return(machine: Statements, node: ast.Return, frame: Frame) -> int:
     found = set[str]()
     with machine.world.reading.of(found):
         frame.results.append(machine.evaluate(node.value, frame) if node.value else NONE)
-    flag_locks.note_return(machine.world, frame, node, found)
+    machine.note_return(node, frame, found)
     frame.known_at_return.append(machine.world.ready)
     return RETURN
 
@@ -260,7 +255,7 @@ def _may_raise(statement: ast.stmt) -> bool:
 def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
     if node.exc is not None:
         machine.evaluate(node.exc, frame)
-        end_operations.note_raised(machine, node.exc, frame.place(node))
+        machine.note_raised(node.exc, frame.place(node))
     return DEAD
 
 
@@ -358,7 +353,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     step = iterators.next_of(machine, values, place)
     items = loops.items_to_run(machine, values, place)
 
-    with _loop(machine, frame), lost_notifies.in_loop(machine.world, lost_notifies.NOTHING_ASKED):
+    with _loop(machine, frame), machine.world.reading.in_loop(NOTHING_ASKED):
         with loops.repeated(machine, items, node.body) as begin:
 
             def once(item: Value) -> int:
@@ -394,13 +389,12 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
     if holds is False:
         return machine.execute_block(node.orelse, frame)
     told, ready = path_facts.told_by(machine.world.tested), machine.world.ready
-    before = polling_loops.mark(machine)
-    polling_loops.begin(machine, node, frame, told)
+    begun = machine.begin_loop(node, frame, told)
     reason = Unknown('made in a while loop', frame.place(node))
     with (
         loops.counted(machine, reason),
         _loop(machine, frame),
-        lost_notifies.in_loop(machine.world, asked),
+        machine.world.reading.in_loop(asked),
     ):
         path_facts.assume(machine.world, told, holds=True)
         open_tests.note_rounds(node, frame)
@@ -411,7 +405,7 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
     if not flow & (BREAK | RETURN):
         machine.note_endless(node, frame.place(node))
     if flow & (NEXT | CONTINUE):
-        polling_loops.note(machine, node, frame, before)
+        machine.end_loop(node, frame, begun)
     machine.world.ready = after
     return loops.after_loop(flow)
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
-from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, LEAVING, NEXT
-from ros2cc_extract.extract.static.python.machine.machine import CannotCallError, Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import CannotCallError, Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts
 
 
@@ -88,7 +88,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
         text = handler.name
         caught = machine.mystery('a caught exception', frame.place(handler), text)
         machine.assign(ast.Name(text, ast.Store()), caught, frame)
-    held = locks_given_back(handler.body, machine.world)
+    held = machine.given_back_in(handler.body)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
     try:
         with _trying(machine, catches=True), _catching(machine, catches=True):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import ExecutorState, PlainState
 from ros2cc_extract.extract.static.python.values.values import NONE, Bound, Call, Instance, Value
 from ros2cc_extract.places import Place
@@ -31,7 +31,7 @@ def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> 
             _exit(machine, value, _end_of(node, place))
         return flow
     finally:
-        machine.world.held = flag_locks.after_block(held, machine.world.held)
+        machine.world.held = machine.held_behind_block(held)
 
 
 def _exit(machine: Machine, value: Value, place: Place) -> None:

@@ -34,6 +34,9 @@ class Asked:
     is_open: bool
 
 
+NOTHING_ASKED = Asked(frozenset(), frozenset(), is_open=False)
+
+
 @dataclass
 class Reading:
     """
@@ -75,6 +78,15 @@ class Reading:
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
     passed: Path = ()
+
+    @contextmanager
+    def in_loop(self, asked: Asked) -> Iterator[None]:
+        """What is followed inside is done because of the test of a loop."""
+        self.loops.append(asked)
+        try:
+            yield
+        finally:
+            self.loops.pop()
 
     def behind(self, path: Path) -> Path:
         """All the tests that have led to where the program is."""

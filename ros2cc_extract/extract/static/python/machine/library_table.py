@@ -10,6 +10,9 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
 from ros2cc_extract.places import Place
 
+AWAITED = '__awaited__'
+"""Slot of a coroutine of a library: what happens when it is awaited."""
+
 StateFactory = Callable[[Machine, Instance], Any]
 Property = Callable[[Machine, Instance, Place], Value]
 

@@ -10,15 +10,15 @@ import ast
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from functools import partial
 
 from ros2cc_extract.deadline import Deadline
-from ros2cc_extract.extract.static.program.relevance import mangled
-from ros2cc_extract.extract.static.python.machine.path_facts import Facts, of_all
+from ros2cc_extract.extract.static.python.machine.frame import BudgetError, Frame
+from ros2cc_extract.extract.static.python.machine.observer import Observer
+from ros2cc_extract.extract.static.python.machine.path_facts import of_all
 from ros2cc_extract.extract.static.python.machine.store import Store, Writes
 from ros2cc_extract.extract.static.python.machine.wake_operations import ClockRef, DataRef, Word
-from ros2cc_extract.extract.static.python.machine.world import AccessKind, EntityState, World
+from ros2cc_extract.extract.static.python.machine.world import EntityState, World
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -30,8 +30,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Library,
     Module,
     Mystery,
-    Path,
-    Scope,
     Value,
     choice,
 )
@@ -46,83 +44,7 @@ ENTRIES = 10
 """So many of an order of classes are gone through, or kept, in a step."""
 
 
-class CannotCallError(Exception):
-    """A call directly in the text of a ``try`` surely raises ``TypeError``."""
-
-
-class BudgetError(Exception):
-    """The program is too large to be followed to its end."""
-
-
-@dataclass
-class Frame:
-    """
-    One running function, class body or module.
-
-    :param path: the undecided branches under which it began.
-    :param many: what it yields any number of times, or perhaps not at all.
-    :param breaks: what the branches that leave the running loop had written to own names.
-    :param known_at_break: what has surely happened there, see ``World.ready``; the same of each
-        ``return``.
-    :param held: locks that were held at the first ``yield``.
-    :param left: locks that are held at each ``return``, flags that were found down, and whether it
-        turns down a goal.
-    :param copies: own names that hold what other functions may have changed.
-    :param sources: shared data that own names were computed from, while a callback is followed.
-    :param continues: the same of the branches that go on with its next round.
-    :param tests: undecided ones with the place of the first ``if``, whether that asks the
-        opposite, and the options of the values that were asked.
-    """
-
-    scope: Scope
-    function: Function | None = None
-    results: list[Value] = field(default_factory=list)
-    yields: list[Value] = field(default_factory=list)
-    held: tuple[str, ...] = ()
-    left: list[tuple[tuple[str, ...], frozenset[str], bool]] = field(default_factory=list)
-    many: dict[Value, Value] = field(default_factory=dict)
-    qualname: str = ''
-    path: Path = ()
-    breaks: list[Writes] = field(default_factory=list)
-    known_at_break: list[Facts] = field(default_factory=list)
-    known_at_return: list[Facts] = field(default_factory=list)
-    continues: list[Writes] = field(default_factory=list)
-    copies: frozenset[str] = frozenset()
-    sources: dict[str, frozenset[str]] = field(default_factory=dict)
-    tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
-        default_factory=dict
-    )
-
-    @property
-    def module(self) -> Module:
-        """The module whose text is running."""
-        return self.scope.module
-
-    def place(self, node: ast.AST) -> Place:
-        """Where ``node`` stands, kept on the node: a tree belongs to one file."""
-        notes = node.__dict__
-        known: Place | None = notes.get('place')
-        if known is None:
-            line, column = notes.get('lineno', 0), notes.get('col_offset', -1) + 1
-            known = notes['place'] = Place(self.scope.module.file, line, column)
-        return known
-
-    def attribute_name(self, name: str) -> str:
-        """The attribute that ``name`` means in the text that is running."""
-        return mangled(name, self._class_name()) if name.startswith('__') else name
-
-    def _class_name(self) -> str | None:
-        """Name of the innermost class around the running text."""
-        for piece in reversed(self.qualname.removesuffix('.<locals>').split('.<locals>.')):
-            names = piece.split('.')
-            if self.function is None and names[-1]:
-                return names[-1]
-            if len(names) > 1:
-                return names[-2]
-        return None
-
-
-class Machine(ABC):
+class Machine(Observer, ABC):
     """The state every part shares, and what each part offers to the others."""
 
     store: Store
@@ -218,32 +140,8 @@ class Machine(ABC):
         """A ``with`` over ``value`` ends."""
 
     @abstractmethod
-    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
-        """An attribute is touched; matters while a callback runs."""
-
-    @abstractmethod
-    def note_held(self, owner: Value, name: str, value: Value) -> None:
-        """An attribute has got a value: a collection is known by the first one that holds it."""
-
-    @abstractmethod
-    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
-        """A global is touched; matters while a callback runs."""
-
-    @abstractmethod
-    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
-        """The object in a name or attribute gets a new content or value from its old one."""
-
-    @abstractmethod
-    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
-        """A loop goes over a collection, which nobody may change in size meanwhile."""
-
-    @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:
         """Names of globals that some function of the module rebinds or changes in place."""
-
-    @abstractmethod
-    def note_endless(self, node: ast.While, place: Place) -> None:
-        """A loop was followed that nothing in its body leaves."""
 
     @abstractmethod
     def run_function(self, function: Function, call: Call) -> Value:
@@ -276,6 +174,10 @@ class Machine(ABC):
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
         """Attribute ``name`` where a base class is not in sight."""
+
+    @abstractmethod
+    def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
+        """What an operator gives that a library defines."""
 
     @abstractmethod
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
@@ -376,18 +278,6 @@ class Machine(ABC):
         """Somebody waits for time that ``clock`` moves."""
 
     @abstractmethod
-    def note_unknown_wait(self, function: Mystery, call: Call) -> None:
-        """Something that could not be followed is called, perhaps by the name of a wait."""
-
-    @abstractmethod
-    def note_await(self, value: Value, place: Place) -> None:
-        """A callback awaits ``value``."""
-
-    @abstractmethod
-    def note_turn(self, place: Place) -> None:
-        """A coroutine lets the executor run others and goes on by itself."""
-
-    @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
         """A lock is taken; with a time-out it may not be."""
 
@@ -402,10 +292,6 @@ class Machine(ABC):
     @abstractmethod
     def give_away(self, value: Value, reason: str, place: Place) -> None:
         """Code that is not followed has ``value`` now, and may end waits for it."""
-
-    @abstractmethod
-    def note_lock_method(self, owner: Value, name: str) -> None:
-        """A method of ``owner`` has run, which may be a lock made by hand."""
 
     @abstractmethod
     def note_publish(self, publisher: Value, place: Place) -> None:

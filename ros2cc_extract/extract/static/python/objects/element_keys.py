@@ -12,7 +12,8 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from, constant_key
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import EntityState
 from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
 from ros2cc_extract.spec.model import EntityKind, When

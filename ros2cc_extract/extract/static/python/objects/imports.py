@@ -7,7 +7,8 @@ import ast
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.relevance import changed_globals
 from ros2cc_extract.extract.static.program.source import SourceFile
-from ros2cc_extract.extract.static.python.machine.machine import Frame, Machine
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Instance,

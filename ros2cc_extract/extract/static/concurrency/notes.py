@@ -1,0 +1,95 @@
+"""
+What the interpreter tells of, handed to whom it concerns: the door of what runs concurrently.
+
+The interpreter calls these hooks, see ``observer.py``; each module behind them knows one matter.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence, Set
+from contextlib import AbstractContextManager
+
+from ros2cc_extract.extract.static.concurrency.accesses import (
+    atomic_updates,
+    flag_locks,
+    lost_notifies,
+    torn_updates,
+)
+from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
+from ros2cc_extract.extract.static.concurrency.effects import Effects
+from ros2cc_extract.extract.static.concurrency.waits import end_operations, polling_loops
+from ros2cc_extract.extract.static.python.machine.dependences import Asked
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.values.values import Instance, Value
+from ros2cc_extract.places import Place
+
+
+class Notes(Effects):
+    """Beside accesses, locks and waits: tests, loops, and the ways out of functions."""
+
+    def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
+        """An attribute or item of an object is stored, or a collection in it changes in place."""
+        torn_updates.note_changed(self, target, frame, how)
+
+    def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
+        """A call may publish an object as a whole."""
+        torn_updates.note_sent(self, function, node, frame)
+
+    def in_one_piece(
+        self, node: ast.Assign | ast.AugAssign, frame: Frame
+    ) -> AbstractContextManager[None]:
+        """While the statement is followed, its write is known to be in one piece, if it is."""
+        return atomic_updates.noted(self, node, frame)
+
+    def note_branch(
+        self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool
+    ) -> None:
+        """A test may find a flag down, or ask for what somebody notifies of."""
+        reading = self.world.reading
+        if is_first:
+            flag_locks.note_test(
+                reading, node, found, place, lambda each: flag_locks.constant(self, each, frame)
+            )
+        lost_notifies.note_test(self.world, node.test, place, reading.tests[place])
+
+    def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:
+        """A loop may ask for what somebody notifies of."""
+        return lost_notifies.note_test(self.world, node.test, place, names, repeats=True)
+
+    def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
+        """A way out of a function: flags are held there, or a goal is turned down."""
+        flag_locks.note_return(self.world, frame, node, found)
+
+    def note_left(self, frame: Frame, *, goes_on: bool) -> None:
+        """A flag that is held on some ways out only is not held for certain."""
+        flag_locks.leave(self.world, frame, goes_on=goes_on)
+
+    def note_raised(self, error: ast.expr, place: Place) -> None:
+        """What a callback raises may end the spin that runs it."""
+        end_operations.note_raised(self, error, place)
+
+    def held_behind_block(self, before: tuple[str, ...]) -> tuple[str, ...]:
+        """The locks of a ``with`` are given back, and flags stay as they are."""
+        return flag_locks.after_block(before, self.world.held)
+
+    def given_back_in(self, body: Sequence[ast.stmt]) -> tuple[str, ...]:
+        """A handler that gives locks back runs while they are held."""
+        return locks_given_back(body, self.world)
+
+    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
+        """A loop may do nothing but wait."""
+        before = polling_loops.mark(self)
+        polling_loops.begin(self, node, frame, told)
+        return before
+
+    def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
+        """After one round it shows what the loop waits for."""
+        assert begun is None or isinstance(begun, polling_loops.Mark)
+        polling_loops.note(self, node, frame, begun)
+
+    def note_results(self, value: Value, place: Place) -> None:
+        """Whoever goes over what ``Executor.map`` gives waits for it."""
+        if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
+            self.note_blocking('Executor.map', value, None, place)

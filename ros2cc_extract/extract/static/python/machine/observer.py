@@ -1,0 +1,106 @@
+"""
+What the interpreter tells of while it follows a program.
+
+A bare interpreter tells nobody: each of these does nothing. Who wants to know what runs beside
+each other, waits for each other and shares data overrides them, see ``concurrency/notes.py``.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence, Set
+from contextlib import AbstractContextManager, nullcontext
+
+from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED, Asked
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.values.values import Call, Module, Mystery, Value
+from ros2cc_extract.places import Place
+
+
+class Observer:
+    """Hooks, each called where the interpreter meets something, with the state of that moment."""
+
+    def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """An attribute is touched."""
+
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """An attribute has got a value."""
+
+    def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
+        """A global is touched."""
+
+    def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
+        """The object in a name or attribute gets a new content or value from its old one."""
+
+    def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
+        """An attribute or item of an object is stored, or a collection in it changes in place."""
+
+    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
+        """A loop goes over a collection, which nobody may change in size meanwhile."""
+
+    def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
+        """``function`` is called, with the arguments of ``node``."""
+
+    def in_one_piece(
+        self, node: ast.Assign | ast.AugAssign, frame: Frame
+    ) -> AbstractContextManager[None]:
+        """Inside, a statement stores what it has computed."""
+        return nullcontext()
+
+    def note_branch(
+        self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool
+    ) -> None:
+        """
+        What the arms at ``place`` do rests on a test.
+
+        :param found: names of the shared data that was read for it.
+        :param is_first: it is that of the ``if`` itself and of no ``elif``.
+        """
+
+    def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:
+        """What the rounds of a loop rest on; ``names`` is the shared data read for its test."""
+        return NOTHING_ASKED
+
+    def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
+        """A function is left; ``found`` is the shared data read for what it gives."""
+
+    def note_left(self, frame: Frame, *, goes_on: bool) -> None:
+        """A function has been followed; it may also end without a ``return`` if it ``goes_on``."""
+
+    def note_raised(self, error: ast.expr, place: Place) -> None:
+        """An exception is raised."""
+
+    def held_behind_block(self, before: tuple[str, ...]) -> tuple[str, ...]:
+        """The locks that are held behind a ``with``; ``before`` are those held in front of it."""
+        return before
+
+    def given_back_in(self, body: Sequence[ast.stmt]) -> tuple[str, ...]:
+        """The locks that a handler of exceptions gives back: they are held where it begins."""
+        return ()
+
+    def note_lock_method(self, owner: Value, name: str) -> None:
+        """A method of ``owner`` has run that is called like one of a lock."""
+
+    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
+        """A ``while`` begins whose test tells so; ``end_loop`` is given the result."""
+        return None
+
+    def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
+        """One round of a ``while`` has been followed that may come to another one."""
+
+    def note_endless(self, node: ast.While, place: Place) -> None:
+        """A loop was followed that nothing in its body leaves."""
+
+    def note_results(self, value: Value, place: Place) -> None:
+        """Somebody goes over ``value``, which cannot be followed."""
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """``value`` is awaited."""
+
+    def note_turn(self, place: Place) -> None:
+        """A coroutine lets others run and goes on by itself."""
+
+    def note_unknown_call(self, function: Mystery, call: Call) -> None:
+        """Something that could not be followed is called."""
