@@ -18,7 +18,8 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
-from ros2cc_extract.extract.static.concurrency.waits import end_operations, polling_loops
+from ros2cc_extract.extract.static.concurrency.waits import polling_loops
+from ros2cc_extract.extract.static.libraries.rclpy import end_operations
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told

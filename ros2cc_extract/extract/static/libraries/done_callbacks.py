@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.libraries.rclpy.executors import add_task
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import add_task
 from ros2cc_extract.extract.static.python.machine.fixed_point import is_same_text, note_found
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL

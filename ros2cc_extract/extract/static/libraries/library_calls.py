@@ -7,14 +7,14 @@ import sys
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
-from ros2cc_extract.extract.static.concurrency.waits.clock_durations import time_from_now
-from ros2cc_extract.extract.static.libraries import tables
-from ros2cc_extract.extract.static.libraries.rclpy.clients import (
+from ros2cc_extract.extract.static.libraries import model
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     NODE_EXECUTOR,
     UNKNOWN_CLIENT,
     result_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import time_from_now
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     CREATE_CALLS,
     NODE,
     ghost_node,
@@ -71,11 +71,11 @@ class Libraries(Machine):
 
     def library(self, name: str) -> Value:
         """What a dotted name of a library stands for."""
-        known = tables.canonical(name)
-        constant = tables.table().constants.get(known)
+        known = model.canonical(name)
+        constant = model.table().constants.get(known)
         if constant is not None:
             return constant
-        handler = tables.table().functions.get(known)
+        handler = model.table().functions.get(known)
         return Native(known, handler) if handler else Library(known)
 
     def prepare(self, instance: Instance) -> None:
@@ -271,7 +271,7 @@ class Libraries(Machine):
 
 def _is_of(value: Value, cls: Library) -> bool:
     return isinstance(value, Instance) and any(
-        isinstance(base, Library) and tables.canonical(cls.name) in tables.with_bases(base.name)
+        isinstance(base, Library) and model.canonical(cls.name) in model.with_bases(base.name)
         for base in value.mro
     )
 
@@ -284,5 +284,5 @@ def _is_no_node(value: Mystery) -> bool:
 
 def _with_bases(name: str) -> list[LibraryClass]:
     """The rows of a library class and of its bases, nearest first."""
-    classes = tables.table().classes
-    return [classes[base] for base in tables.with_bases(name)]
+    classes = model.table().classes
+    return [classes[base] for base in model.with_bases(name)]

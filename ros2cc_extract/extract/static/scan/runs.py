@@ -9,10 +9,11 @@ from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
-from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks import note_unanswered
 from ros2cc_extract.extract.static.libraries.done_callbacks import add_left
-from ros2cc_extract.extract.static.libraries.rclpy.called_by_services import BUILDING, TRANSITIONS
-from ros2cc_extract.extract.static.libraries.rclpy.wait_for_message import note_taken
+from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services import (
+    BUILDING,
+    TRANSITIONS,
+)
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import run_exit_hooks
 from ros2cc_extract.extract.static.libraries.standard.queue_items import take_back
 from ros2cc_extract.extract.static.program.call_order import (
@@ -50,9 +51,11 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.scan.interpreter import Interpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
-from ros2cc_extract.extract.static.units.double_spins import note_spun_twice
-from ros2cc_extract.extract.static.units.ends_while_served import note_ends
-from ros2cc_extract.extract.static.units.wakers.foreign_loop_calls import note_foreign_loops
+from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
+from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
+from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
+from ros2cc_extract.extract.static.units.whole_program.taken_messages import note_taken
+from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import note_unanswered
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import EntityKind, When

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks import spun_beside
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
 from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.world import (
@@ -24,6 +23,7 @@ from ros2cc_extract.extract.static.python.machine.world import (
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
 from ros2cc_extract.extract.static.units.waits import UnitWaits
+from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs
 from ros2cc_extract.spec.model import When

@@ -6,16 +6,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.libraries.rclpy.executors import nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
 from ros2cc_extract.extract.static.python.machine.world import Cut, Spin, World
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, exclusive
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, options_of
 from ros2cc_extract.extract.static.python.values.values import Value as AnyValue
 from ros2cc_extract.extract.static.units.callbacks import UnitBuilder
-from ros2cc_extract.extract.static.units.double_spins import are_concurrent
 from ros2cc_extract.extract.static.units.executor import Unit, is_handed_over
 from ros2cc_extract.extract.static.units.pending_requests import with_askers
 from ros2cc_extract.extract.static.units.set_up_waits import share_out
+from ros2cc_extract.extract.static.units.whole_program.double_spins import are_concurrent
 from ros2cc_extract.spec.joined import KINDS, Joined, joined
 from ros2cc_extract.spec.model import Executor, Spec, collect_unresolved
 

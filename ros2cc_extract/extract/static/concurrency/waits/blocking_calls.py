@@ -7,12 +7,10 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
-from ros2cc_extract.extract.static.concurrency.waits import waits_outside_callbacks
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before,
     sent_before_clear,
 )
-from ros2cc_extract.extract.static.concurrency.waits.clock_durations import slept
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     CLOCKS,
@@ -28,6 +26,7 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WAITS,
     WaitRow,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import slept
 from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import is_ready as is_ready_for
@@ -67,6 +66,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.units import set_up_waits
+from ros2cc_extract.extract.static.units.whole_program import unanswered_waits
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
@@ -79,15 +79,11 @@ class Waits(Machine):
         """A loop was followed that nothing but the end of the program ends."""
         world = self.world
         is_telling = world.activity is not None and world.deeds is not None
-        if (
-            is_telling
-            and waits_outside_callbacks.is_endless(node)
-            and world.path == world.callback_path
-        ):
+        if is_telling and unanswered_waits.is_endless(node) and world.path == world.callback_path:
             state = world.activity
             assert state is not None
             state.loops = True
-            if waits_outside_callbacks.minds_nothing(node):
+            if unanswered_waits.minds_nothing(node):
                 state.endless = place
 
     def note_blocking(
@@ -101,7 +97,7 @@ class Waits(Machine):
             return
         if deeds is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
-            waits_outside_callbacks.note_interruptible(world, name, on)
+            unanswered_waits.note_interruptible(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if deeds is None:
             self._note_in_set_up(block, thing, place)
@@ -254,7 +250,7 @@ class Waits(Machine):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         if isinstance(on, Instance) and seconds in (None, NONE):
-            waits_outside_callbacks.note(self.world, name, on, place, spun)
+            unanswered_waits.note(self.world, name, on, place, spun)
 
     def _waited_for(self, value: Value | None) -> str | Unknown | None:
         if value is None or value == NONE:

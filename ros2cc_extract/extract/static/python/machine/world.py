@@ -398,7 +398,7 @@ class World:
     :param open_to: those that were down when a goal was accepted, by the same.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
-    :param message_waits: who waits for a message of which node, see ``wait_for_message.py``.
+    :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
     :param set_up: its waits as the specification tells them, each once.
     :param over: what it has ended.
     :param looking: the properties that are running, by owner and name.

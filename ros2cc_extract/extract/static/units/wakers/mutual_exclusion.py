@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
 from ros2cc_extract.extract.static.python.machine.world import (
     EntityState,

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import Notifier, is_heard
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     CANCEL,
     DESTROY,
     DESTROY_NODE,

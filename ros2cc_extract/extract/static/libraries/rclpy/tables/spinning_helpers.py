@@ -9,10 +9,10 @@ event), ``nav2_simple_commander/robot_navigator.py`` (a node of its own, which i
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.executors import as_node
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import NODE, add_entity, init_node
-from ros2cc_extract.extract.static.libraries.rclpy.spins import spin_in_passing
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, add_entity, init_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.spins import spin_in_passing
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import NodeState, PlainState

@@ -11,7 +11,7 @@ from typing import TypeGuard
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import is_handed_on
-from ros2cc_extract.extract.static.libraries.rclpy.executors import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     Awaited,
     add_node,
     as_executor,

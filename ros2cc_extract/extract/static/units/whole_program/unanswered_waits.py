@@ -13,12 +13,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.waits.joined_threads import (
-    JOIN,
-    is_over,
-    never_joined,
-)
-from ros2cc_extract.extract.static.concurrency.waits.threads_at_exit import kept_at_exit
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
@@ -34,6 +28,12 @@ from ros2cc_extract.extract.static.python.machine.world import (
     World,
 )
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
+from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
+    JOIN,
+    is_over,
+    never_joined,
+)
+from ros2cc_extract.extract.static.units.whole_program.threads_at_exit import kept_at_exit
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind, When

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import PUBLISHED, executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import PUBLISHED, executor_of
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
 from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef
 from ros2cc_extract.extract.static.python.machine.world import (

@@ -9,14 +9,14 @@ its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__i
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.executors import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     SINGLE,
     add_node,
     as_node,
     record_spin,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of, new_group
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import add_callback, add_entity
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of, new_group
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_callback, add_entity
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import (

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.libraries.rclpy.clocks import items_of, start_sim_time
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import items_of, start_sim_time
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import EntityState, PlainState
 from ros2cc_extract.extract.static.python.values.containers import Mapping

@@ -17,7 +17,7 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
@@ -28,7 +28,7 @@ from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
     USED,
     executor_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.executors import nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
 from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.world import End, EntityState, Spin, World
@@ -38,7 +38,9 @@ from ros2cc_extract.extract.static.python.values.values import (
     Function,
     Instance,
 )
-from ros2cc_extract.extract.static.units.destroyed_publishers import published_meanwhile
+from ros2cc_extract.extract.static.units.whole_program.destroyed_publishers import (
+    published_meanwhile,
+)
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import ActivityKind, When
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ros2cc_extract.extract.static.libraries.rclpy import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     actions,
     async_nodes,
     called_by_services,

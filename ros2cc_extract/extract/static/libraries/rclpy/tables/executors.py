@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
     note_end,
 )
-from ros2cc_extract.extract.static.concurrency.waits.joined_threads import note_over
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import add_entity, ghost_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, ghost_node
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
@@ -52,6 +51,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.extract.static.units.whole_program.joined_threads import note_over
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 

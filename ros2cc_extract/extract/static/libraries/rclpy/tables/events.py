@@ -7,10 +7,12 @@ the group of its publisher or subscription), ``parameter_event_handler.py`` (one
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.builtin_entities import without_default_events
-from ros2cc_extract.extract.static.libraries.rclpy.executors import as_node
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
+    without_default_events,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     NODE,
     NODE_METHODS,
     add_callback,

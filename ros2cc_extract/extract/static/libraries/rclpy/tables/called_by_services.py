@@ -9,13 +9,13 @@ caller, the latest first), ``parameter_service.py`` (two services of the default
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.builtin_entities import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     list_clock,
     option_of_node,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.clocks import items_of, start_sim_time
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import items_of, start_sim_time
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     LIFECYCLE_NODE,
     NODE,
     NODE_METHODS,

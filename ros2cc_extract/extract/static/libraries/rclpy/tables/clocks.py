@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cc_extract.extract.static.concurrency.waits.clock_durations import THE_CLOCK
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import CLOCKS
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import THE_CLOCK
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import (

@@ -4,7 +4,7 @@
 It makes a subscription of the node, in its default group, and waits for it by a wait set of its
 own; an executor that spins the node meanwhile sees that subscription too. Who comes first takes
 the message: the other one finds none, and ``wait_for_message`` gives ``(False, None)`` at once, or
-waits for the next one. Sources: rclpy 7.1.6 and 9.1.2, ``wait_for_message.py``, ``executors.py``
+waits for the next one. Sources: rclpy 7.1.6 and 9.1.2, ``taken_messages.py``, ``executors.py``
 (``_wait_for_ready_callbacks``, ``_take_subscription``: not while the group is closed).
 """
 
@@ -14,8 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import executor_of
-from ros2cc_extract.extract.static.concurrency.waits.waits_outside_callbacks import spins_beside
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
 from ros2cc_extract.extract.static.python.machine.world import (
     EntityState,
     GroupState,
@@ -26,6 +25,7 @@ from ros2cc_extract.extract.static.python.machine.world import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Instance, Value, options_of
+from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spins_beside
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import GroupType
 

@@ -10,26 +10,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
     OF_RATE,
     note_end,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.builtin_entities import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
     add_events_of,
     option_of_node,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.clocks import clock_of
-from ros2cc_extract.extract.static.libraries.rclpy.groups import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import clock_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import (
     DEFAULT_GROUP,
     default_group_of,
     group_of,
     new_group,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.shutdown import context_of_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.shutdown import context_of_node
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS, Machine
 from ros2cc_extract.extract.static.python.machine.world import (

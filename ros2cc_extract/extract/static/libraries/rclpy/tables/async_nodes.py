@@ -8,9 +8,13 @@ has that loop; the unit says that its executor is not known. Source: rclpy 10.0.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.executors import BASE, add_node
-from ros2cc_extract.extract.static.libraries.rclpy.groups import new_group
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import NODE, NODE_METHODS, init_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import BASE, add_node
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import new_group
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
+    NODE,
+    NODE_METHODS,
+    init_node,
+)
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import (

@@ -8,9 +8,9 @@ and ``action/client.py``.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.executors import as_node, groupless
-from ros2cc_extract.extract.static.libraries.rclpy.groups import group_of
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import (
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node, groupless
+from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     add_entity,
     entity_made_before,
     mark_destroyed,

@@ -3,12 +3,6 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
-from ros2cc_extract.extract.static.concurrency.waits.end_operations import (
-    CANCEL,
-    note_end,
-    note_published,
-    note_use,
-)
 from ros2cc_extract.extract.static.libraries.done_callbacks import (
     add_done_callback,
     begin_anew,
@@ -16,12 +10,17 @@ from ros2cc_extract.extract.static.libraries.done_callbacks import (
     complete,
     init_future,
 )
-from ros2cc_extract.extract.static.libraries.rclpy import wait_for_message
-from ros2cc_extract.extract.static.libraries.rclpy.clocks import note_sleep
-from ros2cc_extract.extract.static.libraries.rclpy.executors import (
+from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+    CANCEL,
+    note_end,
+    note_published,
+    note_use,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import note_sleep
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     node_executor_property,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.nodes import NODE, mark_destroyed
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, mark_destroyed
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
@@ -42,6 +41,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.extract.static.units.whole_program import taken_messages
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import CANCELS, Act
 from ros2cc_extract.spec.model import When
@@ -203,7 +203,7 @@ def _destroy_rate(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
-    """It takes the message itself, in the thread that waits (``wait_for_message.py``)."""
+    """It takes the message itself, in the thread that waits (``taken_messages.py``)."""
     topic = Instance(Name('rclpy.topic'), call.place)
     topic.state = PlainState('topic', call.argument(2, 'topic'), place=call.place)
     timeout = call.argument(None, 'time_to_wait')
@@ -215,7 +215,7 @@ def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
         timeout = None
     machine.note_blocking('wait_for_message', topic, timeout, call.place)
     node, has_limit = call.argument(1, 'node'), timeout not in (None, NONE)
-    wait_for_message.note(machine.world, node, call.place, has_limit=has_limit)
+    taken_messages.note(machine.world, node, call.place, has_limit=has_limit)
     return machine.mystery('a message at run time', call.place, 'wait_for_message(…)')
 
 
