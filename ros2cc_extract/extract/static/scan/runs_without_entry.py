@@ -6,6 +6,7 @@ import ast
 from typing import TypeGuard
 
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import forget_awaits
 from ros2cc_extract.extract.static.program.call_order import (
     callers_first,
     leading_to_entities,
@@ -33,7 +34,6 @@ from ros2cc_extract.extract.static.scan.runs import (
     run_rest_of_instances,
 )
 from ros2cc_extract.extract.static.scan.test_programs import end_test
-from ros2cc_extract.extract.static.units.whole_program import unanswered_waits
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import When
 
@@ -174,7 +174,7 @@ def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
         told = len(machine.world.diagnostics)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
         if isinstance(value.node, ast.AsyncFunctionDef):
-            unanswered_waits.forget_awaits(machine.world, told)
+            forget_awaits(machine.world, told)
         _mark_later(machine.world, nodes, entities, value.place)
         if is_test(value.name):
             end_test(machine)

@@ -11,11 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.world import (
     EntityState,
     NodeState,
-    OutsideWait,
     PlainState,
     SetUpWait,
     World,
@@ -24,55 +22,12 @@ from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
 from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs
-from ros2cc_extract.spec.model import When
 
 _UNSPUN = 'nobody is seen to spin {node} meanwhile'
 _NOBODY = 'nobody in sight ends it'
 _STAYS = 'the thread may go round for ever'
-
-
-def note(
-    world: World,
-    block: Blocking,
-    thing: Instance | None,
-    place: Place,
-    spun: tuple[Instance, ...] = (),
-    caller: str = '',
-) -> None:
-    """
-    Remember a wait, each once.
-
-    :param caller: the outermost function that is followed.
-    :param spun: the nodes that it spins meanwhile.
-    """
-    if world.retelling:
-        return
-    number = block.on.number if isinstance(block.on, EntityRef) else str(block.on)
-    key = (block.call, block.source, id(thing) if thing is not None else number)
-    known = world.set_up.get(key)
-    if known is not None and (known.by is world.activity or world.activity is not None):
-        return
-    begun = None if world.in_thread or world.open_loops else len(world.spins)
-    outside = OutsideWait(
-        block.call,
-        thing,
-        place,
-        world.in_thread,
-        spun,
-        is_late=world.after_spin,
-        over=tuple(world.over),
-        path=world.path,
-        begun=begun,
-    )
-    world.set_up[key] = SetUpWait(
-        replace(block, chain=(), conditional=bool(world.path)),
-        outside,
-        uncalled=caller if world.when is When.LATER else None,
-        by=world.activity,
-        is_late=world.after_spin,
-    )
 
 
 def share_out(world: World, units: Sequence[Unit]) -> None:

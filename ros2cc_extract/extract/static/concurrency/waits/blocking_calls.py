@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
+from ros2cc_extract.extract.static.concurrency.waits import outside_waits
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before,
     sent_before_clear,
@@ -26,6 +27,7 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WAITS,
     WaitRow,
 )
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
 from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import slept
 from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -65,8 +67,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.units import set_up_waits
-from ros2cc_extract.extract.static.units.whole_program import unanswered_waits
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
@@ -79,11 +79,11 @@ class Waits(Machine):
         """A loop was followed that nothing but the end of the program ends."""
         world = self.world
         is_telling = world.activity is not None and world.deeds is not None
-        if is_telling and unanswered_waits.is_endless(node) and world.path == world.callback_path:
+        if is_telling and is_endless(node) and world.path == world.callback_path:
             state = world.activity
             assert state is not None
             state.loops = True
-            if unanswered_waits.minds_nothing(node):
+            if minds_nothing(node):
                 state.endless = place
 
     def note_blocking(
@@ -97,7 +97,7 @@ class Waits(Machine):
             return
         if deeds is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
-            unanswered_waits.note_interruptible(world, name, on)
+            outside_waits.note_interruptible(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if deeds is None:
             self._note_in_set_up(block, thing, place)
@@ -239,7 +239,7 @@ class Waits(Machine):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         caller = self.stack[0].name if self.stack else ''
-        set_up_waits.note(self.world, block, thing, place, spun, caller)
+        outside_waits.note_in_set_up(self.world, block, thing, place, spun, caller)
 
     def _note_outside(
         self,
@@ -250,7 +250,7 @@ class Waits(Machine):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         if isinstance(on, Instance) and seconds in (None, NONE):
-            unanswered_waits.note(self.world, name, on, place, spun)
+            outside_waits.note(self.world, name, on, place, spun)
 
     def _waited_for(self, value: Value | None) -> str | Unknown | None:
         if value is None or value == NONE:

@@ -12,7 +12,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import WAITS
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
+    awaits_each_round,
+    call_of_loop,
+    is_endless,
+    is_idle,
+    only_waits,
+    spins,
+)
 from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -29,15 +38,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     choice,
     options_of,
-)
-from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import (
-    awaits_each_round,
-    call_of_loop,
-    is_endless,
-    is_idle,
-    note_loop,
-    only_waits,
-    spins,
 )
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking

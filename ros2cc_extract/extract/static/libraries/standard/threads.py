@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_counter
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_join, note_over
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.library_table import (
@@ -30,7 +31,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     choice,
 )
-from ros2cc_extract.extract.static.units.whole_program.joined_threads import note_join, note_over
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, way_of
 from ros2cc_extract.extract.static.python.machine.wake_operations import (
@@ -31,29 +31,9 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
     Instance,
-    Value,
     options_of,
 )
-from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
-
-JOIN = 'Thread.join'
-RATE = 'Rate.sleep'
-
-
-def note_join(world: World, thread: Value, place: Place) -> None:
-    """The program, which no executor runs, waits for the end of ``thread``."""
-    is_set_up = world.deeds is None or world.activity is not None
-    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
-        is_late = world.after_spin or bool(world.spins)
-        wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
-        world.outside.append(replace(wait, path=world.path))
-
-
-def note_over(world: World, what: Value | None) -> None:
-    """The program has shut ``what`` down, or waited for its end."""
-    if what is None or isinstance(what, Instance):
-        world.over.append(Over(what, world.path, len(world.spins)))
 
 
 def is_over(spin: Spin, number: int, wait: OutsideWait, world: World) -> bool:

@@ -11,57 +11,19 @@ waits for the next one. Sources: rclpy 7.1.6 and 9.1.2, ``taken_messages.py``, `
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.message_waits import CALL, MessageWait
 from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
     GroupState,
-    NodeState,
-    OutsideWait,
     Spin,
     World,
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
-from ros2cc_extract.extract.static.python.values.values import Instance, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spins_beside
-from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import GroupType
-
-CALL = 'wait_for_message'
-
-
-@dataclass(frozen=True, eq=False)
-class MessageWait:
-    """
-    A message of ``node`` is waited for.
-
-    :param by: the callback that waits; ``None`` for a thread or ``main``.
-    :param thread: which one it is, as ``World.thread`` counts them.
-    """
-
-    node: Instance
-    outside: OutsideWait
-    by: EntityState | None
-    thread: int
-    has_limit: bool
-
-
-def note(world: World, node: Value | None, place: Place, *, has_limit: bool) -> None:
-    """Remember a wait for a message."""
-    nodes = [each for each in options_of(node) if isinstance(each, Instance)] if node else []
-    if len(nodes) != 1 or not isinstance(nodes[0].state, NodeState) or world.retelling:
-        return
-    by = world.current if world.in_callback else None
-    begun = None if world.in_thread or world.open_loops else len(world.spins)
-    outside = OutsideWait(
-        CALL, None, place, world.in_thread, over=tuple(world.over), path=world.path, begun=begun
-    )
-    is_uncalled = by is None and not world.is_program
-    if not is_uncalled:
-        wait = MessageWait(nodes[0], outside, by, world.thread, has_limit)
-        world.message_waits.append(wait)
 
 
 def note_taken(world: World) -> None:

@@ -13,13 +13,13 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
 from ros2cc_extract.extract.static.python.machine.world import EntityState, OutsideWait, World
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
-    JOIN,
     comes_back,
     why_for_ever,
 )

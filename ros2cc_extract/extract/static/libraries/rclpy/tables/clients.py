@@ -10,6 +10,7 @@ from ros2cc_extract.extract.static.libraries.done_callbacks import (
     complete,
     init_future,
 )
+from ros2cc_extract.extract.static.libraries.rclpy import message_waits
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     CANCEL,
     note_end,
@@ -41,7 +42,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.extract.static.units.whole_program import taken_messages
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import CANCELS, Act
 from ros2cc_extract.spec.model import When
@@ -215,7 +215,7 @@ def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
         timeout = None
     machine.note_blocking('wait_for_message', topic, timeout, call.place)
     node, has_limit = call.argument(1, 'node'), timeout not in (None, NONE)
-    taken_messages.note(machine.world, node, call.place, has_limit=has_limit)
+    message_waits.note(machine.world, node, call.place, has_limit=has_limit)
     return machine.mystery('a message at run time', call.place, 'wait_for_message(…)')
 
 

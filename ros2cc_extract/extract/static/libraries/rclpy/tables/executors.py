@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
@@ -51,7 +52,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.extract.static.units.whole_program.joined_threads import note_over
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 

@@ -7,6 +7,7 @@ in its caller, in their order), ``__init__.py`` (``shutdown`` is that of the def
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import note_shutdown
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -20,7 +21,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.extract.static.units.whole_program.joined_threads import note_over
 from ros2cc_extract.places import Place
 
 CONTEXT = 'rclpy.context.Context'

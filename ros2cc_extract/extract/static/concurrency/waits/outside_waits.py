@@ -1,0 +1,173 @@
+"""Waits of code that is no callback: they are noted here, and told when all was followed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
+from ros2cc_extract.extract.static.python.machine.world import (
+    EntityState,
+    OutsideWait,
+    Over,
+    PlainState,
+    SetUpWait,
+    World,
+)
+from ros2cc_extract.extract.static.python.values.values import Instance, Value
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.partners import SERVER_KINDS
+
+JOIN = 'Thread.join'
+RATE = 'Rate.sleep'
+_ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
+_FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
+
+# Waits for objects that nothing but the program ends, by their kinds.
+_PLAIN = {
+    'Event.wait': ('event',),
+    'Condition.wait': ('condition',),
+    'Condition.wait_for': ('condition',),
+    'Queue.get': ('queue',),
+    'spin_until_future_complete': ('future',),
+}
+
+_ASYNCIO_AWAIT = 'asyncio-await'
+
+
+def _last(name: str) -> str:
+    return name if name in _PLAIN else name.rpartition('.')[2]
+
+
+def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instance, ...]) -> None:
+    """Remember a wait of the program's set-up."""
+    if world.when is not When.START or world.after_spin:
+        return
+    state = on.state
+    if name == 'await' and isinstance(state, PlainState) and state.kind in _FUTURES:
+        world.diagnostics.append(_awaited_by_asyncio(place))
+    source = state.of if isinstance(state, PlainState) and state.of is not None else on
+    client = source.state if isinstance(source, Instance) else None
+    if not isinstance(client, EntityState):
+        is_plain = isinstance(state, PlainState) and state.kind in _PLAIN.get(_last(name), ())
+        if is_plain and world.is_program:
+            _remember(world, name, on, place, spun)
+        return
+    if name == RATE:
+        _remember(world, name, client, place, ())
+    if client.kind not in SERVER_KINDS:
+        return
+    if name in _ANSWERS or name.endswith('spin_until_future_complete'):
+        _remember(world, name, client, place, spun)
+
+
+def _remember(
+    world: World,
+    name: str,
+    on: EntityState | Instance,
+    place: Place,
+    spun: tuple[Instance, ...],
+) -> None:
+    # Threads are followed where they are started; what a thread waits for has no place among them.
+    begun = None if world.in_thread or world.open_loops else len(world.spins)
+    wait = OutsideWait(name, on, place, world.in_thread, spun, begun=begun, path=world.path)
+    world.outside.append(wait)
+
+
+def note_interruptible(world: World, name: str, on: Value | None) -> None:
+    """
+    Remember an event on which the main program may wait for the signal that ends it.
+
+    What nobody can set as it has no name, or what stands where an interruption is caught.
+    Source: CPython 3.12, ``signal`` (SIGINT raises ``KeyboardInterrupt`` in the main thread).
+    """
+    if name != 'Event.wait' or not isinstance(on, Instance) or world.in_thread:
+        return
+    if world.tries or on.hint is None:
+        world.interruptible.add(id(on))
+
+
+def note_loop(world: World, names: set[str], place: Place) -> None:
+    """Remember that the set-up looks again and again whether data of ``names`` has changed."""
+    is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
+    if is_set_up and world.is_program and not world.in_callback and not world.retelling:
+        begun = None if world.open_loops else len(world.spins)
+        wait = OutsideWait('a polling loop', None, place, in_thread=False, begun=begun)
+        world.outside.append(replace(wait, names=frozenset(names)))
+
+
+def forget_awaits(world: World, told: int) -> None:
+    """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
+    late = [each for each in world.diagnostics[told:] if each.slug != _ASYNCIO_AWAIT]
+    world.diagnostics[told:] = late
+
+
+def _awaited_by_asyncio(place: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug=_ASYNCIO_AWAIT,
+        place=place,
+        message='asyncio awaits an rclpy future: from rclpy 7.1.9 on this raises RuntimeError '
+        'unless the future is done already',
+        help='await it in a callback or an executor task, or await an asyncio future that its '
+        'done-callback sets by loop.call_soon_threadsafe',
+    )
+
+
+def note_join(world: World, thread: Value, place: Place) -> None:
+    """The program, which no executor runs, waits for the end of ``thread``."""
+    is_set_up = world.deeds is None or world.activity is not None
+    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
+        is_late = world.after_spin or bool(world.spins)
+        wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
+        world.outside.append(replace(wait, path=world.path))
+
+
+def note_over(world: World, what: Value | None) -> None:
+    """The program has shut ``what`` down, or waited for its end."""
+    if what is None or isinstance(what, Instance):
+        world.over.append(Over(what, world.path, len(world.spins)))
+
+
+def note_in_set_up(
+    world: World,
+    block: Blocking,
+    thing: Instance | None,
+    place: Place,
+    spun: tuple[Instance, ...] = (),
+    caller: str = '',
+) -> None:
+    """
+    Remember a wait, each once.
+
+    :param caller: the outermost function that is followed.
+    :param spun: the nodes that it spins meanwhile.
+    """
+    if world.retelling:
+        return
+    number = block.on.number if isinstance(block.on, EntityRef) else str(block.on)
+    key = (block.call, block.source, id(thing) if thing is not None else number)
+    known = world.set_up.get(key)
+    if known is not None and (known.by is world.activity or world.activity is not None):
+        return
+    begun = None if world.in_thread or world.open_loops else len(world.spins)
+    outside = OutsideWait(
+        block.call,
+        thing,
+        place,
+        world.in_thread,
+        spun,
+        is_late=world.after_spin,
+        over=tuple(world.over),
+        path=world.path,
+        begun=begun,
+    )
+    world.set_up[key] = SetUpWait(
+        replace(block, chain=(), conditional=bool(world.path)),
+        outside,
+        uncalled=caller if world.when is When.LATER else None,
+        by=world.activity,
+        is_late=world.after_spin,
+    )

@@ -1,0 +1,104 @@
+"""Loops that do little but wait until somebody else has done something, as their text tells."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
+from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.spec.model import ActivityKind
+
+_PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+
+_WAITING = _PASTIMES | {'spin_once', 'time', 'monotonic', 'now', 'get_clock', 'warning_once'}
+
+_HARMLESS = _PASTIMES | {'error', 'append', 'len', 'str', 'time', 'monotonic', 'put', 'set'}
+
+
+def awaits_each_round(loop: ast.While) -> bool:
+    """Whether no round of ``loop`` ends without an ``await``, unless it leaves the loop."""
+    return _awaits((loop.test,)) or _always_awaits(loop.body)
+
+
+def _always_awaits(statements: Sequence[ast.stmt]) -> bool:
+    """Whether one of ``statements`` awaits whatever branches are taken inside of it."""
+    return any(_awaits(_heads(each)) or _always_awaits(_bodies(each)) for each in statements)
+
+
+def _bodies(statement: ast.stmt) -> Sequence[ast.stmt]:
+    """What of a compound statement runs in any case."""
+    if isinstance(statement, (ast.With, ast.AsyncWith)):
+        return statement.body
+    return (*statement.body, *statement.finalbody) if isinstance(statement, ast.Try) else ()
+
+
+def _heads(statement: ast.stmt) -> Sequence[ast.AST]:
+    """The parts of a statement that are evaluated in any case."""
+    if isinstance(statement, (ast.If, ast.While)):
+        return (statement.test,)
+    if isinstance(statement, (ast.For, ast.AsyncFor)):
+        return (statement.iter,)
+    is_compound = hasattr(statement, 'body') or isinstance(statement, ast.Match)
+    return () if is_compound else (statement,)
+
+
+def _awaits(parts: Sequence[ast.AST]) -> bool:
+    return any(isinstance(each, ast.Await) for part in parts for each in ast.walk(part))
+
+
+def is_idle(loop: ast.While) -> bool:
+    """True for a loop that only sleeps and logs while it waits."""
+    return all(
+        _called_name(part) in _PASTIMES
+        for statement in loop.body
+        for part in ast.walk(statement)
+        if isinstance(part, (ast.Call, ast.Await))
+    )
+
+
+def only_waits(loop: ast.While) -> bool:
+    """True for a loop that only sleeps, logs and spins while it waits."""
+    parts = [part for each in loop.body for part in ast.walk(each)]
+    called = {_called_name(part) for part in parts if isinstance(part, ast.Call)}
+    stores = (part for part in parts if isinstance(part, (ast.Attribute, ast.Subscript)))
+    return called <= _WAITING and not any(isinstance(part.ctx, ast.Store) for part in stores)
+
+
+def minds_nothing(loop: ast.While) -> bool:
+    """Whether it is ``while True``, and does nothing that may raise when rclpy is shut down."""
+    called = (_called_name(part) for part in ast.walk(loop) if isinstance(part, ast.Call))
+    is_plain = not any(isinstance(part, (ast.Raise, ast.Await)) for part in ast.walk(loop))
+    return isinstance(loop.test, ast.Constant) and is_plain and _HARMLESS.issuperset(called)
+
+
+def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> str:
+    """
+    How a loop that others end is called: one in which a thread works waits for nobody.
+
+    Whoever joins the thread waits for its end all the same.
+    """
+    works = activity is not None and activity.kind is not ActivityKind.MAIN and not is_idle(loop)
+    return WORKING_LOOP if works else call
+
+
+def spins(loop: ast.While) -> bool:
+    """True for a loop that lets an executor run what is ready, again and again."""
+    return any(
+        isinstance(part, ast.Call) and _called_name(part) == 'spin_once'
+        for statement in loop.body
+        for part in ast.walk(statement)
+    )
+
+
+def is_endless(loop: ast.While) -> bool:
+    """True for ``while True`` and ``while rclpy.ok()``."""
+    test = loop.test
+    return bool(test.value) if isinstance(test, ast.Constant) else _called_name(test) == 'ok'
+
+
+def _called_name(call: ast.expr) -> str:
+    function = call.func if isinstance(call, ast.Call) else None
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ''
