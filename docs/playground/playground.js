@@ -2,6 +2,7 @@
 (() => {
   const HERE = document.currentScript.src;
   const ENDINGS = ['no findings', 'findings', 'not checked', 'undecided'];
+  const NOTHING = /^nothing was judged/m;
   const FIRST_FINDING = /^(node\.py:\d+:\d+: |resolved: )/m;
   const PLACE_OR_RULE = /\bnode\.py:(\d+)(?::\d+)?|(?<=^node\.py:\d+:\d+: )CC\d{3}\b/gm;
   const [node, numbers, check, stop, state, findings, more, verdicts] = [
@@ -43,7 +44,9 @@
     fill(verdicts, out.slice(0, begins).trimEnd());
     findings.hidden = false;
     more.hidden = begins === 0;
-    idle(`${ENDINGS[status] ?? `status ${status}`}, ${elapsed().toFixed(1)} s`);
+    const found = ENDINGS[status] ?? `status ${status}`;
+    const ending = status === 0 && NOTHING.test(complaints) ? 'nothing judged' : found;
+    idle(`${ending}, ${elapsed().toFixed(1)} s`);
   }
 
   function failed(reason) {
@@ -102,13 +105,16 @@
 
   function busy(stage) {
     [check.disabled, stop.disabled] = [true, false];
-    clock = { stage, begun: Date.now(), timer: setInterval(tick, 1000) };
+    clock = { stage, begun: Date.now(), timer: setInterval(tick, 1000), runs: true };
     tick();
   }
 
   function idle(text) {
-    clearInterval(clock?.timer);
-    [check.disabled, stop.disabled] = [false, true];
+    if (clock) {
+      clearInterval(clock.timer);
+      clock.runs = false;
+    }
+    [check.disabled, stop.disabled] = [!node.value, true];
     state.textContent = text;
   }
 
@@ -125,12 +131,17 @@
       state.textContent = 'A browser runs this only from a server: python3 -m http.server';
       return;
     }
-    idle('');
+    // Until there is a text, of ours or of the user, there is nothing to check.
     const example = await fetch(new URL('node.py', HERE));
     if (example.ok && !node.value) {
       node.value = await example.text();
       number();
     }
+    typed();
+  }
+
+  function typed() {
+    check.disabled = clock?.runs || !node.value || location.protocol === 'file:';
   }
 
   check.addEventListener('click', start);
@@ -139,9 +150,10 @@
     idle('stopped');
   });
   node.addEventListener('input', number);
+  node.addEventListener('input', typed);
   node.addEventListener('scroll', () => {
     numbers.scrollTop = node.scrollTop;
   });
   number();
-  ready().catch((error) => idle(`The example is not there: ${error.message}`));
+  ready().catch((error) => clock?.runs || idle(`The example is not there: ${error.message}`));
 })();

@@ -24,6 +24,10 @@ LOADING_S = 200.0
 RUNS_IF_RUN = (
     "import js\njs.fetch('/canary')\n__import__('os').mkdir('/canary')\nraise SystemExit\n"
 )
+CLEAN = (
+    'import rclpy\nfrom rclpy.node import Node\nrclpy.init()\nn = Node("n")\n'
+    'n.create_timer(1.0, lambda: None)\nrclpy.spin(n)\n'
+)
 MARKUP = "x = <img src='/canary' onerror='fetch(1)'></pre><script>fetch('/canary')</script>\n"
 
 
@@ -123,6 +127,11 @@ def shown(site: Path, tmp_path: Path) -> Iterator[Shown]:
 
 @pytest.mark.skipif(CHROMIUM is None, reason='there is no Chromium')
 def test_a_node_is_read_in_a_browser_and_never_run(shown: Shown, run: Run, tmp_path: Path) -> None:
+    # Of no text nothing is told: it would read as safe.
+    typed = 'node.dispatchEvent(new Event("input")); document.getElementById("check").disabled'
+    assert shown.page.value(f'kept = node.value; node.value = ""; {typed}')
+    assert not shown.page.value(f'node.value = kept; {typed}')
+
     # Stopped while it loads, it begins anew.
     shown.page.value('document.getElementById("check").click()')
     shown.page.wait('document.getElementById("state").textContent.startsWith("loading")', 30.0)
@@ -138,7 +147,8 @@ def test_a_node_is_read_in_a_browser_and_never_run(shown: Shown, run: Run, tmp_p
     chosen = 'node.value.slice(node.selectionStart, node.selectionEnd).trim()'
     assert shown.page.value(chosen) == 'self.client.call(Trigger.Request())'
 
-    assert shown.check(RUNS_IF_RUN) == 'no findings'
+    assert shown.check(RUNS_IF_RUN) == 'nothing judged'
+    assert shown.check(CLEAN) == 'no findings'
     assert shown.check(MARKUP) == 'not checked'
     assert MARKUP in shown.text('findings')
     assert shown.page.value('document.querySelector("#findings :not(button, a)")') is None
