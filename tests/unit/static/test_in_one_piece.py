@@ -19,8 +19,12 @@ from std_msgs.msg import Empty, Int32
 
 STEP = 2
 
+class State:
+    seen = 0
+
 class Tally(Node):
     def __init__(self):
+        self.state = State()
         super().__init__('tally')
         self.total = 0
         self.text = ''
@@ -31,6 +35,10 @@ class Tally(Node):
         self.other = None
         self.create_subscription(Int32, 'x', self.on_x, 10, callback_group={group}CallbackGroup())
         self.create_subscription(Empty, 'y', self.on_y, 10)
+
+    @property
+    def view(self):
+        return self.state
 
     def on_x(self, msg):
         {x}
@@ -66,6 +74,10 @@ def told(x: str, y: str = 'pass', group: str = 'Reentrant') -> list[str]:
         'self.rows[1] += 1',
         'step = 3\nself.total += step',
         'print(self.total)\nself.total += 1',
+        'began = time.monotonic()\ntook = time.monotonic() - began\nself.total += took',
+        'size = len(msg.data)\nself.total += size',
+        'self.state.seen += 1',
+        'self.total += 1\nself.total += 1',
         # Its test and its write are one piece as well.
         'if self.total < 9:\n    self.total += 1',
     ],
@@ -85,6 +97,7 @@ def test_an_update_in_one_piece_is_advice(update: str) -> None:
         "self.kinds['red'] += 1",
         'self.other += 1',
         'self.total += [1 for _ in msg.data][0]',
+        'self.view.seen += 1',
         'old = self.total\ntime.sleep(0.1)\nself.total = old + 1',
         'if self.total < 9:\n    time.sleep(0.1)\n    self.total += 1',
         'if self.total < 9:\n    time.sleep(0.1)\n    self.total = self.total + 1',

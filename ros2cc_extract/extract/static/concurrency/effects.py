@@ -13,7 +13,10 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
-from ros2cc_extract.extract.static.concurrency.waits import cleared_events
+from ros2cc_extract.extract.static.concurrency.waits import (
+    cleared_events,
+    values_during_waits,
+)
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
 from ros2cc_extract.extract.static.program.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -38,6 +41,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Coroutine,
     Function,
+    Heaped,
     Instance,
     Library,
     Module,
@@ -97,6 +101,8 @@ class Effects(Waits):
 
     def note_held(self, owner: Value, name: str, value: Value) -> None:
         """An attribute has got a value: a collection is known by the first one that holds it."""
+        if isinstance(owner, Heaped):
+            values_during_waits.note_kept(self.world, owner, name, value)
         if isinstance(owner, Instance) and isinstance(owner.cls, Class):
             whose = collection_aliases.object_name(owner, owner.cls)
             shown = f'{whose}.{unmangled(name, owner.cls.name)}'

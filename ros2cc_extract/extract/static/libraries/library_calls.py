@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import ast
 import sys
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
@@ -24,7 +27,12 @@ from ros2cc_extract.extract.static.libraries.standard.futures import is_pool, no
 from ros2cc_extract.extract.static.python.machine.library_table import LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import NodeState, PlainState
+from ros2cc_extract.extract.static.python.machine.world import (
+    AS_THREAD,
+    NodeState,
+    PlainState,
+    ThreadState,
+)
 from ros2cc_extract.extract.static.python.objects import reanalysis
 from ros2cc_extract.extract.static.python.objects.allocation_sites import made_before, remember
 from ros2cc_extract.extract.static.python.objects.escape import reached
@@ -60,10 +68,25 @@ _HARMLESS = (
     'diagnostic_updater.',
     'launch',
 )
+_CLOCKS = ('time', 'monotonic', 'perf_counter', 'process_time', 'thread_time')
+_NUMBERS = frozenset(f'time.{clock}{unit}' for clock in _CLOCKS for unit in ('', '_ns'))
+"""What they give is a number."""
 
 
+_OF_THREADS = ('threading.Thread', 'threading.Timer', 'multiprocessing.Process')
 _HANDED_ON = 'it is handed to code that is not followed'
 # Things looked at in what is given away; a graph of objects may be large.
+
+
+def _add_state(instance: Instance, make: Callable[[], Any], name: str) -> None:
+    """What is a thread besides, as a node may be, keeps that apart: each has its own methods."""
+    is_thread = isinstance(instance.state, ThreadState)
+    if instance.state is None:
+        instance.state = make()
+    elif is_thread is not name.startswith(_OF_THREADS) and AS_THREAD not in instance.slots:
+        made = make()
+        instance.slots[AS_THREAD] = instance.state if is_thread else made
+        instance.state = made if is_thread else instance.state
 
 
 class Libraries(Machine):
@@ -82,9 +105,10 @@ class Libraries(Machine):
         """Give a new instance the state that its library bases add."""
         for cls in instance.mro:
             if isinstance(cls, Library):
-                for row in _with_bases(cls.name):
-                    if row.state is not None and instance.state is None:
-                        instance.state = row.state(self, instance)
+                rows = _with_bases(cls.name)
+                make = next((row.state for row in rows if row.state is not None), None)
+                if make is not None:
+                    _add_state(instance, partial(make, self, instance), cls.name)
 
     def call_library(self, function: Library, call: Call) -> Value:
         """Call a name of a library: make an instance, or give a mystery."""
@@ -116,9 +140,10 @@ class Libraries(Machine):
         """The result of a library call that nothing is known of."""
         self.library_call(function, call)
         name = function.name if isinstance(function, Library) else 'an unknown function'
-        return Mystery(
-            Unknown(f'result of {name}, which is not scanned', call.place), f'{name}(…)'
-        )
+        why = Unknown(f'result of {name}, which is not scanned', call.place)
+        result = Mystery(why, f'{name}(…)')
+        result.is_plain = name in _NUMBERS
+        return result
 
     def library_call(self, function: Value, call: Call) -> None:
         """Something unknown is called, perhaps with a node among its arguments."""

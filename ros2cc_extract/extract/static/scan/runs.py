@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
+from ros2cc_extract.extract.static.concurrency.waits.values_during_waits import show_to_callbacks
 from ros2cc_extract.extract.static.libraries.done_callbacks import add_left
 from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services import (
     BUILDING,
@@ -219,6 +220,7 @@ def run_callbacks(machine: Interpreter) -> None:
     followed again after them, and once more for what they hand on to each other; and those that
     met an object where others put another one, as long as there are such.
     """
+    show_to_callbacks(machine.world, machine.store)
     _run_all_callbacks(machine)
     if machine.world.left_callbacks:
         place = machine.world.left_callbacks[0].place

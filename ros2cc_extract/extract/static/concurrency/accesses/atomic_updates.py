@@ -19,17 +19,12 @@ from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
-    NOT_FOLDED,
+    Class,
     Const,
     Instance,
-    Mystery,
-    Value,
+    is_number_or_text,
     options_of,
 )
-
-_PLAIN = (int, float, complex, str, bytes)
-# What began as a number and was computed since is one still.
-_STILL = ('is assigned anew by other methods', NOT_FOLDED)
 
 
 @contextmanager
@@ -109,36 +104,42 @@ def _leaves(value: ast.expr) -> Iterator[ast.expr]:
 def _is_plain(machine: Machine, leaf: ast.expr, frame: Frame) -> bool:
     """Whether it is a number or a text, and no code of Python gives it."""
     if isinstance(leaf, ast.Attribute):
-        if not isinstance(leaf.value, ast.Name) or not _has(machine, leaf, frame):
+        if not _is_quiet_path(machine, leaf, frame):
             return False
     elif isinstance(leaf, ast.Subscript):
         holder = leaf.value
         if isinstance(holder, ast.Attribute):
-            if not isinstance(holder.value, ast.Name) or not _has(machine, holder, frame):
+            if not _is_quiet_path(machine, holder, frame):
                 return False
         elif not isinstance(holder, ast.Name):
             return False
         is_constant = isinstance(leaf.slice, (ast.Constant, ast.Name))
-        is_known = is_constant and _is_number_or_text(machine.evaluate(leaf.slice, frame))
+        is_known = is_constant and is_number_or_text(machine.evaluate(leaf.slice, frame))
         if not is_known or not isinstance(machine.evaluate(holder, frame), Collection):
             return False
     elif not isinstance(leaf, (ast.Constant, ast.Name)):
         return False
-    return _is_number_or_text(machine.evaluate(leaf, frame))
+    return is_number_or_text(machine.evaluate(leaf, frame))
+
+
+def _is_quiet_path(machine: Machine, node: ast.expr, frame: Frame) -> bool:
+    """A name, with attributes that no code of Python gives."""
+    if isinstance(node, ast.Attribute):
+        return _is_quiet_path(machine, node.value, frame) and _has(machine, node, frame)
+    return isinstance(node, ast.Name)
 
 
 def _has(machine: Machine, node: ast.Attribute, frame: Frame) -> bool:
-    """Whether the object has the attribute itself, so that it is no property of its class."""
+    """Whether the object has the attribute itself, or a constant of its class, no property."""
     owners = options_of(machine.evaluate(node.value, frame))
     name = frame.attribute_name(node.attr)
-    return all(isinstance(owner, Instance) and name in owner.slots for owner in owners)
-
-
-def _is_number_or_text(value: Value) -> bool:
-    options = options_of(value)
-    known = [each for each in options if isinstance(each, Const)]
-    others = [each for each in options if not isinstance(each, Const)]
-    is_open = all(
-        isinstance(each, Mystery) and each.unknown.reason.endswith(_STILL) for each in others
+    return bool(owners) and all(
+        isinstance(owner, Instance) and (name in owner.slots or _is_of_class(owner, name))
+        for owner in owners
     )
-    return bool(known) and is_open and all(isinstance(each.value, _PLAIN) for each in known)
+
+
+def _is_of_class(owner: Instance, name: str) -> bool:
+    classes = (cls for cls in owner.mro if isinstance(cls, Class) and name in cls.slots)
+    first = next(classes, None)
+    return first is not None and isinstance(first.slots[name], Const)

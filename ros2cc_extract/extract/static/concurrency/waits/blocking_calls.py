@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
-from ros2cc_extract.extract.static.concurrency.waits import outside_waits
+from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before,
     sent_before_clear,
@@ -100,6 +100,7 @@ class Waits(Machine):
             outside_waits.note_interruptible(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if deeds is None:
+            values_during_waits.note_met(world, thing)
             self._note_in_set_up(block, thing, place)
             return
         touch(world.activity, thing)
@@ -229,6 +230,7 @@ class Waits(Machine):
         if on is not None and (self.world.deeds is None or _is_main(self.world.activity)):
             call = name if name in WAITS else SPIN_UNTIL
             block, thing = self._block(call, on, seconds, place)
+            values_during_waits.note_met(self.world, thing)
             self._note_in_set_up(block, thing, place, spun)
 
     def _note_in_set_up(

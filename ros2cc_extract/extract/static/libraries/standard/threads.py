@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.machine.library_table import (
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import answer
 from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState, ThreadState
+from ros2cc_extract.extract.static.python.machine.world import PlainState, ThreadState, thread_of
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -43,7 +43,7 @@ def _thread_state(kind: ActivityKind) -> StateFactory:
 
 def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    state = receiver.state
+    state = thread_of(receiver)
     state.target = call.argument(1, 'target')
     state.call = _target_call(machine, call, call.argument(3, 'args'), call.argument(4, 'kwargs'))
     daemon = call.argument(5, 'daemon')
@@ -54,7 +54,7 @@ def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _timer_init(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    state = receiver.state
+    state = thread_of(receiver)
     state.target = call.argument(1, 'function')
     state.call = _target_call(machine, call, call.argument(2, 'args'), call.argument(3, 'kwargs'))
     return NONE
@@ -76,7 +76,7 @@ def _target_call(machine: Machine, call: Call, args: Value | None, keywords: Val
 
 def _start(machine: Machine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    state = receiver.state
+    state = thread_of(receiver)
     if state.started and not machine.world.again:
         return NONE
     state.started = True

@@ -146,6 +146,13 @@ def _fill_with_pairs(
 
 
 def _len(machine: Machine, receiver: Value, call: Call) -> Value:
+    length = _length(machine, call)
+    if isinstance(length, Mystery):
+        length.is_plain = True
+    return length
+
+
+def _length(machine: Machine, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
     if isinstance(value, Mystery) and isinstance(value.default, Sequence):
         return Mystery(value.unknown, f'len({value.text})', _of_defaults(_len, machine, call))

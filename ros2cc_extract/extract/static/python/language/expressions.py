@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
     choice,
+    is_number_or_text,
     options_of,
     present,
 )
@@ -129,8 +130,8 @@ class Expressions(Machine):
             if isinstance(side, Mystery):
                 text = node if isinstance(node, ast.BinOp) else side.text
                 default = by_default([left, right], partial(constant_folding.binary, op))
-                return Mystery(side.unknown, text, default)
-        return self.mystery(NOT_FOLDED, frame.place(node))
+                return _computed(Mystery(side.unknown, text, default), left, right)
+        return _computed(self.mystery(NOT_FOLDED, frame.place(node)), left, right)
 
     def _has_truth_method(self, value: Instance) -> bool:
         return isinstance(value.cls, Class) and any(
@@ -139,6 +140,12 @@ class Expressions(Machine):
             if isinstance(cls, Class)
             for name in ('__bool__', '__len__')
         )
+
+
+def _computed(result: Mystery, left: Value, right: Value) -> Mystery:
+    """What is computed from numbers, or from texts, is one itself."""
+    result.is_plain = is_number_or_text(left) and is_number_or_text(right)
+    return result
 
 
 def _may_be_absent(owner: Collection, item: Value) -> bool:

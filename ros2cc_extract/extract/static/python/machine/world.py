@@ -300,6 +300,17 @@ class ThreadState:
     started: bool = False
 
 
+AS_THREAD = '__as_thread__'
+"""Slot of what an object is as a thread, which is something else besides."""
+
+
+def thread_of(instance: Instance) -> ThreadState:
+    """What an instance of a class of threads is as such."""
+    state = instance.slots.get(AS_THREAD, instance.state)
+    assert isinstance(state, ThreadState)
+    return state
+
+
 @dataclass(eq=False)
 class PlainState:
     """A library object of which only the kind matters: a lock, an event, a publisher …"""
@@ -364,6 +375,8 @@ class World:
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
+    :param kept_in: the attribute that an object others may wait on was stored in last, and
+        ``met_meanwhile`` what such attributes held while the set-up waited for it.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
         ``completed`` the identities of those futures that somebody completes.
     :param activity: the thread or the part of the main program that is followed.
@@ -530,6 +543,8 @@ class World:
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
     unknown_groups: dict[object, Instance] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
+    kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
+    met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
     left_callbacks: list[Any] = field(default_factory=list)
     completed: set[int] = field(default_factory=set)
     callback_path: Path = ()

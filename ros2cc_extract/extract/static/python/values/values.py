@@ -67,9 +67,10 @@ class Mystery(Value):
 
     :param text: how the source calls it; two mysteries of one text and place are one thing.
     :param default: what it is when nobody passes anything else (a parameter's default).
+    :ivar is_plain: it is a number or a text for certain, whichever.
     """
 
-    __slots__ = ('_text', 'default', 'unknown')
+    __slots__ = ('_text', 'default', 'is_plain', 'unknown')
 
     def __init__(
         self, unknown: Unknown, text: str | ast.expr = '', default: Value | None = None
@@ -77,6 +78,7 @@ class Mystery(Value):
         self.unknown = unknown
         self._text = text
         self.default = default
+        self.is_plain = False
 
     @property
     def node(self) -> ast.expr | None:
@@ -454,5 +456,28 @@ def choice(values: list[Value]) -> Value:
             if option not in flat:
                 flat.append(option)
         if len(flat) > _MAX_OPTIONS:
-            return Mystery(Unknown('one of many values, depending on branches'))
+            many = Mystery(Unknown('one of many values, depending on branches'))
+            many.is_plain = all(map(is_number_or_text, flat))
+            return many
     return flat[0] if len(flat) == 1 else Choice(tuple(flat))
+
+
+_PLAIN = (int, float, complex, str, bytes)
+# What began as a number and was computed since is one still.
+_STILL = ('is assigned anew by other methods', NOT_FOLDED)
+
+
+def is_number_or_text(value: Value) -> bool:
+    """Whether ``value`` is a number or a text, so that no code of Python computes with it."""
+    options = options_of(value)
+    known = [each for each in options if _is_plain(each)]
+    others = [each for each in options if not _is_plain(each)]
+    return bool(known) and all(
+        isinstance(each, Mystery) and each.unknown.reason.endswith(_STILL) for each in others
+    )
+
+
+def _is_plain(value: Value) -> bool:
+    if isinstance(value, Mystery):
+        return value.is_plain
+    return isinstance(value, Const) and isinstance(value.value, _PLAIN)

@@ -8,7 +8,7 @@ Source: rclpy 7.1.6, ``client.py`` (``call`` waits for an event), ``__init__.py`
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     uncalled_wakers,
 )
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
 from ros2cc_extract.extract.static.python.machine.world import (
     EntityState,
     NodeState,
@@ -69,7 +69,7 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
         return
     name = thing.hint or thing.class_name
     words = frozenset({Word.PUT if wait.call == 'Queue.get' else Word.SET})
-    wakings = [each for each in world.wakings.get(id(thing), ()) if each.word in words]
+    wakings = [each for each in _wakings_of(thing, world) if each.word in words]
     if not wakings and id(thing) in world.interruptible:
         return
     if id(thing) in world.given or uncalled_wakers(world, name, words, thing.place):
@@ -81,6 +81,15 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
     # What nobody touches may be meant to keep the program.
     is_meant = not nodes and not wait.in_thread and wait.call != 'Queue.get'
     yield _waits_for_ever(wait, name, has_node=bool(nodes), is_meant=is_meant)
+
+
+def _wakings_of(thing: Instance, world: World) -> Sequence[Waking]:
+    """What is done to it, or where nothing is, to others of its place, as for callbacks."""
+    known = world.wakings.get(id(thing))
+    if known is not None:
+        return known
+    alike = world.made_at.get((thing.cls, thing.place), ())
+    return [waking for number in alike for waking in world.wakings.get(number, ())]
 
 
 def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: bool) -> Diagnostic:

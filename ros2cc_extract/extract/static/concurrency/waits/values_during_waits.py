@@ -1,0 +1,50 @@
+"""
+What callbacks meet in attributes while the set-up waits, and what it replaces afterwards.
+
+``main`` waits for ``self.observed``, puts a new future there, and waits for that one. Callbacks
+are followed when all of ``main`` has been, but they run while it waits, and find there what it
+waits for. Of what comes from one place the first is enough: who ends the wait for one of them
+ends it for all (``units/waits.py``, ``wakings_of``).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import (
+    Heaped,
+    Instance,
+    Value,
+    choice,
+    options_of,
+)
+
+if TYPE_CHECKING:
+    from ros2cc_extract.extract.static.python.machine.store import Store
+
+
+def note_kept(world: World, owner: Heaped, name: str, value: Value) -> None:
+    """``value`` is stored in an attribute."""
+    for each in options_of(value):
+        if is_waited_on(each):
+            world.kept_in[each] = (owner, name)
+
+
+def note_met(world: World, thing: Instance | None) -> None:
+    """The set-up waits for ``thing``: callbacks that run meanwhile find it where it is kept."""
+    if thing is None or (home := world.kept_in.get(thing)) is None:
+        return
+    held = home[0].slots.get(home[1])
+    if isinstance(held, Value) and any(each is thing for each in options_of(held)):
+        known = world.met_meanwhile.setdefault(home, {})
+        known.setdefault((thing.cls, thing.place), thing)
+
+
+def show_to_callbacks(world: World, store: Store) -> None:
+    """Callbacks are followed now: they may find what was there while the set-up waited."""
+    for (owner, name), met in world.met_meanwhile.items():
+        held = owner.slots.get(name)
+        if isinstance(held, Value):
+            store.write(owner, name, choice([held, *met.values()]))
