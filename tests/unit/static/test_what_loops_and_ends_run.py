@@ -6,6 +6,8 @@ An object's ``__next__`` in a loop, functions of ``atexit``; a thread whose loop
 
 from __future__ import annotations
 
+import pytest
+
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.spec.deeds import TIME, Blocking
 
@@ -154,3 +156,23 @@ def test_an_error_that_ends_a_thread_is_what_a_join_waits_for() -> None:
     (join,) = waits(text.replace('self.jobs.join()', 'self.thread.join()'), 'flush')
     reason = 'work, which ends it, may end by ValueError'
     assert join.escapes is None or join.escapes.reason != reason
+
+
+REPEATED = """\
+        for line in iter(self.jobs.get, None):
+            self.get_logger().info(line)
+"""
+COLLECTED = '        return [line for line in iter(self.jobs.get, None)]\n'
+
+
+@pytest.mark.parametrize('loop', [REPEATED, COLLECTED])
+def test_a_repeated_call_with_a_sentinel_waits_in_each_round(loop: str) -> None:
+    """``iter(queue.get, None)`` takes out what is put in, round by round."""
+    begin = ARCHIVE.index('        while True:')
+    text = f'{ARCHIVE[:begin]}{loop}\nrclpy.init()\nrclpy.spin(Archive())\n'
+    text = text.replace('queue.Queue()', 'queue.Queue(maxsize=4)')
+    (unit,) = scan_text(text).units
+    (get,) = unit.activities[0].blocking
+    assert (get.call, [waker.by for waker in get.wakers]) == ('Queue.get', ['take'])
+    (put,) = waits(text, 'take')
+    assert [waker.by for waker in put.wakers] == ['work' if loop is COLLECTED else TIME]

@@ -53,3 +53,11 @@ def test_a_loop_that_only_others_end_has_no_end_of_its_own() -> None:
     text = PROGRAM.replace('done.set()', 'pass').replace('ENDS', 'self.count_publishers("go")')
     (unit,) = scan_text(text).units
     assert [block.seconds for block in unit.activities[0].blocking[:1]] == [None]
+
+
+def test_a_loop_that_a_request_to_cancel_ends_too_is_not_said_to_last_for_ever() -> None:
+    text = PROGRAM.replace('done.set()', 'pass').replace('ENDS', 'self.handle.is_cancel_requested')
+    text = text.replace('                continue', '                return')
+    (unit,) = scan_text(text).units
+    (loop, *_) = unit.activities[0].blocking
+    assert loop.seconds is not None

@@ -150,12 +150,26 @@ def _things(facts: Facts) -> list[Value]:
 
 
 def _ends_otherwise(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
-    """Whether a clock or a counter may end the loop as well, beside what is asked of objects."""
+    """Whether something may end the loop as well, beside what is asked of objects."""
     if isinstance(test, ast.BoolOp):
         return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
     if isinstance(test, ast.UnaryOp):
         return _ends_otherwise(machine, test.operand, loop, frame)
-    return not _tells(machine, test, frame) and _runs_out(test, loop)
+    if _tells(machine, test, frame):
+        return False
+    return _runs_out(test, loop) or _is_open(machine, test, frame)
+
+
+def _is_open(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+    """Whether it may come out either way: nobody knows who changes what it reads."""
+    if _is_neutral(test):
+        return False
+    world = machine.world
+    noted, world.deeds = world.deeds, Deeds()
+    try:
+        return machine.truth(machine.evaluate(test, frame)) is None
+    finally:
+        world.deeds = noted
 
 
 def _runs_out(test: ast.expr, loop: ast.While) -> bool:

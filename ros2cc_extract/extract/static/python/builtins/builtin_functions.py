@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_items
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import field
+from ros2cc_extract.extract.static.python.objects.iterators import iterator
 from ros2cc_extract.extract.static.python.objects.memoization import keep_results
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
@@ -99,6 +100,10 @@ def _converted(kind: str) -> Handler:
         return Sequence(items.known, kind, items.others, items.many)
 
     return handler
+
+
+def _iter(machine: Machine, receiver: Value, call: Call) -> Value:
+    return iterator(call) or _converted('list')(machine, receiver, call)
 
 
 def _set(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -384,7 +389,7 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.frozenset': _set,
     'builtins.sorted': in_order,
     'builtins.id': identity,
-    'builtins.iter': _converted('list'),
+    'builtins.iter': _iter,
     'builtins.reversed': _reversed,
     'builtins.dict': _dict,
     'builtins.len': _len,

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind, note_once
 from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
@@ -87,6 +88,9 @@ class Expressions(Machine):
             return (), Unknown('one of several sequences, depending on a branch', place)
         if isinstance(value, Mystery):
             return (), Unknown(value.unknown.reason, value.unknown.at or place)
+        if isinstance(value, RepeatedCall):
+            reason = Unknown('as many items as the call gives before the sentinel', place)
+            return (self.call(value.function, Call(place)),), reason
         self.note_results(value, place)
         return (), Unknown('a sequence that could not be followed', place)
 

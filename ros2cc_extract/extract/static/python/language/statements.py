@@ -351,7 +351,8 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     machine.note_iteration(node.iter, frame)
     values = iterators.iterated(machine, values, place)
     step = iterators.next_of(machine, values, place)
-    items = loops.items_to_run(machine, values, place)
+    rounds = values if step is None else machine.mystery('as many rounds as it gives items', place)
+    items = loops.items_to_run(machine, rounds, place)
 
     with _loop(machine, frame), machine.world.reading.in_loop(NOTHING_ASKED):
         with loops.repeated(machine, items, node.body) as begin:

@@ -1,12 +1,38 @@
-"""Objects of the program that a loop goes over: what their ``__iter__`` and ``__next__`` do."""
+"""
+What a loop goes over round by round: objects with ``__iter__`` and ``__next__``, repeated calls.
+
+Source: CPython 3.12, ``iter(callable, sentinel)``, library reference, "Built-in Functions".
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.values import Bound, Call, Class, Instance, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Call,
+    Class,
+    Heaped,
+    Instance,
+    Value,
+)
 from ros2cc_extract.places import Place
+
+
+class RepeatedCall(Heaped):
+    """``iter(function, sentinel)``: each round calls ``function``, until it gives the sentinel."""
+
+    __slots__ = ('function',)
+
+    def __init__(self, function: Value) -> None:
+        super().__init__()
+        self.function = function
+
+
+def iterator(call: Call) -> Value | None:
+    """What ``iter`` of two arguments gives; ``None`` with another number of them."""
+    return RepeatedCall(call.args[0]) if len(call.args) == 2 else None
 
 
 def iterated(machine: Machine, value: Value, place: Place) -> Value:
@@ -16,7 +42,9 @@ def iterated(machine: Machine, value: Value, place: Place) -> Value:
 
 
 def next_of(machine: Machine, value: Value, place: Place) -> Callable[[], Value] | None:
-    """Gives an item each time, where ``value`` is an object with ``__next__``."""
+    """Gives an item each time, where ``value`` is an iterator of its own."""
+    if isinstance(value, RepeatedCall):
+        return lambda: machine.call(value.function, Call(place))
     method = _method(machine, value, '__next__', place)
     if method is None:
         return None
