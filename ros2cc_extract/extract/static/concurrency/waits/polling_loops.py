@@ -49,6 +49,7 @@ _NEUTRAL = frozenset(
     ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
 )
 _CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
+_CHANGED_BY_CLIENTS = frozenset(['is_cancel_requested', 'is_active'])
 _OF_SERVICES = frozenset(['wait_for_service', 'service_is_ready', 'server_is_ready'])
 _ASKED = _OF_SERVICES | {'done', 'is_set', 'is_alive'}
 
@@ -157,19 +158,13 @@ def _ends_otherwise(machine: Machine, test: ast.expr, loop: ast.While, frame: Fr
         return _ends_otherwise(machine, test.operand, loop, frame)
     if _tells(machine, test, frame):
         return False
-    return _runs_out(test, loop) or _is_open(machine, test, frame)
+    return _runs_out(test, loop) or _asks_for_cancel(test)
 
 
-def _is_open(machine: Machine, test: ast.expr, frame: Frame) -> bool:
-    """Whether it may come out either way: nobody knows who changes what it reads."""
-    if _is_neutral(test):
-        return False
-    world = machine.world
-    noted, world.deeds = world.deeds, Deeds()
-    try:
-        return machine.truth(machine.evaluate(test, frame)) is None
-    finally:
-        world.deeds = noted
+def _asks_for_cancel(test: ast.expr) -> bool:
+    """Whether a goal is asked for what its client, another process as a rule, may change."""
+    parts = (part for part in walk(test) if isinstance(part, ast.Attribute))
+    return any(part.attr in _CHANGED_BY_CLIENTS for part in parts)
 
 
 def _runs_out(test: ast.expr, loop: ast.While) -> bool:
