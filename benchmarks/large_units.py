@@ -18,7 +18,8 @@ from rclpy_profile import Size, make_unit
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.verify.unit import Options, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 #: CPU seconds before, without waits, by number of callbacks.
 BEFORE = {10: 3.3, 20: 7.0, 40: 25.0, 80: 107.0, 160: 165.0}

@@ -28,7 +28,7 @@ import spin_rate
 from growth import Series, draw_growth
 from published import CALLBACKS, COSTS, THREADS, VERDICTS
 
-from ros2cc_extract.checker.api import Limits, Query, check, read_model
+from ros2cc_extract.checker.api import Limits, Query, Verdict, check, read_model
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator import build
 from ros2cc_extract.generator.build import Text
@@ -42,7 +42,9 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.unit import Options, QueryResult, Verdict, Verification, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.unit import verify_unit
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / 'docs' / 'paper.md'

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.findings.capacity import can_overlap_itself
 from ros2cc_extract.findings.rule import Context
 from ros2cc_extract.findings.verdicts import CAN_OVERLAP, verdict_on
@@ -17,7 +18,6 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.rates import demand_of
-from ros2cc_extract.verify.unit import Verdict
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
 from ros2cc_extract.spec.releases import Release
 from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.unit import Verification
+from ros2cc_extract.verify.results import Verification
 
 Doer = Callback | Activity
 """Who waits, reads and writes: a callback, or a thread of the program's own."""

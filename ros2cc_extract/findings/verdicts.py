@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.findings.hang import show_hang
 from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.waits import AnyWait, Wait
 from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.unit import QueryResult, Verdict
+from ros2cc_extract.verify.results import QueryResult
 
 CAN_OVERLAP = 'can_overlap'
 SELF_OVERLAP = 'self_overlap'

@@ -28,16 +28,10 @@ from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.evidence import LOST, Evidence
 from ros2cc_extract.verify.known import Shelf
-from ros2cc_extract.verify.results import NotKept
+from ros2cc_extract.verify.options import Checker, OnProgress, Options
+from ros2cc_extract.verify.results import NotKept, QueryResult, Verification
 from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
-from ros2cc_extract.verify.unit import (
-    Checker,
-    OnProgress,
-    Options,
-    QueryResult,
-    Verification,
-    verify_unit,
-)
+from ros2cc_extract.verify.unit import verify_unit
 
 LONGEST_JUDGEMENT_S = 10.0
 FEWEST_TO_SHARE = 4

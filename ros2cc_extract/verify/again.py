@@ -13,7 +13,7 @@ from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals import crowding
-from ros2cc_extract.verify.asking import SLICE_STATES, Found, key_of, total, weighs_more
+from ros2cc_extract.verify.found import SLICE_STATES, Found, key_of, total, weighs_more
 from ros2cc_extract.verify.results import QueryResult
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]

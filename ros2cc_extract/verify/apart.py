@@ -20,8 +20,9 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.steps import NamedWait, WaitKind
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.asking import SLICE_STATES, Found, Search, key_of
-from ros2cc_extract.verify.slices import Names, Slicer
+from ros2cc_extract.verify.found import SLICE_STATES, Found, Search, key_of
+from ros2cc_extract.verify.slices import Slicer
+from ros2cc_extract.verify.wait_relations import Names
 
 _THREADS = 2
 

@@ -15,21 +15,15 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.apart import prove_apart
-from ros2cc_extract.verify.asking import (
-    Found,
-    Search,
-    Slicing,
-    key_of,
-    total,
-    unasked,
-    weighs_more,
-)
+from ros2cc_extract.verify.asking import Slicing
 from ros2cc_extract.verify.crowds import Refute, refute_by_crowds
+from ros2cc_extract.verify.found import Found, Search, key_of, total, unasked, weighs_more
 from ros2cc_extract.verify.hunts import refute_by_hunts
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.loosened import Loosened, is_loose, loosened
 from ros2cc_extract.verify.results import QueryResult
-from ros2cc_extract.verify.slices import Names, Slicer
+from ros2cc_extract.verify.slices import Slicer
+from ros2cc_extract.verify.wait_relations import Names
 
 
 @dataclass(frozen=True)

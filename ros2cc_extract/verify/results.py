@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
-from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.checker.api import CheckResult, Verdict
 from ros2cc_extract.generator.build import Query
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.load import Load
@@ -126,4 +126,31 @@ def open_result(query: Query, reason: str) -> QueryResult:
         reason=reason,
         seconds=0.0,
         run=None,
+    )
+
+
+def verification_of(
+    model: str,
+    result: CheckResult,
+    results: tuple[QueryResult, ...],
+    *,
+    profile: str | None = None,
+    text: str | None = None,
+    assumptions: tuple[str, ...] = (),
+    notes: tuple[str, ...] = (),
+) -> Verification:
+    """Tie results to what the search that found them has used."""
+    return Verification(
+        model=model,
+        profile=profile,
+        text=text,
+        engine=result.engine,
+        states=result.states,
+        transitions=result.transitions,
+        seconds=result.seconds,
+        peak_mb=result.peak_mb,
+        complete=result.complete,
+        results=results,
+        assumptions=assumptions,
+        notes=(*([result.note] if result.note else []), *notes),
     )

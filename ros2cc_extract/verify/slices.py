@@ -16,10 +16,10 @@ from functools import cached_property
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, runs_of_an_arrival
 from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
-from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, WaitKind
-from ros2cc_extract.generator.waits import actors_of, asks_the_graph, is_absent, waits_of
+from ros2cc_extract.generator.steps import WaitKind
+from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
+from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.spec.partners import (
     client_before,
     is_client,
@@ -35,8 +35,8 @@ from ros2cc_extract.verify.shapes import (
     outline_of,
     setting_of,
 )
+from ros2cc_extract.verify.wait_relations import Names, WaitRelations, without_signals
 
-Names = frozenset[str]
 #: Claims that rest on others coming to an end, and on a free thread.
 OF_ENDS = (Family.STARVATION, Family.PROGRESS)
 #: Claims about what a run ends in.
@@ -66,10 +66,10 @@ class Slicer:
 
         What depends on activities beside the executor is asked of the whole unit.
         """
-        if not self._by_name.keys() >= set(query.callbacks):
+        if not self._of.by_name.keys() >= set(query.callbacks):
             return None
         names = self._names_for(query)
-        return names if names is not None and names <= self._by_name.keys() else None
+        return names if names is not None and names <= self._of.by_name.keys() else None
 
     def _names_for(self, query: Query) -> Names | None:
         if self._has_spins_of_the_unit:
@@ -91,13 +91,13 @@ class Slicer:
         Not where a callback that waits for nobody may end a wait: any that runs ends a
         ``spin_once``, and wakes a coroutine whose future a thread of the user has made done.
         """
-        waits = [wait for waits in self._waits.values() for wait in waits]
+        waits = [wait for waits in self._of.waits.values() for wait in waits]
         if any(wait.kind is WaitKind.FOREIGN for wait in waits) or any(
             wait.spin.end is SpinEnd.ONE_CALLBACK for wait in waits if wait.spin
         ):
             return None
         names = self._cone((*self.waiting, *query.callbacks), Rests.ON_END)
-        if not names <= self._by_name.keys():
+        if not names <= self._of.by_name.keys():
             return None
         threads = self.cut(names).spec.executor.threads
         is_full = len(threads) == self._threads
@@ -110,7 +110,9 @@ class Slicer:
         What the model of a unit leaves out because of others may be in that of a part without
         them, and then they say different things.
         """
-        return all(_waits(waits_of(c, part)) == self._waits[c.name] for c in part.callbacks)
+        return all(
+            without_signals(waits_of(c, part)) == self._of.waits[c.name] for c in part.callbacks
+        )
 
     @property
     def _threads(self) -> int:
@@ -119,7 +121,7 @@ class Slicer:
 
     def holders(self, name: str) -> Names:
         """Members of its exclusive group, itself too, that hold it while they wait."""
-        return frozenset(self._holders(self._by_name[name]))
+        return frozenset(self._of.holders(self._of.by_name[name]))
 
     def holders_from(self, name: str) -> Names:
         """
@@ -133,9 +135,9 @@ class Slicer:
 
     def _runs_once(self, name: str) -> bool:
         """Tell whether data arrives for it once; for who gives signals it may arrive again."""
-        if self._callers[name] or any(step.is_signal for step in self._steps[name]):
+        if self._of.callers[name] or any(step.is_signal for step in self._of.steps[name]):
             return False
-        return self._runs_by_arrivals(self._by_name[name]) == 1
+        return self._runs_by_arrivals(self._of.by_name[name]) == 1
 
     def only_asks(self, names: Names) -> bool:
         """
@@ -144,28 +146,28 @@ class Slicer:
         A message or a timer that would set an event may also never come.
         """
         return all(
-            self._is_client(wait.needed) and wait.lock is None and wait.resource is None
+            self._of.is_client(wait.needed) and wait.lock is None and wait.resource is None
             for name in self._cone(names, Rests.ON_END)
-            for wait in self._steps[name]
+            for wait in self._of.steps[name]
             if not wait.is_signal
         )
 
     @cached_property
     def waiting(self) -> Names:
         """Whoever waits for another callback of the unit."""
-        return frozenset(name for name, waits in self._waits.items() if waits)
+        return frozenset(name for name, waits in self._of.waits.items() if waits)
 
     @cached_property
     def asked(self) -> Names:
         """Whoever is asked whether it ends: of activities those of which all waits are known."""
-        open_ones = {name for name, own in self._steps.items() if any(w.is_open for w in own)}
-        beside = self._steps.keys() - self._by_name.keys() - open_ones
-        return self.waiting | {name for name in beside if _waits(self._steps[name])}
+        open_ones = {name for name, own in self._of.steps.items() if any(w.is_open for w in own)}
+        beside = self._of.steps.keys() - self._of.by_name.keys() - open_ones
+        return self.waiting | {name for name in beside if without_signals(self._of.steps[name])}
 
     @cached_property
     def _spinning(self) -> Names:
         """Whoever spins an executor: others run inside, and inside these yet others."""
-        return frozenset(n for n, waits in self._waits.items() if any(w.spin for w in waits))
+        return frozenset(n for n, waits in self._of.waits.items() if any(w.spin for w in waits))
 
     @cached_property
     def _has_spins_of_the_unit(self) -> bool:
@@ -175,7 +177,7 @@ class Slicer:
         On a pool they may be queued twice, the global executor takes them out of theirs, and an
         executor that is refused stops for all.
         """
-        spins = [wait.spin for waits in self._waits.values() for wait in waits if wait.spin]
+        spins = [wait.spin for waits in self._of.waits.values() for wait in waits if wait.spin]
         has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
         return any(
             has_pool or spin.spun is Spun.GLOBAL or spin.refusal is not Refusal.NEVER
@@ -191,16 +193,16 @@ class Slicer:
         a reentrant group holds one for each run that its arrivals can give, and a service that
         others of the unit call is asked by them too: then nothing is certain.
         """
-        kinds = {wait.kind for waits in self._waits.values() for wait in waits}
+        kinds = {wait.kind for waits in self._of.waits.values() for wait in waits}
         if not kinds <= {WaitKind.HELD, WaitKind.AWAITED, WaitKind.LOCKED}:
             return False
         holders: dict[object, int] = {}
         for callback in self._spec.callbacks:
-            if all(wait.frees_thread for wait in self._waits[callback.name]):
+            if all(wait.frees_thread for wait in self._of.waits[callback.name]):
                 continue
-            if callback.group in self._exclusive:
+            if callback.group in self._of.exclusive:
                 holders[callback.group] = 1
-            elif self._callers[callback.name]:
+            elif self._of.callers[callback.name]:
                 return False
             else:
                 holders[callback.name, callback.group] = self._runs_by_arrivals(callback)
@@ -219,33 +221,33 @@ class Slicer:
             return None
         waits = {
             name
-            for name, own in self._waits.items()
+            for name, own in self._of.waits.items()
             if any(not wait.frees_thread for wait in own) and name not in without
         }
-        others = [name for name in self._by_name if name not in first]
+        others = [name for name in self._of.by_name if name not in first]
         order = [*first, *sorted(others, key=lambda name: name not in rather)]
         taken: list[str] = []
         groups: set[object] = set()
         for name in order:
-            group = self._by_name[name].group
+            group = self._of.by_name[name].group
             if name in waits and group not in groups:
-                is_alone = group in self._exclusive
+                is_alone = group in self._of.exclusive
                 runs = 1 if is_alone else self.closed.arrivals.get(name, self.max_cycle)
                 taken += [name] * min(runs, self._threads - len(taken))
-                groups.update({group} & self._exclusive)
+                groups.update({group} & self._of.exclusive)
         return tuple(taken) if len(taken) == self._threads else None
 
     @cached_property
     def _may_be_crowded(self) -> bool:
         """Activities run in every run of the unit, and a spin serves others while it waits."""
         has_pool = executor_kind(self._spec) is ExecutorKind.MULTI_THREADED
-        has_activities = len(self._steps) > len(self._by_name)
+        has_activities = len(self._of.steps) > len(self._of.by_name)
         return has_pool and not self._spinning and not has_activities
 
     def part_of_crowd(self, names: Iterable[str]) -> ClosedSpec | None:
         """Cut them out with whoever may end their waits; ``None`` where that is no part."""
         cone = self._cone(names, Rests.ON_RUNS)
-        if not cone <= self._by_name.keys():
+        if not cone <= self._of.by_name.keys():
             return None
         part = self.cut(cone)
         is_full = len(part.spec.executor.threads) == self._threads
@@ -257,17 +259,17 @@ class Slicer:
 
         ``None`` where others run while one waits on the only thread, or beside the executor.
         """
-        if self._spinning or len(self._steps) > len(self._by_name):
+        if self._spinning or len(self._of.steps) > len(self._of.by_name):
             return None
         if not self.has_threads_to_spare:
             return self.closed
         cone = self._cone((name,), Rests.ON_END)
-        part = self.cut(cone) if cone <= self._by_name.keys() else None
+        part = self.cut(cone) if cone <= self._of.by_name.keys() else None
         return part if part is not None and self.has_waits_of(part.spec) else None
 
     def callback(self, name: str) -> Callback:
         """Give a callback by its name."""
-        return self._by_name[name]
+        return self._of.by_name[name]
 
     def waits_alone(self, name: str) -> bool:
         """Tell whether of all that its end depends on nobody else waits, and it runs once."""
@@ -277,7 +279,7 @@ class Slicer:
 
     def held_steps(self, name: str) -> Iterator[int]:
         """Number the steps in which it holds a thread until somebody else has run."""
-        for number, step in enumerate(self._steps[name]):
+        for number, step in enumerate(self._of.steps[name]):
             if step.kind is WaitKind.HELD:
                 yield number
 
@@ -290,17 +292,17 @@ class Slicer:
     def by_request(self) -> Names:
         """Clients that get data only where a callback of the unit asks."""
         return frozenset(
-            n for n, callers in self._callers.items() if callers and self._is_client(n)
+            n for n, callers in self._of.callers.items() if callers and self._of.is_client(n)
         )
 
     def gets_data(self, name: str) -> bool:
         """Whether something may arrive for it that nobody of the unit has asked for."""
-        return not self._callers[name]
+        return not self._of.callers[name]
 
     def cut(self, names: Names) -> ClosedSpec:
         """Give the slice as a unit, with no more threads than can ever be at work in it."""
         spec = self._spec
-        kept = sorted(names, key=self._places.__getitem__)
+        kept = sorted(names, key=self._of.places.__getitem__)
         callbacks = tuple(self._unpaired_by_name(name) for name in kept)
         groups = {c.group for c in callbacks}
         threads = spec.executor.threads[: self._at_work(callbacks)]
@@ -323,7 +325,7 @@ class Slicer:
         plain = [self._plain_facts.get(name) for name in names]
         facts = [each for each in plain if each is not None]
         if len(facts) == len(plain):
-            threads = self._at_work([self._by_name[name] for name in names])
+            threads = self._at_work([self._of.by_name[name] for name in names])
             setting = replace(self._setting, threads=min(threads, self._setting.threads))
             return outline(facts, setting)
         part = self.cut(names)
@@ -349,7 +351,7 @@ class Slicer:
 
     def _unpaired_by_name(self, name: str) -> Callback:
         if name not in self._unpaired_callbacks:
-            self._unpaired_callbacks[name] = self._unpaired(self._by_name[name])
+            self._unpaired_callbacks[name] = self._unpaired(self._of.by_name[name])
         return self._unpaired_callbacks[name]
 
     @cached_property
@@ -378,10 +380,10 @@ class Slicer:
         """One member of each exclusive group; each arrival of any other callback."""
         most: dict[object, int] = {}
         for callback in callbacks:
-            if callback.group in self._exclusive:
+            if callback.group in self._of.exclusive:
                 most[callback.group] = 1
             else:
-                asked = len(self._callers[callback.name]) * len(callbacks)
+                asked = len(self._of.callers[callback.name]) * len(callbacks)
                 most[callback.name, callback.group] = self._runs_by_arrivals(callback) + asked
         return sum(most.values())
 
@@ -390,71 +392,13 @@ class Slicer:
         arrivals = self.closed.arrivals.get(callback.name, self.max_cycle)
         return arrivals * runs_of_an_arrival(callback)
 
+    @cached_property
+    def _of(self) -> WaitRelations:
+        return WaitRelations(self.closed.spec)
+
     @property
     def _spec(self) -> Spec:
         return self.closed.spec
-
-    @cached_property
-    def _places(self) -> dict[str, int]:
-        return {callback.name: place for place, callback in enumerate(self._spec.callbacks)}
-
-    @cached_property
-    def _exclusive(self) -> Names:
-        groups = self._spec.groups
-        return frozenset(g.name for g in groups if g.type is GroupType.EXCLUSIVE)
-
-    @cached_property
-    def _by_name(self) -> dict[str, Callback]:
-        return {callback.name: callback for callback in self._spec.callbacks}
-
-    @cached_property
-    def _waits(self) -> dict[str, tuple[NamedWait, ...]]:
-        return {
-            callback.name: _waits(self._steps[callback.name]) for callback in self._spec.callbacks
-        }
-
-    @cached_property
-    def _steps(self) -> dict[str, tuple[NamedWait, ...]]:
-        """Steps of callbacks and of activities."""
-        return {actor.name: tuple(waits_of(actor, self._spec)) for actor in actors_of(self._spec)}
-
-    def _is_client(self, name: str) -> bool:
-        callback = self._by_name.get(name)
-        return callback is not None and callback.type is CallbackType.CLT
-
-    @cached_property
-    def _sharers(self) -> dict[Resource | None, Names]:
-        """Who gives signals to a resource; and who takes them away from others that wait."""
-        found: dict[Resource | None, set[str]] = {}
-        for name, steps in self._steps.items():
-            for step in steps:
-                if step.resource is not None and (step.is_signal or step.resource.is_each):
-                    found.setdefault(step.resource, set()).add(name)
-        return {resource: frozenset(names) for resource, names in found.items()}
-
-    @cached_property
-    def _callers(self) -> dict[str, Names]:
-        """For each client those that wait for it, for each service its clients in the unit."""
-        found: dict[str, set[str]] = {name: set() for name in self._by_name}
-        for name, steps in self._steps.items():
-            for wait in _waits(steps):
-                if wait.resource is None and self._is_client(wait.needed):
-                    found[wait.needed].add(name)
-        for callback in self._spec.callbacks:
-            server = self._servers[callback.name]
-            if server is not None:
-                found[server].add(callback.name)
-        return {name: frozenset(callers) for name, callers in found.items()}
-
-    @cached_property
-    def _lock_holders(self) -> dict[Lock | None, Names]:
-        """Who keeps a lock over a wait."""
-        found: dict[Lock | None, set[str]] = {}
-        for name, waits in self._steps.items():
-            for wait in waits:
-                for lock in wait.held:
-                    found.setdefault(lock, set()).add(name)
-        return {lock: frozenset(names) for lock, names in found.items()}
 
     def _closers(self, query: Query) -> Iterator[str]:
         """Who may close the groups a query is about; a reentrant one never closes."""
@@ -462,7 +406,7 @@ class Slicer:
             return
         for group in query.groups:
             members = [c.name for c in self._spec.callbacks if c.group == group]
-            yield from members if group in self._exclusive else members[:1]
+            yield from members if group in self._of.exclusive else members[:1]
 
     def _cone_of_runs(self, name: str) -> Names:
         if name not in self._cones:
@@ -482,44 +426,12 @@ class Slicer:
             if cone.get(name, False) or (name in cone and not has_to_run):
                 continue
             cone[name] = has_to_run
-            callback = self._by_name.get(name)
+            callback = self._of.by_name.get(name)
             if callback is None:
                 continue  # then there is no slice
             follows = rests is not Rests.ON_RUNS
-            waiting.extend((needed, follows) for needed in self._needed(callback))
-            waiting.extend((caller, False) for caller in self._callers[name])
+            waiting.extend((needed, follows) for needed in self._of.needed(callback))
+            waiting.extend((caller, False) for caller in self._of.callers[name])
             if has_to_run:
-                waiting.extend((holder, False) for holder in self._holders(callback))
+                waiting.extend((holder, False) for holder in self._of.holders(callback))
         return frozenset(cone)
-
-    def _needed(self, callback: Callback) -> Iterator[str]:
-        """Whom it waits for, be it for a lock, and who answers it."""
-        for wait in self._waits[callback.name]:
-            yield wait.needed
-            yield from self._lock_holders.get(wait.lock, ())
-            yield from self._sharers.get(wait.resource, ())
-        server = self._servers[callback.name]
-        if server is not None:
-            yield server
-
-    @cached_property
-    def _servers(self) -> dict[str, str | None]:
-        callbacks = self._spec.callbacks
-        servers = {callback.name: server_of(callback, callbacks) for callback in callbacks}
-        return {name: None if s is None else s.name for name, s in servers.items()}
-
-    def _holders(self, callback: Callback) -> Iterator[str]:
-        """Members of its exclusive group that wait; a reentrant group is never held."""
-        if callback.group in self._exclusive:
-            for other in self._spec.callbacks:
-                if other.group == callback.group and self._waits[other.name]:
-                    yield other.name
-
-
-def _waits(steps: Iterable[NamedWait]) -> tuple[NamedWait, ...]:
-    """
-    Leave out signals.
-
-    A slice without whoever waits for a signal does not have it.
-    """
-    return tuple(step for step in steps if not step.is_signal)

@@ -11,10 +11,13 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.unit import Options, Verdict, Verification, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.unit import verify_unit
 
 PROGRESS = Family.PROGRESS.value
 OF_DEADLOCK = (Family.DEADLOCK.value, PROGRESS, Family.POOL_EXHAUSTION.value)

@@ -16,19 +16,21 @@ from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.deeds import Blocking, Waker
 from ros2cc_extract.spec.model import GroupType
-from ros2cc_extract.verify import unit as verifying
+from ros2cc_extract.verify import model_search
 from ros2cc_extract.verify.apart import prove_apart
-from ros2cc_extract.verify.asking import Key, Slicing, key_of
+from ros2cc_extract.verify.asking import Slicing
+from ros2cc_extract.verify.found import Key, key_of
 from ros2cc_extract.verify.hunts import refute_by_hunts
 from ros2cc_extract.verify.known import Shelf
 from ros2cc_extract.verify.loosened import is_loose, loosened
+from ros2cc_extract.verify.options import Options
 from ros2cc_extract.verify.results import QueryResult
 from ros2cc_extract.verify.slices import Slicer
 
 LIMITS = Limits(states=30_000)
-OPTIONS = verifying.Options(profile=Profile.RCLPY, reduction=False, limits=LIMITS)
-search = partial(verifying._search, options=OPTIONS, progress=None)
-refute = partial(verifying._refute, options=OPTIONS)
+OPTIONS = Options(profile=Profile.RCLPY, reduction=False, limits=LIMITS)
+search = partial(model_search.search, options=OPTIONS, progress=None)
+refute = partial(model_search.refute_over_waypoints, options=OPTIONS)
 Said = dict[Key, QueryResult]
 Way = Callable[[ClosedSpec, list[Query]], Iterator[Said]]
 

@@ -22,8 +22,10 @@ from ros2cc_extract.checker.api import (
 from ros2cc_extract.generator.build import Family, Profile, Text, render
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify import narrowing
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results import Verification
 from ros2cc_extract.verify.structural import structural_verdicts
-from ros2cc_extract.verify.unit import Options, Verification, verify_unit
+from ros2cc_extract.verify.unit import verify_unit
 
 Drawn = Iterator[tuple[int, ClosedSpec]]
 SLICED = Options(profile=Profile.RCLPY, structural=False)

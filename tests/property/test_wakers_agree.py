@@ -14,7 +14,8 @@ from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify import again, narrowing
-from ros2cc_extract.verify.unit import Options, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 #: A larger one is passed over: it would take seconds.
 STATES = 30_000

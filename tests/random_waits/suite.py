@@ -23,13 +23,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ros2cc_extract.checker.api import Limits
+from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 from tests.conformance.suite import own_environment
 from tests.random_waits.alone import alone
 from tests.random_waits.programs import program

@@ -15,7 +15,9 @@ from ros2cc_extract.pipeline import unit_jobs
 from ros2cc_extract.pipeline.unit_jobs import Task, examine
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.verify.unit import Options, Verification, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.unit import verify_unit
 
 EXAMPLES = Path(__file__).parents[2] / 'launch_free_examples'
 ERROR = ModelFormatError('-1 is outside the range 0..16 of task_count', Place('two.xml', 162))

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from ros2cc_extract.checker.api import Query
     from ros2cc_extract.spec.close import ClosedSpec
     from ros2cc_extract.verify.known import Shelf
-    from ros2cc_extract.verify.unit import OnProgress, Options, QueryResult, Verification
+    from ros2cc_extract.verify.options import OnProgress, Options
+    from ros2cc_extract.verify.results import QueryResult, Verification
 
 MODEL_SUFFIX = '.xml'
 
@@ -107,8 +108,8 @@ def _refuse_with_ranges(args: argparse.Namespace) -> None:
 
 
 def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
+    from ros2cc_extract.verify.given_queries import ask_unit, verify_model
     from ros2cc_extract.verify.known import Shelf
-    from ros2cc_extract.verify.unit import ask_unit, verify_model
 
     options, queries = options_of(args), _queries(args)
     if args.path.suffix == MODEL_SUFFIX:
@@ -142,7 +143,7 @@ def _verified(
 def _queries(args: argparse.Namespace) -> list[Query]:
     from ros2cc_extract.checker.api import Query
     from ros2cc_extract.places import Place
-    from ros2cc_extract.verify.unit import load_queries
+    from ros2cc_extract.verify.given_queries import load_queries
 
     given = [Query(formula, '', Place('--query')) for formula in args.query]
     return [*(load_queries(args.queries) if args.queries else ()), *given]

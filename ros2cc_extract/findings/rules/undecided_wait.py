@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.never_ends import open_facts, unexplained
@@ -25,7 +26,6 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 from ros2cc_extract.verify.caveats import open_ends
-from ros2cc_extract.verify.unit import Verdict
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})

@@ -13,8 +13,7 @@ from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml_io import spec_to_data
 from ros2cc_extract.verify.evidence import Evidence
 from ros2cc_extract.verify.load import Load
-from ros2cc_extract.verify.results import with_fewer_runs
-from ros2cc_extract.verify.unit import QueryResult, Verification
+from ros2cc_extract.verify.results import QueryResult, Verification, with_fewer_runs
 
 Data = dict[str, Any]
 

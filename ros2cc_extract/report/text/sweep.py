@@ -8,10 +8,10 @@ from itertools import groupby
 from rich.console import Console
 from rich.text import Text
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.shown import printable
 from ros2cc_extract.verify.sweep import Point, Sweep
-from ros2cc_extract.verify.unit import Verdict
 
 _SIGNS = {
     Verdict.SATISFIED: Text('yes', style='green'),

@@ -27,13 +27,14 @@ from finding_units import (
     writes,
 )
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.results import QueryResult, Verification
 
 RUN = Evidence(
     start={'thread_0': 'idle'},

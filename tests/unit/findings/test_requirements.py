@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from finding_units import at, exclusive, subscription, threads, timer, unit
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.model import Finding
@@ -14,7 +15,7 @@ from ros2cc_extract.findings.requirements import check_requirements, read_requir
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
 from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.unit import QueryResult, Verdict, Verification
+from ros2cc_extract.verify.results import QueryResult, Verification
 
 TABLE = Place('pyproject.toml', 12)
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends=None)

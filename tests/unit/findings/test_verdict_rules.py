@@ -20,6 +20,7 @@ from finding_units import (
     unit,
 )
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.places import Unknown
@@ -28,7 +29,9 @@ from ros2cc_extract.spec.deeds import Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Executor, Spec, Unresolved
 from ros2cc_extract.verify.events import Event
 from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.verify.unit import Options, QueryResult, Verdict, Verification, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.unit import verify_unit
 
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')
 

@@ -14,10 +14,11 @@ from typing import Any
 import jsonschema
 import pytest
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.report.trace_formats import write_trace
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.verify.unit import Verdict, verify_unit
+from ros2cc_extract.verify.unit import verify_unit
 from tests.e2e.conftest import EXAMPLES
 
 IDS = {'pid': {'type': 'integer'}, 'tid': {'type': 'integer'}, 'name': {'type': 'string'}}

@@ -13,8 +13,8 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.report.text.sweep import print_sweep
 from ros2cc_extract.spec.close import Policy
+from ros2cc_extract.verify.options import Options
 from ros2cc_extract.verify.sweep import points, run_sweep
-from ros2cc_extract.verify.unit import Options
 
 EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
 RCLPY = Options(profile=Profile.RCLPY, structural=False)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import pytest
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.extract.static.scan import runs
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 LONG = """
 import threading

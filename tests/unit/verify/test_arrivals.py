@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Profile, Text
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.yaml_io import read_specs
-from ros2cc_extract.verify.unit import Options, Verdict, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 UNIT = """\
 node:

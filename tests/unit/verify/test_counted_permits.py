@@ -9,7 +9,8 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.verify import narrowing
-from ros2cc_extract.verify.unit import Options, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 PROGRAM = """\
 import queue

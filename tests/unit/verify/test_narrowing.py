@@ -20,9 +20,9 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.verify import narrowing
-from ros2cc_extract.verify.asking import SLICE_STATES, Found, Key
+from ros2cc_extract.verify.found import SLICE_STATES, Found, Key
 from ros2cc_extract.verify.narrowing import FIRST_LOOK_STATES, narrow
-from ros2cc_extract.verify.unit import QueryResult
+from ros2cc_extract.verify.results import QueryResult
 
 SATISFIED, REFUTED, OPEN = Verdict.SATISFIED, Verdict.NOT_SATISFIED, Verdict.UNDECIDED
 Answers = Callable[[Key], Verdict]

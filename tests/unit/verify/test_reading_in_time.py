@@ -9,7 +9,8 @@ import pytest
 
 from ros2cc_extract.checker.api import Limits, Query, Verdict
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.verify.unit import Options, verify_model
+from ros2cc_extract.verify.given_queries import verify_model
+from ros2cc_extract.verify.options import Options
 from tests.support.published import document
 from tests.support.small import automaton
 

@@ -19,7 +19,8 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.verify import narrowing
-from ros2cc_extract.verify.unit import Options, verify_unit
+from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 
 def subscription(name: str, *blocking: Blocking) -> Callback:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.options import Options
 from ros2cc_extract.verify.sweep import Sweep, points, run_sweep
-from ros2cc_extract.verify.unit import Options, Verdict
 
 EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
 
