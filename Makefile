@@ -145,8 +145,8 @@ pythons: $(RELEASE)/prepared
 	$(call release_with,pythons) --wheels $(WHEELS) $(PYTHONS)
 
 schema: $(VENV)/installed
-	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml_io import SPEC; \
-	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/schema.json
+	$(BIN)/python -c 'import json; from ros2cc_extract.spec.yaml.yaml_io import SPEC; \
+	  print(json.dumps(SPEC.schema, indent=2))' > ros2cc_extract/spec/yaml/schema.json
 
 # docs/ as a site in build/site, strict; each node that it shows is checked anew, some 20 s of CPU.
 site: $(VENV)/documented

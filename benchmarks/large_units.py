@@ -18,7 +18,7 @@ from rclpy_profile import Size, make_unit
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 #: CPU seconds before, without waits, by number of callbacks.

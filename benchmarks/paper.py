@@ -41,9 +41,9 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -26,8 +26,8 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 KINDS = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE, EntityKind.CLIENT)

@@ -17,8 +17,8 @@ from ros2cc_extract.findings.rules.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases import has_change
-from ros2cc_extract.verify.rates import with_arrivals
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.rates import with_arrivals
+from ros2cc_extract.verify.results.results import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
 """Told of a wait of which no other rule says more."""

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Evidence, Moment
 
 _AWAIT, _GO_ON, _WAKE, _END = 'await', 'go_on', 'wake', 'end'
 _ARRIVALS = ('due', 'arrival')

@@ -12,7 +12,7 @@ from ros2cc_extract.findings.rules.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.stuck import Stuck
 from ros2cc_extract.findings.verdicts import is_of_repeated
 from ros2cc_extract.spec.joined import Joined, enders_of
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
 
 _OPEN = (UNDECIDED.code, OUTSIDE_WAIT.code)
 _BETWEEN = '; they are on executors that run at the same time'

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.places import Place
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.spec.deeds import CANCELS, Act, Blocking
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.spec.order import steps
-from ros2cc_extract.verify.rates import least_slept_s
+from ros2cc_extract.verify.results.rates import least_slept_s
 
 
 def cancel_of(callback: Callback) -> Act | None:

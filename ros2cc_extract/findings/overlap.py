@@ -16,8 +16,8 @@ from ros2cc_extract.findings.waits import WaitKind, kind_of
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread, runs_in_parallel
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.rates import demand_of
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.rates import demand_of
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.order import steps
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 class RaceKind(Enum):

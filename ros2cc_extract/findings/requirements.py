@@ -17,7 +17,7 @@ from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.findings.rules.of_requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verification
 
 NEVER_TOGETHER = 'never_together'
 CAN_OVERLAP = 'can_overlap'

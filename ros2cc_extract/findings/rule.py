@@ -16,8 +16,8 @@ from ros2cc_extract.findings.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
 from ros2cc_extract.spec.releases import Release
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import Verification
 
 Doer = Callback | Activity
 """Who waits, reads and writes: a callback, or a thread of the program's own."""

@@ -13,8 +13,8 @@ from ros2cc_extract.findings.workers import is_one_thread
 from ros2cc_extract.spec.deeds import Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
-from ros2cc_extract.verify.caveats import block_at, taking_at
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.caveats import block_at, taking_at
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 @dataclass(frozen=True)

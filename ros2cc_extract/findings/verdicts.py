@@ -8,8 +8,8 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.findings.hang import show_hang
 from ros2cc_extract.findings.rule import Context, Doer
 from ros2cc_extract.findings.waits import AnyWait, Wait
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import QueryResult
 
 CAN_OVERLAP = 'can_overlap'
 SELF_OVERLAP = 'self_overlap'

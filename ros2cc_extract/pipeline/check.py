@@ -31,9 +31,9 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.rates import with_arrivals
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.rates import with_arrivals
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 
 SCANNING = 0.75
 """Share of the time after which nothing more is scanned."""

@@ -143,11 +143,11 @@ def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tu
     :raises InputError: when there is no unit in it.
     """
     if path == STANDARD_INPUT:
-        from ros2cc_extract.spec.yaml_io import read_specs
+        from ros2cc_extract.spec.yaml.yaml_io import read_specs
 
         return read_specs(_read_standard_input(), '<stdin>')
     if path.suffix in SPEC_SUFFIXES or (not path.suffix and path.is_fifo()):
-        from ros2cc_extract.spec.yaml_io import load_specs
+        from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
         return load_specs(path)
     if path.suffix == RECORDING_SUFFIX:

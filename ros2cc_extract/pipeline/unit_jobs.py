@@ -26,10 +26,10 @@ from ros2cc_extract.pipeline.progress import Meter
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.joined import Joined
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.evidence import LOST, Evidence
-from ros2cc_extract.verify.known import Shelf
-from ros2cc_extract.verify.options import Checker, OnProgress, Options
-from ros2cc_extract.verify.results import NotKept, QueryResult, Verification
+from ros2cc_extract.verify.results.evidence import LOST, Evidence
+from ros2cc_extract.verify.results.results import NotKept, QueryResult, Verification
+from ros2cc_extract.verify.search.known_answers import Shelf
+from ros2cc_extract.verify.search.options import Checker, OnProgress, Options
 from ros2cc_extract.verify.undecided import failed_unit, is_defect, undecided_unit
 from ros2cc_extract.verify.unit import verify_unit
 

@@ -13,7 +13,7 @@ from ros2cc_extract.report.machine.junit import junit
 from ros2cc_extract.report.machine.sarif import sarif
 from ros2cc_extract.report.unit_mermaid import units_diagram
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ from typing import Any
 
 from ros2cc_extract.report.machine.json_report import evidence_data, to_text
 from ros2cc_extract.report.shared.run_lanes import Stay, stays_of
-from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.results.evidence import Evidence, Moment
 from ros2cc_extract.verify.uppaal.trace_xml import to_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import to_xtr
 

@@ -12,7 +12,7 @@ from ros2cc_extract.pipeline.check import Job
 from ros2cc_extract.pipeline.config import Config, assumptions_of
 from ros2cc_extract.pipeline.sources import read_input
 from ros2cc_extract.spec.close import Policy
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 
 SECONDS_PER_UNIT = 20.0
 

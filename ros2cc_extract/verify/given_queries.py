@@ -20,17 +20,17 @@ from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.evidence import Names
-from ros2cc_extract.verify.model_search import (
+from ros2cc_extract.verify.results.evidence import Names
+from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
+from ros2cc_extract.verify.search.model_search import (
     RunTeller,
     also_begun,
     ask_verifyta,
     check_queries,
     result_of,
 )
-from ros2cc_extract.verify.options import DEFAULTS, Checker, OnProgress, Options
-from ros2cc_extract.verify.reading import limited_reading
-from ros2cc_extract.verify.results import QueryResult, Verification, verification_of
+from ros2cc_extract.verify.search.options import DEFAULTS, Checker, OnProgress, Options
+from ros2cc_extract.verify.search.reading import limited_reading
 
 
 def ask_unit(

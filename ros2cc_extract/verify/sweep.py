@@ -15,8 +15,8 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 PROGRESS = Family.PROGRESS.value

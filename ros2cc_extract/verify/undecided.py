@@ -12,8 +12,8 @@ from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.generator.queries import structural_starvation
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification, open_result
+from ros2cc_extract.verify.results.results import Verification, open_result
+from ros2cc_extract.verify.search.options import Options
 
 LONGEST_MESSAGE = 300
 

@@ -13,18 +13,22 @@ from functools import partial
 from ros2cc_extract.checker.api import Fairness, Limits, Verdict
 from ros2cc_extract.generator import build
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.again import ask_again
-from ros2cc_extract.verify.arrivals import TWO_ARRIVALS, needs_two_arrivals
-from ros2cc_extract.verify.caveats import caveats_of, left_out_of_deadlocks
-from ros2cc_extract.verify.found import Found, key_of
-from ros2cc_extract.verify.known import Shelf
-from ros2cc_extract.verify.load import demands_of, load_of
-from ros2cc_extract.verify.model_search import refute_by_chance, refute_over_waypoints, search
-from ros2cc_extract.verify.narrowing import Refuters, joined, narrow
-from ros2cc_extract.verify.options import DEFAULTS, Checker, OnProgress, Options
-from ros2cc_extract.verify.results import QueryResult, Verification, verification_of
-from ros2cc_extract.verify.structural import structural_verdicts
-from ros2cc_extract.verify.used_up import refute_by_using_up
+from ros2cc_extract.verify.arrivals.exhausted_permits import refute_by_using_up
+from ros2cc_extract.verify.arrivals.filled_threads import ask_again
+from ros2cc_extract.verify.arrivals.needed_arrivals import TWO_ARRIVALS, needs_two_arrivals
+from ros2cc_extract.verify.arrivals.structural_starvation import structural_verdicts
+from ros2cc_extract.verify.results.caveats import caveats_of, left_out_of_deadlocks
+from ros2cc_extract.verify.results.load import demands_of, load_of
+from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
+from ros2cc_extract.verify.search.found import Found, key_of
+from ros2cc_extract.verify.search.known_answers import Shelf
+from ros2cc_extract.verify.search.model_search import (
+    refute_by_chance,
+    refute_over_waypoints,
+    search,
+)
+from ros2cc_extract.verify.search.options import DEFAULTS, Checker, OnProgress, Options
+from ros2cc_extract.verify.slices.narrowing import Refuters, joined, narrow
 
 
 def verify_unit(

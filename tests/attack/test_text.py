@@ -26,7 +26,7 @@ from ros2cc_extract.report.text.check import print_check
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
 from ros2cc_extract.shown import Shown, json_text, one_line, printable
-from ros2cc_extract.spec.yaml_io import read_specs, write_specs
+from ros2cc_extract.spec.yaml.yaml_io import read_specs, write_specs
 
 CLASS = 'texts of strangers'
 

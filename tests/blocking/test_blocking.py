@@ -17,8 +17,8 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 from tests.support.cells import TIMERS, Cell, all_cells
 

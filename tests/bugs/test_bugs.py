@@ -15,7 +15,7 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile, Text
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 HERE = Path(__file__).parent

@@ -21,7 +21,7 @@ import yaml
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.yaml_io import write_specs
+from ros2cc_extract.spec.yaml.yaml_io import write_specs
 from ros2cc_extract.verify.unit import verify_unit
 from tests.e2e.tutorial import PAGE, carried_out
 

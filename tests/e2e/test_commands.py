@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 from ros2cc_extract.cli.main import COMMANDS
-from ros2cc_extract.spec.yaml_io import SPEC
+from ros2cc_extract.spec.yaml.yaml_io import SPEC
 from tests.e2e.conftest import EXAMPLES, Run
 
 CASE_1 = EXAMPLES / 'paper_case1' / 'node.py'

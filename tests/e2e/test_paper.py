@@ -6,7 +6,7 @@ import pytest
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.spec.close import Policy, close
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.unit import verify_unit
 from tests.e2e.expected import EXAMPLES, scan_example
 

@@ -11,7 +11,7 @@ from ros2cc_extract.generator.serving import ExecutorKind
 from ros2cc_extract.generator.svg import draw
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 IMAGES = Path(__file__).parents[2] / 'docs' / 'images'
 SPEC = Path(__file__).parent / 'models' / 'services' / 'spec.yaml'

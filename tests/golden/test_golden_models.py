@@ -7,7 +7,7 @@ import pytest
 
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 MODELS = Path(__file__).parent / 'models'
 CASES = sorted(folder.name for folder in MODELS.iterdir() if folder.is_dir())

@@ -13,7 +13,7 @@ from recorded import PROGRAMS, written
 
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.spec.model import EntityKind
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 PROGRAM = PROGRAMS / 'real_action.py'
 # The goal that was reached, and the one that was cancelled.

@@ -18,7 +18,7 @@ from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.attach import attach_process, inject, injectors
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 RUNS_FOR_EVER = 'import time\nprint(flush=True)\nwhile True:\n    time.sleep(0.01)\n'
 

@@ -26,7 +26,7 @@ from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.merge import diff
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 every_example = pytest.mark.parametrize('name', sorted(EXPECTED))
 

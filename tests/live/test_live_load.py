@@ -21,7 +21,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.load import Load, LoadKind, load_of
+from ros2cc_extract.verify.results.load import Load, LoadKind, load_of
 
 HERE = Path(__file__).parent
 Member = tuple[str, str, float, float]

@@ -20,7 +20,7 @@ from conftest import EXAMPLES
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.spec.model import CallbackType
-from ros2cc_extract.verify.load import LoadKind, load_of
+from ros2cc_extract.verify.results.load import LoadKind, load_of
 
 Start = Callable[..., Child]
 NODE_PACE = ('--ros-args', '-p', 'time_scale:=0.04')

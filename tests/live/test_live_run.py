@@ -19,7 +19,7 @@ from ros2cc_extract.cli.main import main
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment, shell_commands
 from ros2cc_extract.extract.live.run import collect_directory, run_command
-from ros2cc_extract.spec.yaml_io import load_specs
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 OURSELVES = (
     'import sys; from pathlib import Path; from ros2cc_extract.extract.live.run import '

@@ -18,8 +18,8 @@ from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Text
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.verify.given_queries import verify_model
-from ros2cc_extract.verify.options import Checker, Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Checker, Options
 from ros2cc_extract.verify.unit import verify_unit
 from ros2cc_extract.verify.uppaal.verifyta import find_verifyta, run_verifyta
 from tests.e2e.conftest import EXAMPLES

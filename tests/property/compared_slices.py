@@ -18,7 +18,7 @@ from closed_specs import random_entity_unit
 from test_slices_agree import SLICED, WHOLE, WHOLE_STATES, no_unit_is_small
 
 from ros2cc_extract.checker.api import Verdict
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.unit import verify_unit
 
 #: First unit of the numbers of record.

@@ -16,16 +16,16 @@ from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.deeds import Blocking, Waker
 from ros2cc_extract.spec.model import GroupType
-from ros2cc_extract.verify import model_search
-from ros2cc_extract.verify.apart import prove_apart
-from ros2cc_extract.verify.asking import Slicing
-from ros2cc_extract.verify.found import Key, key_of
-from ros2cc_extract.verify.hunts import refute_by_hunts
-from ros2cc_extract.verify.known import Shelf
-from ros2cc_extract.verify.loosened import is_loose, loosened
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import QueryResult
-from ros2cc_extract.verify.slices import Slicer
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search import model_search
+from ros2cc_extract.verify.search.found import Key, key_of
+from ros2cc_extract.verify.search.known_answers import Shelf
+from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.slices.guided_runs import refute_by_hunts
+from ros2cc_extract.verify.slices.relaxed_units import is_loose, loosened
+from ros2cc_extract.verify.slices.separate_waits import prove_apart
+from ros2cc_extract.verify.slices.slice_queries import Slicing
+from ros2cc_extract.verify.slices.slicer import Slicer
 
 LIMITS = Limits(states=30_000)
 OPTIONS = Options(profile=Profile.RCLPY, reduction=False, limits=LIMITS)

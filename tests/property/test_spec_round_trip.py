@@ -20,7 +20,7 @@ from ros2cc_extract.spec.model import (
     When,
     collect_unresolved,
 )
-from ros2cc_extract.spec.yaml_io import SPEC, read_specs, write_specs
+from ros2cc_extract.spec.yaml.yaml_io import SPEC, read_specs, write_specs
 
 texts = st.text(st.characters(codec='utf-8', exclude_categories=['Cc', 'Cs']), min_size=1)
 files = st.from_regex(r'[a-z]{1,8}(/[a-z]{1,8})?\.py', fullmatch=True)

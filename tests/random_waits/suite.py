@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 from tests.conformance.suite import own_environment
 from tests.random_waits.alone import alone

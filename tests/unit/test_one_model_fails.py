@@ -15,8 +15,8 @@ from ros2cc_extract.pipeline import unit_jobs
 from ros2cc_extract.pipeline.unit_jobs import Task, examine
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 EXAMPLES = Path(__file__).parents[2] / 'launch_free_examples'

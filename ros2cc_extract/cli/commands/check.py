@@ -156,7 +156,7 @@ def _keep(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> None:
     from ros2cc_extract.cli.commands.model import model_files, unit_folders
     from ros2cc_extract.cli.shared.output import write_atomically
     from ros2cc_extract.generator.build import render
-    from ros2cc_extract.spec.yaml_io import write_specs
+    from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
     options = options_of(args)
     folders = unit_folders([unit.name for unit in outcome.units], args.output)

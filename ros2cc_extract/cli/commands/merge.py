@@ -44,7 +44,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.output import write_text
     from ros2cc_extract.merge import match_units, merge_units
     from ros2cc_extract.pipeline.sources import load_units
-    from ros2cc_extract.spec.yaml_io import write_specs
+    from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
     pairs, only_static, only_live = match_units(
         load_units(args.static, stderr), load_units(args.live, stderr)

@@ -82,7 +82,7 @@ def _write(
     from ros2cc_extract.cli.shared.output import write_text
     from ros2cc_extract.report.text.confidence import confidence_lines
     from ros2cc_extract.spec.confidence import confidence_in
-    from ros2cc_extract.spec.yaml_io import write_specs
+    from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
     if extraction.units:
         write_text(write_specs(extraction.units), args.output, stdout)
@@ -98,7 +98,7 @@ def _has_drift(
     from ros2cc_extract.drift import drift
     from ros2cc_extract.report.text.drift import print_drift
     from ros2cc_extract.report.text.style import console_for
-    from ros2cc_extract.spec.yaml_io import load_specs
+    from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
     found = drift(load_specs(args.check), extraction.units)
     print_drift(found, str(args.check), console_for(stdout))
@@ -111,4 +111,4 @@ def _has_drift(
 def _schema() -> str:
     from importlib.resources import files
 
-    return files('ros2cc_extract.spec').joinpath('schema.json').read_text(encoding='utf-8')
+    return files('ros2cc_extract.spec.yaml').joinpath('schema.json').read_text(encoding='utf-8')

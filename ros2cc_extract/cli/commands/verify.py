@@ -19,9 +19,9 @@ from ros2cc_extract.pipeline.progress import search_progress
 if TYPE_CHECKING:
     from ros2cc_extract.checker.api import Query
     from ros2cc_extract.spec.close import ClosedSpec
-    from ros2cc_extract.verify.known import Shelf
-    from ros2cc_extract.verify.options import OnProgress, Options
-    from ros2cc_extract.verify.results import QueryResult, Verification
+    from ros2cc_extract.verify.results.results import QueryResult, Verification
+    from ros2cc_extract.verify.search.known_answers import Shelf
+    from ros2cc_extract.verify.search.options import OnProgress, Options
 
 MODEL_SUFFIX = '.xml'
 
@@ -80,7 +80,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         return run_sweeps(args, stdout, stderr)
     if args.replay is not None:
         return _replay(args, stdout, stderr)
-    from ros2cc_extract.verify.results import with_fewer_runs
+    from ros2cc_extract.verify.results.results import with_fewer_runs
 
     verifications = [with_fewer_runs(verified) for verified in _verifications(args, stderr)]
     if args.output is not None:
@@ -109,7 +109,7 @@ def _refuse_with_ranges(args: argparse.Namespace) -> None:
 
 def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verification]:
     from ros2cc_extract.verify.given_queries import ask_unit, verify_model
-    from ros2cc_extract.verify.known import Shelf
+    from ros2cc_extract.verify.search.known_answers import Shelf
 
     options, queries = options_of(args), _queries(args)
     if args.path.suffix == MODEL_SUFFIX:
@@ -160,7 +160,7 @@ def _units(args: argparse.Namespace, stderr: TextIO) -> Iterator[ClosedSpec]:
 def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.report.text.style import console_for
     from ros2cc_extract.report.text.verdicts import print_run
-    from ros2cc_extract.verify.uppaal.retell import retell_model, retell_unit
+    from ros2cc_extract.verify.given_traces import retell_model, retell_unit
 
     if args.path.suffix == MODEL_SUFFIX:
         told = [retell_model(args.path, args.replay)]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ros2cc_extract.spec.close import Policy
-    from ros2cc_extract.verify.options import Options
+    from ros2cc_extract.verify.search.options import Options
 
 
 def add_paths(parser: argparse.ArgumentParser) -> None:
@@ -136,7 +136,7 @@ def options_of(args: argparse.Namespace) -> Options:
     """Collect what ``add_search_arguments`` declared."""
     from ros2cc_extract.checker.api import EngineKind, Fairness, Limits
     from ros2cc_extract.generator.build import Profile, Text
-    from ros2cc_extract.verify.options import Checker, Options
+    from ros2cc_extract.verify.search.options import Checker, Options
     from ros2cc_extract.verify.uppaal.verifyta import Runs
 
     return Options(

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.live.recording import Recording, read_recording
 from ros2cc_extract.extract.live.trace import Trace, read_trace, write_lines
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.yaml_io import write_specs
+from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
 DEFAULT_OUTPUT = Path('live.spec.yaml')
 EXIT_ERROR = 2

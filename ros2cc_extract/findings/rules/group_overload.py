@@ -11,8 +11,8 @@ from ros2cc_extract.findings.words import group_words, made_at, shown
 from ros2cc_extract.findings.workers import MULTI
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, CallbackGroup, Spec
-from ros2cc_extract.verify.load import Load, LoadKind, load_of, served_before
-from ros2cc_extract.verify.rates import demand_of
+from ros2cc_extract.verify.results.load import Load, LoadKind, load_of, served_before
+from ros2cc_extract.verify.results.rates import demand_of
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -15,7 +15,7 @@ from ros2cc_extract.findings.words import called, made_at
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import Activity
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 @dataclass(frozen=True)

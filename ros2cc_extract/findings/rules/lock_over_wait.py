@@ -20,8 +20,8 @@ from ros2cc_extract.findings.workers import is_one_thread, workers_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import RE_ENTRANT, Act
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Evidence
 
 _SPINS = (WaitKind.SPIN, WaitKind.SPUN_FUTURE)
 

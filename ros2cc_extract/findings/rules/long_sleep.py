@@ -16,7 +16,7 @@ from ros2cc_extract.findings.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.words import called, group_words, made_at, plural, served_at, shown
 from ros2cc_extract.findings.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import Callback, EntityKind
-from ros2cc_extract.verify.rates import least_slept_s, period_of
+from ros2cc_extract.verify.results.rates import least_slept_s, period_of
 
 LONG_SLEEP_S = 1.0
 """From here on a sleep counts as long: our choice."""

@@ -25,7 +25,7 @@ from ros2cc_extract.findings.words import listing, shown
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
-from ros2cc_extract.verify.caveats import open_ends
+from ros2cc_extract.verify.results.caveats import open_ends
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})

@@ -17,7 +17,7 @@ from ros2cc_extract.report.html.parts import (
     span,
     tag,
 )
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 Timeline = Callable[[Evidence], str]
 

@@ -27,8 +27,8 @@ from ros2cc_extract.report.shared.owners import is_about
 from ros2cc_extract.report.shared.run_lanes import Lane, lanes_of
 from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.evidence import Evidence, Moment
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.evidence import Evidence, Moment
+from ros2cc_extract.verify.results.results import QueryResult, Verification
 from ros2cc_extract.version import __version__
 
 BLOCKED = 'blocked'

@@ -21,7 +21,7 @@ from ros2cc_extract.findings.rule import Rule
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.closing import closing_lines
 from ros2cc_extract.shown import json_text
-from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.version import __version__
 
 Data = dict[str, Any]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.report.shared.counts import counted
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 def closing_lines(run: Evidence) -> Iterator[str]:

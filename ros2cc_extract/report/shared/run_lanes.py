@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from ros2cc_extract.verify.evidence import Evidence, Moment
+from ros2cc_extract.verify.results.evidence import Evidence, Moment
 
 
 @dataclass(frozen=True)

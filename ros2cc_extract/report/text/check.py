@@ -23,7 +23,7 @@ from ros2cc_extract.report.text.verdicts import print_digest, print_evidence, pr
 from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.confidence import confidence_in
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verification
 
 MOST_TABLES = 3
 """More units than this are shown as one row each."""

@@ -17,7 +17,7 @@ from ros2cc_extract.report.shared.owners import is_about
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.shown import one_line
 from ros2cc_extract.spec.model import Executor, Spec
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
 
 
 def print_overview(

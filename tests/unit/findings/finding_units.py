@@ -18,7 +18,7 @@ from ros2cc_extract.spec.model import (
     Spec,
     Unresolved,
 )
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
 
 FILE = 'arm.py'
 ONE_THREAD = Executor(name='executor', kind=SINGLE, threads=('thread_0',))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.findings.hang import show_hang
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 
 CALL = """\
 executor: arrival who=on_map

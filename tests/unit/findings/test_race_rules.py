@@ -33,8 +33,8 @@ from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Access, Act
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
-from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.results.results import QueryResult, Verification
 
 RUN = Evidence(
     start={'thread_0': 'idle'},

@@ -14,8 +14,8 @@ from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements, read_requirements
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import QueryResult, Verification
 
 TABLE = Place('pyproject.toml', 12)
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends=None)

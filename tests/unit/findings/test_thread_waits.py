@@ -13,8 +13,8 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Spec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 

@@ -27,10 +27,10 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.deeds import Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Executor, Spec, Unresolved
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import QueryResult, Verification
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 RUN = Evidence(start={}, moments=(), cycle_from=None, ends='deadlock')

@@ -11,8 +11,8 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import EntityKind, GroupType
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'

@@ -9,7 +9,7 @@ from ros2cc_extract.checker.api import read_model
 from ros2cc_extract.generator import build
 from ros2cc_extract.generator.build import Text, render
 from ros2cc_extract.generator.events import FieldText, read_annotation
-from ros2cc_extract.verify.events import WORDS, Event
+from ros2cc_extract.verify.results.events import WORDS, Event
 
 # Of what is installed: the sources may not be here.
 PROFILES = Path(build.__file__).parent / 'profiles'

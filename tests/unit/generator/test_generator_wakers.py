@@ -13,8 +13,8 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.yaml_io import read_specs
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.spec.yaml.yaml_io import read_specs
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'

@@ -16,8 +16,8 @@ from ros2cc_extract.report.text.check import print_check
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import Verification
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 EXAMPLE = Path(__file__).parents[3] / 'launch_free_examples' / 'service_deadlock' / 'node.py'

@@ -25,7 +25,7 @@ from ros2cc_extract.spec.model import (
     Spec,
     When,
 )
-from ros2cc_extract.verify.evidence import Sentence
+from ros2cc_extract.verify.results.evidence import Sentence
 
 ARM = Spec(
     name='arm',

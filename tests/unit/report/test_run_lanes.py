@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.report.shared.run_lanes import Stay, lanes_of
-from ros2cc_extract.verify.evidence import Evidence, Moment, Sentence
+from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 
 START = {
     'executor': 'wait',

@@ -15,7 +15,7 @@ from ros2cc_extract.findings.fingerprints import fingerprints
 from ros2cc_extract.findings.registry import RULES
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.machine.sarif import MOST_STEPS, sarif
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.evidence import Evidence
 
 SCHEMA = Path(__file__).parents[3] / '.cache' / 'sarif-2.1.0.json'
 

@@ -13,7 +13,7 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.report.text.sweep import print_sweep
 from ros2cc_extract.spec.close import Policy
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.sweep import points, run_sweep
 
 EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'

@@ -23,7 +23,7 @@ from ros2cc_extract.spec.model import (
     Spec,
     collect_unresolved,
 )
-from ros2cc_extract.spec.yaml_io import SPEC, read_specs, write_specs
+from ros2cc_extract.spec.yaml.yaml_io import SPEC, read_specs, write_specs
 
 PUBLISHED = """\
 node:
@@ -131,7 +131,7 @@ def test_unknown_facts_stay_visible() -> None:
 
 
 def test_committed_schema_is_the_one_of_the_tables() -> None:
-    committed = files('ros2cc_extract.spec').joinpath('schema.json').read_text(encoding='utf-8')
+    committed = files('ros2cc_extract.spec.yaml').joinpath('schema.json').read_text(encoding='utf-8')
     assert json.loads(committed) == SPEC.schema
 
 

@@ -11,7 +11,7 @@ from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 LONG = """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.verify.rates import least_slept_s
+from ros2cc_extract.verify.results.rates import least_slept_s
 
 PROGRAM = """
 import time

@@ -7,8 +7,8 @@ import pytest
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Profile, Text
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.yaml_io import read_specs
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.spec.yaml.yaml_io import read_specs
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 UNIT = """\

@@ -5,8 +5,8 @@ from __future__ import annotations
 from ros2cc_extract.checker.api import Query, Run, check, read_model
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Names, Sentence, tell
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Names, Sentence, tell
 
 COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
 <nta><declaration>int[0,2] n; chan go;</declaration>

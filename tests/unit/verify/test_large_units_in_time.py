@@ -11,14 +11,14 @@ from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.report.text.verdicts import MOST_ROWS, ROWS_OF_A_KIND, print_table
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.yaml_io import load_specs
-from ros2cc_extract.verify.options import Options
-from ros2cc_extract.verify.results import (
+from ros2cc_extract.spec.yaml.yaml_io import load_specs
+from ros2cc_extract.verify.results.results import (
     MOST_RUNS,
     QueryResult,
     Verification,
     with_fewer_runs,
 )
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 MANY = 300

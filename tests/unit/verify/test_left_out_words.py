@@ -9,7 +9,7 @@ import pytest
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'

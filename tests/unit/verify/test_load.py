@@ -19,7 +19,7 @@ from ros2cc_extract.spec.model import (
     Measured,
     Spec,
 )
-from ros2cc_extract.verify.load import Load, LoadKind, demands_of, load_of, served_before
+from ros2cc_extract.verify.results.load import Load, LoadKind, demands_of, load_of, served_before
 
 MULTI, SINGLE = 'MultiThreadedExecutor', 'SingleThreadedExecutor'
 

@@ -19,10 +19,10 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify import narrowing
-from ros2cc_extract.verify.found import SLICE_STATES, Found, Key
-from ros2cc_extract.verify.narrowing import FIRST_LOOK_STATES, narrow
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Key
+from ros2cc_extract.verify.slices.narrowing import FIRST_LOOK_STATES, narrow
+from ros2cc_extract.verify.slices.slicer import narrowing
 
 SATISFIED, REFUTED, OPEN = Verdict.SATISFIED, Verdict.NOT_SATISFIED, Verdict.UNDECIDED
 Answers = Callable[[Key], Verdict]

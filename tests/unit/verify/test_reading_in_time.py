@@ -10,7 +10,7 @@ import pytest
 from ros2cc_extract.checker.api import Limits, Query, Verdict
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.verify.given_queries import verify_model
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from tests.support.published import document
 from tests.support.small import automaton
 

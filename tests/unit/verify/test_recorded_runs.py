@@ -20,7 +20,7 @@ from ros2cc_extract.spec.model import (
     Measured,
     Spec,
 )
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 ENDS = {'deadlock', 'starvation', 'progress', 'pool_exhaustion'}

@@ -18,8 +18,8 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.shapes import Shape, outline_of
-from ros2cc_extract.verify.slices import Slicer
+from ros2cc_extract.verify.slices.shapes import Shape, outline_of
+from ros2cc_extract.verify.slices.slicer import Slicer
 
 KINDS = {
     'tick': EntityKind.TIMER,

@@ -18,8 +18,8 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify import narrowing
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.slices.slicer import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 

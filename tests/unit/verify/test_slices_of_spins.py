@@ -19,7 +19,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.slices import Slicer
+from ros2cc_extract.verify.slices.slicer import Slicer
 
 SINGLE, MULTI = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
 AT = Place('arm.py', 1)

@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.sweep import Sweep, points, run_sweep
 
 EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'

@@ -7,31 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.codecs import (
-    COUNT,
-    FLAG,
-    NAME,
-    PLACE,
-    SECONDS,
-    TEXT,
-    Codec,
-    JsonSchema,
-    listing,
-    member,
-    optional,
-)
-from ros2cc_extract.spec.cursor import Cursor
 from ros2cc_extract.spec.deeds import Access, Act, Blocking, Needs, Waker
-from ros2cc_extract.spec.fields import (
-    ABSENT,
-    Escape,
-    Open,
-    Plain,
-    Resolution,
-    Row,
-    plain_rows,
-    record,
-)
 from ros2cc_extract.spec.identifiers import complaint, complaint_of_executor
 from ros2cc_extract.spec.model import (
     Activity,
@@ -46,6 +22,30 @@ from ros2cc_extract.spec.model import (
     Measured,
     Unresolved,
     When,
+)
+from ros2cc_extract.spec.yaml.codecs import (
+    COUNT,
+    FLAG,
+    NAME,
+    PLACE,
+    SECONDS,
+    TEXT,
+    Codec,
+    JsonSchema,
+    listing,
+    member,
+    optional,
+)
+from ros2cc_extract.spec.yaml.cursor import Cursor
+from ros2cc_extract.spec.yaml.fields import (
+    ABSENT,
+    Escape,
+    Open,
+    Plain,
+    Resolution,
+    Row,
+    plain_rows,
+    record,
 )
 
 

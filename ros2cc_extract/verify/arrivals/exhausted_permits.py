@@ -18,9 +18,9 @@ from ros2cc_extract.generator.resources import FOR_RUNS, Actor, all_actors
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Spec
-from ros2cc_extract.verify.again import OF_ENDS
-from ros2cc_extract.verify.arrivals import crowding
-from ros2cc_extract.verify.found import Found, Key, key_of, total
+from ros2cc_extract.verify.arrivals.filled_threads import OF_ENDS
+from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
+from ros2cc_extract.verify.search.found import Found, Key, key_of, total
 
 #: Loops that go round more often are not counted.
 MOST_ROUNDS = 8

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.results import QueryResult, open_result
+from ros2cc_extract.verify.results.results import QueryResult, open_result
 
 SLICE_STATES = 200_000
 Key = tuple[Family, tuple[str, ...], tuple[str, ...]]

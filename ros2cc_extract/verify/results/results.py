@@ -10,8 +10,8 @@ from functools import cached_property
 
 from ros2cc_extract.checker.api import CheckResult, Verdict
 from ros2cc_extract.generator.build import Query
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.load import Load
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.load import Load
 
 MOST_RUNS = 100
 """Of one family and verdict: to find each takes a search, and pairs come by the ten thousand."""

@@ -13,8 +13,8 @@ from enum import Enum
 from typing import Any, Protocol
 
 from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.codecs import FLAG, PLACE, TEXT, Codec, JsonSchema, optional
-from ros2cc_extract.spec.cursor import Cursor
+from ros2cc_extract.spec.yaml.codecs import FLAG, PLACE, TEXT, Codec, JsonSchema, optional
+from ros2cc_extract.spec.yaml.cursor import Cursor
 
 
 class Absent(Enum):

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ros2cc_extract.generator.steps import NamedWait
 from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.events import Event
-from ros2cc_extract.verify.evidence import Evidence
+from ros2cc_extract.verify.results.events import Event
+from ros2cc_extract.verify.results.evidence import Evidence
 
 
 def doubts_in(run: Evidence, spec: Spec) -> str:

@@ -12,8 +12,8 @@ from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.evidence import Evidence, Names, tell
-from ros2cc_extract.verify.options import Options
+from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import read_xtr

@@ -13,7 +13,7 @@ from enum import Enum
 from typing import Any, TypeVar
 
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.cursor import Cursor
+from ros2cc_extract.spec.yaml.cursor import Cursor
 
 JsonSchema = dict[str, Any]
 E = TypeVar('E', bound=Enum)

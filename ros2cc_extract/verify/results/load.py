@@ -16,7 +16,7 @@ from math import ceil
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
-from ros2cc_extract.verify.rates import Demand, demand_of
+from ros2cc_extract.verify.results.rates import Demand, demand_of
 
 #: Serving takes time too: a busy node measures a load a little below 1 of itself.
 SERVING = 0.05

@@ -14,8 +14,9 @@ from functools import partial
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.found import (
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import (
     SLICE_STATES,
     Found,
     Key,
@@ -24,11 +25,10 @@ from ros2cc_extract.verify.found import (
     total,
     weighs_more,
 )
-from ros2cc_extract.verify.known import Answered, Entry, Role, Shelf
-from ros2cc_extract.verify.results import QueryResult
-from ros2cc_extract.verify.shapes import Outline, Shape
-from ros2cc_extract.verify.slices import Slicer
-from ros2cc_extract.verify.wait_relations import Names
+from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
+from ros2cc_extract.verify.slices.shapes import Outline, Shape
+from ros2cc_extract.verify.slices.slicer import Slicer
+from ros2cc_extract.verify.slices.wait_relations import Names
 
 #: A slice of up to so many callbacks is asked everything.
 ASKED_IN_FULL = 3

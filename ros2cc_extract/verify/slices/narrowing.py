@@ -14,16 +14,16 @@ from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.apart import prove_apart
-from ros2cc_extract.verify.asking import Slicing
-from ros2cc_extract.verify.crowds import Refute, refute_by_crowds
-from ros2cc_extract.verify.found import Found, Search, key_of, total, unasked, weighs_more
-from ros2cc_extract.verify.hunts import refute_by_hunts
-from ros2cc_extract.verify.known import Shelf
-from ros2cc_extract.verify.loosened import Loosened, is_loose, loosened
-from ros2cc_extract.verify.results import QueryResult
-from ros2cc_extract.verify.slices import Slicer
-from ros2cc_extract.verify.wait_relations import Names
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import Found, Search, key_of, total, unasked, weighs_more
+from ros2cc_extract.verify.search.known_answers import Shelf
+from ros2cc_extract.verify.slices.full_pools import Refute, refute_by_crowds
+from ros2cc_extract.verify.slices.guided_runs import refute_by_hunts
+from ros2cc_extract.verify.slices.relaxed_units import Loosened, is_loose, loosened
+from ros2cc_extract.verify.slices.separate_waits import prove_apart
+from ros2cc_extract.verify.slices.slice_queries import Slicing
+from ros2cc_extract.verify.slices.slicer import Slicer
+from ros2cc_extract.verify.slices.wait_relations import Names
 
 
 @dataclass(frozen=True)

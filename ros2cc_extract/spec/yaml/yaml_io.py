@@ -17,10 +17,7 @@ import yaml
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.codecs import COUNT, TEXT, Codec, JsonSchema, listing, member, optional
-from ros2cc_extract.spec.cursor import Cursor, compose
 from ros2cc_extract.spec.deeds import Blocking
-from ros2cc_extract.spec.fields import Flow, Plain, record
 from ros2cc_extract.spec.model import (
     Activity,
     Callback,
@@ -30,7 +27,18 @@ from ros2cc_extract.spec.model import (
     Spec,
     Unresolved,
 )
-from ros2cc_extract.spec.tables import (
+from ros2cc_extract.spec.yaml.codecs import (
+    COUNT,
+    TEXT,
+    Codec,
+    JsonSchema,
+    listing,
+    member,
+    optional,
+)
+from ros2cc_extract.spec.yaml.cursor import Cursor, compose
+from ros2cc_extract.spec.yaml.fields import Flow, Plain, record
+from ros2cc_extract.spec.yaml.key_tables import (
     ACTIVITY,
     BLOCKING,
     CALLBACK,

@@ -20,8 +20,8 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import is_client, server_of
-from ros2cc_extract.verify.found import Key
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import Key
 
 #: Claims about runs, and the verdict that says that something never happens.
 _NEVER: Mapping[Family, Verdict] = {

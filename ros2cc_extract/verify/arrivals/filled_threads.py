@@ -12,9 +12,9 @@ from dataclasses import replace
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.arrivals import crowding
-from ros2cc_extract.verify.found import SLICE_STATES, Found, key_of, total, weighs_more
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import SLICE_STATES, Found, key_of, total, weighs_more
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
 OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)

@@ -20,9 +20,9 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.steps import NamedWait, WaitKind
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.found import SLICE_STATES, Found, Search, key_of
-from ros2cc_extract.verify.slices import Slicer
-from ros2cc_extract.verify.wait_relations import Names
+from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Search, key_of
+from ros2cc_extract.verify.slices.slicer import Slicer
+from ros2cc_extract.verify.slices.wait_relations import Names
 
 _THREADS = 2
 

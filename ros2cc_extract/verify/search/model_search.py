@@ -27,12 +27,12 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.once import known_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.doubts import doubts_in
-from ros2cc_extract.verify.evidence import Evidence, Names, tell
-from ros2cc_extract.verify.found import Found, Key, key_of, unasked
-from ros2cc_extract.verify.options import Checker, OnProgress, Options
-from ros2cc_extract.verify.reading import NotReadError, read_in_time
-from ros2cc_extract.verify.results import QueryResult
+from ros2cc_extract.verify.results.doubts import doubts_in
+from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import Found, Key, key_of, unasked
+from ros2cc_extract.verify.search.options import Checker, OnProgress, Options
+from ros2cc_extract.verify.search.reading import NotReadError, read_in_time
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta
 from ros2cc_extract.verify.uppaal.verifyta_check import check_by_verifyta

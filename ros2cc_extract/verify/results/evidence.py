@@ -19,7 +19,7 @@ from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.events import WORDS, Event
+from ros2cc_extract.verify.results.events import WORDS, Event
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 
 

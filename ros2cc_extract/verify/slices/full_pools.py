@@ -15,11 +15,11 @@ from functools import partial
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.evidence import Evidence
-from ros2cc_extract.verify.found import SLICE_STATES, Found, Key, key_of
-from ros2cc_extract.verify.results import QueryResult
-from ros2cc_extract.verify.slices import Slicer
-from ros2cc_extract.verify.wait_relations import Names
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Key, key_of
+from ros2cc_extract.verify.slices.slicer import Slicer
+from ros2cc_extract.verify.slices.wait_relations import Names
 
 Refute = Callable[[ClosedSpec, Sequence[Key], Sequence[str], Limits], Found]
 """Asks a part over waypoints; gives what is refuted."""

@@ -26,7 +26,7 @@ from ros2cc_extract.spec.partners import (
     is_done_callback,
     server_of,
 )
-from ros2cc_extract.verify.shapes import (
+from ros2cc_extract.verify.slices.shapes import (
     Facts,
     Outline,
     Setting,
@@ -35,7 +35,7 @@ from ros2cc_extract.verify.shapes import (
     outline_of,
     setting_of,
 )
-from ros2cc_extract.verify.wait_relations import Names, WaitRelations, without_signals
+from ros2cc_extract.verify.slices.wait_relations import Names, WaitRelations, without_signals
 
 #: Claims that rest on others coming to an end, and on a free thread.
 OF_ENDS = (Family.STARVATION, Family.PROGRESS)
