@@ -13,7 +13,7 @@ from mkdocs.exceptions import PluginError
 from playground_parts import ROOT, LeftOutError, make_parts
 from shown_nodes import expanded
 
-from ros2cc_extract.findings.registry import RULES
+from ros2cc_extract.findings.rules.registry import RULES
 from ros2cc_extract.version import __version__
 
 RULE_KINDS = {

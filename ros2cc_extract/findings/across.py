@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
 
-from ros2cc_extract.findings.flags import shared_by
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.races import LOSING, Race, RaceKind, races_across
-from ros2cc_extract.findings.rule import Context, Doer, Hit
-from ros2cc_extract.findings.rules import lost_update
-from ros2cc_extract.findings.shared_names import node_classes, shared_part
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.base.rule import Context, Doer, Hit
+from ros2cc_extract.findings.races.flag_locks import shared_by
+from ros2cc_extract.findings.races.races import LOSING, Race, RaceKind, races_across
+from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
+from ros2cc_extract.findings.rules.races import lost_update
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 

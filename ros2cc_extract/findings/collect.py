@@ -7,13 +7,13 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.across import findings_across
-from ros2cc_extract.findings.assumptions import with_assumptions
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.registry import BY_SLUG, RULES
-from ros2cc_extract.findings.rule import Context
-from ros2cc_extract.findings.rules.of_diagnostics import UNREADABLE
-from ros2cc_extract.findings.rules.undecided_wait import OUTSIDE_WAIT, UNDECIDED
-from ros2cc_extract.findings.rules.unresolved import RULE as UNRESOLVED
+from ros2cc_extract.findings.base.assumptions import with_assumptions
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
+from ros2cc_extract.findings.rules.reading.diagnostics import UNREADABLE
+from ros2cc_extract.findings.rules.reading.unresolved import RULE as UNRESOLVED
+from ros2cc_extract.findings.rules.registry import BY_SLUG, RULES
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases import has_change

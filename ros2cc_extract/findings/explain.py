@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.findings.registry import BY_CODE, BY_SLUG, RULES
-from ros2cc_extract.findings.rule import Rule
+from ros2cc_extract.findings.base.rule import Rule
+from ros2cc_extract.findings.rules.registry import BY_CODE, BY_SLUG, RULES
 
 
 def explain(code: str) -> str:

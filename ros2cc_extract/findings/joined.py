@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.rule import Context, Doer, Hit, Rule
-from ros2cc_extract.findings.rules import lock_order, never_ends
-from ros2cc_extract.findings.rules.undecided_wait import OUTSIDE_WAIT, UNDECIDED, find_undecided
-from ros2cc_extract.findings.stuck import Stuck
-from ros2cc_extract.findings.verdicts import is_of_repeated
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
+from ros2cc_extract.findings.rules.deadlocks import lock_order, never_ends
+from ros2cc_extract.findings.rules.deadlocks.undecided_wait import (
+    OUTSIDE_WAIT,
+    UNDECIDED,
+    find_undecided,
+)
+from ros2cc_extract.findings.waits.stuck_callbacks import Stuck
+from ros2cc_extract.findings.waits.verdicts import is_of_repeated
 from ros2cc_extract.spec.joined import Joined, enders_of
 from ros2cc_extract.verify.results.results import Verification
 

@@ -13,8 +13,8 @@ from itertools import product
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.findings.model import Finding, Remark
-from ros2cc_extract.findings.rules.of_requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
+from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.findings.rules.reading.requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.verify.results.results import QueryResult, Verification

@@ -9,7 +9,7 @@ from typing import TextIO
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.program.project import python_files
-from ros2cc_extract.findings.fingerprints import fingerprints
+from ros2cc_extract.findings.base.fingerprints import fingerprints
 from ros2cc_extract.pipeline.check import Job, check_paths
 from ros2cc_extract.revision.git import KNOWN, Repository
 from ros2cc_extract.revision.snapshot import Snapshot

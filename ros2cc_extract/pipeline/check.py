@@ -15,14 +15,14 @@ from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.findings.across import findings_across
-from ros2cc_extract.findings.baseline import compare
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import all_findings, is_unread
+from ros2cc_extract.findings.filters.baseline import compare
+from ros2cc_extract.findings.filters.selection import select
+from ros2cc_extract.findings.filters.suppress import suppress
 from ros2cc_extract.findings.joined import without_what_is_told
-from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements
-from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
-from ros2cc_extract.findings.selection import select
-from ros2cc_extract.findings.suppress import suppress
+from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.sources import scan_sources

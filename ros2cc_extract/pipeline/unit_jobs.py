@@ -17,9 +17,9 @@ from pathlib import Path
 from ros2cc_extract.cachefile import load_value, store_value, tidy, tool_version
 from ros2cc_extract.crew import Crew, usable_cores
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of_unit
 from ros2cc_extract.findings.joined import findings_of_joined
-from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.packing import Packer
 from ros2cc_extract.pipeline.progress import Meter

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.report.html.page import html_report
 from ros2cc_extract.report.machine.github import workflow_commands
 from ros2cc_extract.report.machine.json_report import check_data, to_text

@@ -18,7 +18,7 @@ from ros2cc_extract.cli.shared.output import write_atomically
 from ros2cc_extract.cli.shared.streams import with_streams
 from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.packages.manifest import package_name, python_files
 from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config, read_config

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.packages.manifest import MANIFEST, python_files
 from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.findings.baseline import read_baseline
+from ros2cc_extract.findings.filters.baseline import read_baseline
 from ros2cc_extract.pipeline.check import Job
 from ros2cc_extract.pipeline.config import Config, assumptions_of
 from ros2cc_extract.pipeline.sources import read_input

@@ -12,8 +12,8 @@ import pytest
 
 from ros2cc_extract.checker.api import Limits, Query, Verdict, check, read_model
 from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec

@@ -10,8 +10,8 @@ import pytest
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.findings.model import Finding
 from ros2cc_extract.generator.build import Profile, Text
 from ros2cc_extract.spec.assume import Assumptions, assume
 from ros2cc_extract.spec.close import close

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.cli.main import COMMANDS
-from ros2cc_extract.findings.registry import BY_CODE
+from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.pipeline.config import KEYS
 from tests.e2e.conftest import ROOT
 

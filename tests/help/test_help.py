@@ -10,7 +10,7 @@ import re
 
 import pytest
 
-from ros2cc_extract.findings.registry import BY_CODE, RULES
+from ros2cc_extract.findings.rules.registry import BY_CODE, RULES
 from tests.help.cases import Case, Mended, cases, said
 
 # Words that only join what is to be done.

@@ -13,7 +13,7 @@ from ros2cc_extract.checker.api import Limits, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.arrivals.needed_arrivals import filled_threads
+from ros2cc_extract.verify.arrivals import filled_threads
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.slices.slicer import narrowing
 from ros2cc_extract.verify.unit import verify_unit
@@ -95,7 +95,7 @@ def test_texts_agree_on_many() -> None:
 
 def one_bound_for_both(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
-    monkeypatch.setattr(again, 'SLICE_STATES', MOST_STATES)
+    monkeypatch.setattr(filled_threads, 'SLICE_STATES', MOST_STATES)
 
 
 def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -138,7 +138,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
 
 def _known(args: argparse.Namespace, config: Config, job: Job, stderr: TextIO) -> frozenset[str]:
     """Collect the fingerprints that are accepted already."""
-    from ros2cc_extract.findings.baseline import read_baseline
+    from ros2cc_extract.findings.filters.baseline import read_baseline
     from ros2cc_extract.pipeline.sources import read_input
 
     known: frozenset[str] = frozenset()
@@ -172,7 +172,7 @@ def _keep(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> None:
 
 def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> None:
     from ros2cc_extract.cli.shared.output import write_atomically
-    from ros2cc_extract.findings.baseline import write_baseline
+    from ros2cc_extract.findings.filters.baseline import write_baseline
 
     write_atomically(path, write_baseline(outcome.findings, job.root.as_posix()))
     print(f'wrote {path}; use it with --baseline {path}', file=stderr)

@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.findings.explain import explain
-    from ros2cc_extract.findings.registry import RULES
+    from ros2cc_extract.findings.rules.registry import RULES
 
     if not args.codes:
         for rule in RULES:

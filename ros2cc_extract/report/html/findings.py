@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from html import escape
 
-from ros2cc_extract.findings.model import Finding, Remark
-from ros2cc_extract.findings.registry import BY_CODE
-from ros2cc_extract.findings.rule import Rule
+from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.findings.base.rule import Rule
+from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.report.html.parts import (
     SEVERITY_WORDS,
     Sources,

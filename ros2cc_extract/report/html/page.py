@@ -17,7 +17,7 @@ from typing import Any
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.report.html.findings import finding_card
 from ros2cc_extract.report.html.parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html.unit import Numbered, unit_picture

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.html.parts import (
     SEVERITY_WORDS,

@@ -11,8 +11,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.fingerprints import relative
-from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.findings.base.fingerprints import relative
+from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.shown import printable

@@ -13,11 +13,11 @@ from typing import Any
 from urllib.parse import quote
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.fingerprints import fingerprints, relative
+from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.findings.base.rule import Rule
 from ros2cc_extract.findings.explain import page
-from ros2cc_extract.findings.fingerprints import fingerprints, relative
-from ros2cc_extract.findings.model import Finding, Remark
-from ros2cc_extract.findings.registry import RULES
-from ros2cc_extract.findings.rule import Rule
+from ros2cc_extract.findings.rules.registry import RULES
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.closing import closing_lines
 from ros2cc_extract.shown import json_text

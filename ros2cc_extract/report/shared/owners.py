@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 

@@ -11,8 +11,8 @@ from rich.padding import Padding
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.rules.undecided_wait import CODE as UNDECIDED_WAIT
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.text.confidence import confidence_lines
 from ros2cc_extract.report.text.findings import print_findings, print_in_lines

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.files import read_regular
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.text.verdicts import print_run

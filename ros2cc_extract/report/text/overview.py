@@ -10,7 +10,7 @@ from rich.padding import Padding
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.shared.owners import is_about

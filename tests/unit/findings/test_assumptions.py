@@ -7,7 +7,7 @@ from dataclasses import replace
 from finding_units import ONE_THREAD, at, calls, client, only, timer, unit
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Remark
+from ros2cc_extract.findings.base.model import Remark
 
 SETTING = "self.waits holds, which it does not by default: parameter 'waits' (default False)"
 PERIOD = "period follows from parameter 'period' (default 0.5)"

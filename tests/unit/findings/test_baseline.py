@@ -8,10 +8,10 @@ import pytest
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.findings.baseline import compare, read_baseline, write_baseline
-from ros2cc_extract.findings.fingerprints import fingerprints, relative
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.selection import Selection, select
+from ros2cc_extract.findings.base.fingerprints import fingerprints, relative
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.filters.baseline import compare, read_baseline, write_baseline
+from ros2cc_extract.findings.filters.selection import Selection, select
 from ros2cc_extract.places import Place
 
 CALL = Finding(

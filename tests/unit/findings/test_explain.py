@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.findings.base.rule import Rule
 from ros2cc_extract.findings.explain import explain, pages
-from ros2cc_extract.findings.registry import RULES
-from ros2cc_extract.findings.rule import Rule
+from ros2cc_extract.findings.rules.registry import RULES
 
 DOCS = Path(__file__).parents[3] / 'docs' / 'rules'
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.findings.hang import show_hang
+from ros2cc_extract.findings.waits.hangs import show_hang
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 

@@ -10,7 +10,7 @@ from finding_units import at, exclusive, subscription, threads, timer, unit
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements, read_requirements
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import EntityKind

@@ -29,8 +29,8 @@ from finding_units import (
 )
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.findings.model import Remark
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import Act
 from ros2cc_extract.spec.model import (

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Finding
-from ros2cc_extract.findings.suppress import Ignore, ignores_in, suppress
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.filters.suppress import Ignore, ignores_in, suppress
 from ros2cc_extract.places import Place
 
 TEXT = """\

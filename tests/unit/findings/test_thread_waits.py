@@ -7,7 +7,7 @@ from dataclasses import replace
 import finding_units
 from finding_units import ONE_THREAD, at, calls, subscription, threads, timer, unit
 
-from ros2cc_extract.findings.model import Finding
+from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.close import close

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from finding_units import at, client, exclusive, outside, timer
 
-from ros2cc_extract.findings.words import made_at
+from ros2cc_extract.findings.base.words import made_at
 from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 

@@ -10,7 +10,7 @@ import pytest
 from report_samples import CALL, NOTE, RACE
 
 from ros2cc_extract.extract.static.api import scan
-from ros2cc_extract.findings.model import Finding, Remark
+from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.report.text.check import print_check
 from ros2cc_extract.report.text.style import console_for

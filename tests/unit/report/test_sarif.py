@@ -11,8 +11,8 @@ import jsonschema
 import pytest
 from report_samples import CALL, FINDINGS, NOTE, RACE, RUN
 
-from ros2cc_extract.findings.fingerprints import fingerprints
-from ros2cc_extract.findings.registry import RULES
+from ros2cc_extract.findings.base.fingerprints import fingerprints
+from ros2cc_extract.findings.rules.registry import RULES
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.machine.sarif import MOST_STEPS, sarif
 from ros2cc_extract.verify.results.evidence import Evidence

@@ -131,7 +131,9 @@ def test_unknown_facts_stay_visible() -> None:
 
 
 def test_committed_schema_is_the_one_of_the_tables() -> None:
-    committed = files('ros2cc_extract.spec.yaml').joinpath('schema.json').read_text(encoding='utf-8')
+    committed = (
+        files('ros2cc_extract.spec.yaml').joinpath('schema.json').read_text(encoding='utf-8')
+    )
     assert json.loads(committed) == SPEC.schema
 
 

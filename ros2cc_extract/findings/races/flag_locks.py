@@ -1,0 +1,120 @@
+"""
+Flags by which callbacks keep each other out, as far as they do.
+
+The scanner notes who has found a flag down and put it up
+(``extract/static/concurrency/accesses/flag_locks.py``). That keeps others out where nobody
+else writes the flag, and where no two can find it down at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TypeVar
+
+from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.races.critical_sections import kept_between, read_for
+from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.deeds import FLAG, FOUND_NONE, FOUND_OTHER, FOUND_THIS, Access
+from ros2cc_extract.spec.model import Activity, Callback, Executor
+
+_Doer = TypeVar('_Doer', Callback, Activity)
+
+
+def shared_by(context: Context) -> tuple[Callback, ...]:
+    """The callbacks somebody wrote, with their accesses as flags leave them."""
+    return as_shared(context.written, context)
+
+
+def as_shared(doers: tuple[_Doer, ...], context: Context) -> tuple[_Doer, ...]:
+    """
+    Callbacks, or threads, with their accesses as flags leave them.
+
+    A flag that keeps others out stands among the locks and is no shared data itself; any other
+    is shared data and no lock.
+    """
+    everybody: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)
+    flags = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
+    flags = {lock for lock in flags if lock.endswith(FLAG)}
+    if not flags:
+        return doers
+    kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, context)}
+    return tuple(
+        replace(
+            doer,
+            reads=_judged(doer.reads, kept),
+            writes=_judged(doer.writes, kept),
+            pieces=_judged(doer.pieces, kept),
+        )
+        for doer in doers
+    )
+
+
+def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
+    return (*callback.reads, *callback.writes, *callback.pieces)
+
+
+def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:
+    return tuple(
+        replace(
+            access,
+            locks=tuple(
+                lock
+                for lock in access.locks
+                if not lock.endswith(FLAG) or lock.removesuffix(FLAG) in kept
+            ),
+        )
+        for access in accesses
+        if access.name not in kept
+    )
+
+
+def _keeps_out(flag: str, context: Context) -> bool:
+    """Whether all who write it hold it, and one by one find it down."""
+    name = flag.removesuffix(FLAG)
+    everybody: tuple[Callback | Activity, ...] = (
+        *context.unit.callbacks,
+        *context.unit.activities,
+    )
+    uses = [(one, write) for one in everybody for write in one.writes if write.name == name]
+    if not all(flag in write.locks for _, write in uses):
+        return False
+    setters = [(one, write) for one, write in uses if write.rests]
+    if len({write.found for _, write in setters} - {None}) > 1 and any(
+        write.lowers and write.found == FOUND_NONE for _, write in setters
+    ):
+        # Who asks for the truth of it finds down what is not ``None``.
+        return False
+    found = {write.found for _, write in setters}
+    is_state = any(
+        each is not None and each.startswith((FOUND_THIS, FOUND_OTHER)) for each in found
+    )
+    if is_state and len(found) > 1:
+        # What one of them stores is for another no sign to stay away.
+        return False
+    if not setters:
+        return _is_put_up_in_turn(context.unit.executor)
+    groups = {
+        context.exclusive_group(one) if isinstance(one, Callback) else None for one, _ in setters
+    }
+    if len(groups) == 1 and None not in groups:
+        return True
+    return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _is_put_up_in_turn(executor: Executor) -> bool:
+    """
+    Whether a goal that was accepted runs before the next one is looked at.
+
+    Then a flag that the goal callback finds down is down when execute puts it up. Source: rclpy
+    7.1.6 and 9.1.2, ``executors.py`` (``_wait_for_ready_callbacks`` yields tasks before it waits),
+    ``action/server.py`` (one goal is taken at a time); the events executor keeps another order.
+    """
+    return is_one_thread(executor) and honours_groups(executor)
+
+
+def _locks_of(callback: Callback | Activity, write: Access) -> frozenset[str]:
+    """The locks from the test to the setting."""
+    read = read_for(write, callback)
+    kept = kept_between(read, write, callback) if read is not None else ()
+    return frozenset(lock for lock in kept if not lock.endswith(FLAG))

@@ -1,0 +1,478 @@
+"""
+Shared state that callbacks and threads which may overlap change without a common lock.
+
+A plain assignment is atomic in CPython; what breaks is *read, then write*: an update
+(``self.n += 1``) or a test followed by an assignment. So those weigh more; two updates in place
+(``append``) do not disturb each other, unless one of them rests on what was read before
+(``d[k] = d.get(k) + 1``). That one may mean another item, so it weighs less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import combinations
+
+from ros2cc_extract.findings.base.model import Remark
+from ros2cc_extract.findings.base.rule import Context, Doer
+from ros2cc_extract.findings.base.words import called, listing
+from ros2cc_extract.findings.races import happens_before
+from ros2cc_extract.findings.races.critical_sections import (
+    is_operand,
+    is_other_item,
+    keep_apart,
+    kept_between,
+    read_acted_on,
+    read_for,
+    reads_of,
+    writes_of,
+)
+from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
+from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
+from ros2cc_extract.findings.waits.concurrent_threads import (
+    beside,
+    node_of,
+    repeats_freely,
+    sharing,
+)
+from ros2cc_extract.findings.waits.overlap import Overlap, interleaves, overlap
+from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
+from ros2cc_extract.once import once
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
+from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.order import steps
+from ros2cc_extract.verify.results.evidence import Evidence
+
+
+class RaceKind(Enum):
+    """What goes wrong, the worst first."""
+
+    CHANGED_IN_LOOP = 'changed in a loop'
+    CLEARED_IN_USE = 'cleared in use'
+    TORN = 'torn'
+    LOST_UPDATE = 'lost update'
+    CHECK_THEN_ACT = 'check then act'
+    CHECK_THEN_CHANGE = 'check then change'
+    WHOLE_UPDATE = 'update in one piece'
+    LAST_WRITE_WINS = 'last write wins'
+
+
+LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
+
+
+@dataclass(frozen=True)
+class Use:
+    """A write of an attribute by a callback or a thread, or a loop over it."""
+
+    doer: Doer
+    access: Access
+
+    @property
+    def place(self) -> Place:
+        """Where it stands; the callback where the line is not known."""
+        doer = self.doer
+        return self.access.source or doer.defined or doer.source or Place(doer.name)
+
+
+@dataclass(frozen=True)
+class Race:
+    """
+    Attributes that callbacks may change at the same time.
+
+    :param names: of the attributes; several when the same callback loses against the same others.
+    :param first: the write at which something gets lost, of the first attribute.
+    :param others: the writes that may come in between, one per callback.
+    :param run: a run of the model in which two of them overlap.
+    :param is_flag: what a thread and another test and write is a constant.
+    """
+
+    names: tuple[str, ...]
+    kind: RaceKind
+    first: Use
+    others: tuple[Use, ...]
+    run: Evidence | None
+    is_flag: bool = False
+
+    @property
+    def is_outside_groups(self) -> bool:
+        """True when one of the callbacks is in no group at all."""
+        return any(
+            isinstance(use.doer, Callback) and use.doer.groupless
+            for use in (self.first, *self.others)
+        )
+
+    @property
+    def has_threads(self) -> bool:
+        """True when one of them is a thread of the program's own."""
+        return _is_of_threads(self.first, *self.others)
+
+    @property
+    def subjects(self) -> tuple[str, ...]:
+        """The attributes and the callbacks, which identify the race."""
+        callbacks = (self.first, *self.others)
+        return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
+
+    def related(self) -> tuple[Remark, ...]:
+        """The other writes; one function of several entities is told once."""
+        remarks = (
+            Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
+            for use in self.others
+        )
+        return tuple(dict.fromkeys(remarks))
+
+
+@dataclass(frozen=True)
+class _Conflict:
+    kind: RaceKind
+    first: Use
+    other: Use
+    run: Evidence | None
+
+
+@once
+def races_of(context: Context) -> tuple[Race, ...]:
+    """One race per attributes that the same callbacks change, in the order of first conflicts."""
+    by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
+    threads = as_shared(sharing(context), context)
+    doers: tuple[Doer, ...] = (*shared_by(context), *threads)
+    for one, other in combinations(doers, 2):
+        for owner, conflict in _of_pair(one, other, context):
+            by_attribute.setdefault((owner, conflict.first.access.name), []).append(conflict)
+    for thread in threads:
+        node = node_of(thread, context)
+        if node is not None and repeats_freely(thread, context):
+            for conflict in _of_two_alike(thread):
+                by_attribute.setdefault((node, conflict.first.access.name), []).append(conflict)
+    return tuple(_joined(by_attribute))
+
+
+def races_across(pairs: Iterable[tuple[Doer, Doer]]) -> Iterator[Race]:
+    """Races of doers whose executors run at the same time, each on a thread of its own."""
+    by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
+    for one, other in pairs:
+        if _share_data(one, other):
+            for conflict in _at_once(one, other, Overlap()):
+                by_attribute.setdefault(('', conflict.first.access.name), []).append(conflict)
+    yield from _joined(by_attribute)
+
+
+def _of_pair(one: Doer, other: Doer, context: Context) -> Iterator[tuple[str, _Conflict]]:
+    """What two disturb each other by; of two nodes only what is no part of a node."""
+    nodes = node_of(one, context), node_of(other, context)
+    if None in nodes or not _share_data(one, other):
+        return
+    if nodes[0] != nodes[1]:
+        classes = node_classes((context.unit,))
+        one, other = shared_part(one, classes), shared_part(other, classes)
+    of_one = nodes[0] if nodes[0] == nodes[1] else None
+    for conflict in _conflicts(one, other, context):
+        yield of_one or '', conflict
+
+
+def _joined(by_attribute: Mapping[tuple[str, str], list[_Conflict]]) -> Iterator[Race]:
+    alike: dict[tuple[RaceKind, bool, str, frozenset[str]], list[Race]] = {}
+    for (_, name), conflicts in by_attribute.items():
+        race = _race(name, conflicts)
+        others = frozenset(use.doer.name for use in race.others)
+        key = (race.kind, race.is_flag, race.first.doer.name, others)
+        alike.setdefault(key, []).append(race)
+    yield from map(_join, alike.values())
+
+
+def _join(races: list[Race]) -> Race:
+    ordered = sorted(races, key=lambda race: race.first.place)
+    return replace(ordered[0], names=tuple(name for race in ordered for name in race.names))
+
+
+def describe(race: Race) -> str:
+    """Say what happens to the attributes."""
+    first = called(race.first.doer)
+    others = listing(called(use.doer) for use in race.others)
+    if race.others[0].doer.name == race.first.doer.name:
+        others = 'another thread that runs it'
+    others = f'{others} of another entity' if others == first else others
+    names = listing(race.names, limit=4)
+    it = 'it' if len(race.names) == 1 else 'them'
+    old = 'its old value' if len(race.names) == 1 else 'their old values'
+    return {
+        RaceKind.CHANGED_IN_LOOP: f'{first} goes over {names} in a loop, and {others} may change '
+        f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
+        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
+        f'{it} to None in between: the use then ends in an exception',
+        RaceKind.TORN: f'{first} publishes {names}, and {others} may be changing {it} piece by '
+        'piece at the same time: the message is part old and part new',
+        RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
+        'at the same time: one of the changes can get lost',
+        RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
+        f'write {it} in between: what was read no longer holds',
+        RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '
+        f'{others} may change {it} in between: what was read may no longer hold',
+        RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
+        f'may write {it} at the same time: {IN_ONE_PIECE}',
+        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
+        'last one wins',
+    }[race.kind]
+
+
+IN_ONE_PIECE = (
+    'CPython does it in one piece by its global lock, which the language does not promise and '
+    'free-threaded builds lack'
+)
+
+
+def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
+    if not _share_data(one, other):
+        return
+    together: Overlap | None = None
+    if isinstance(one, Callback) and isinstance(other, Callback):
+        together = overlap(one, other, context)
+        if together is None:
+            yield from _over_awaits(one, other, context)
+        one, other = (
+            happens_before.meeting(one, other, context),
+            happens_before.meeting(other, one, context),
+        )
+    elif (meeting := beside(one, other, context)) is not None:
+        together, (one, other) = Overlap(), meeting
+    if together is not None:
+        yield from _at_once(one, other, together)
+
+
+def _share_data(one: Doer, other: Doer) -> bool:
+    written = (writes_of(one).keys(), writes_of(other).keys())
+    read = (reads_of(one).keys(), reads_of(other).keys())
+    torn = {piece.name for piece in one.pieces} & {piece.name for piece in other.pieces}
+    return bool(torn) or not (
+        written[0].isdisjoint(written[1])
+        and written[0].isdisjoint(read[1])
+        and written[1].isdisjoint(read[0])
+    )
+
+
+def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
+    """What two threads that run the same lose; that both store the same is no matter."""
+    for conflict in _at_once(thread, thread, Overlap()):
+        if conflict.kind in LOSING:
+            yield conflict
+
+
+def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
+    written = {access.name for access in one.writes} & {access.name for access in other.writes}
+    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
+    others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
+    others += [(RaceKind.TORN, *pair) for pair in _torn(one, other)]
+    for name in sorted(written | {use.access.name for _, use, _ in others}):
+        pairs = [
+            (Use(one, a), Use(other, b))
+            for a in writes_of(one).get(name, ())
+            for b in writes_of(other).get(name, ())
+            if not is_other_item(a, b)
+            and not comes_before(a, one, other)
+            and not comes_before(b, other, one)
+        ]
+        classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
+        classified += [found for found in others if found[1].access.name == name]
+        if classified:
+            kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
+            yield _Conflict(kind, first, second, together.run)
+
+
+def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_Conflict]:
+    """What a coroutine read before it awaited, and writes or uses because of that afterwards."""
+    for callback, rival in ((one, other), (other, one)):
+        if interleaves(callback, rival, context):
+            pairs = (
+                (Use(callback, a), Use(rival, b)) for a in callback.writes for b in rival.writes
+            )
+            for first, second in pairs:
+                if first.access.name == second.access.name and _is_stale(first, second):
+                    yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
+
+
+def _is_stale(first: Use, second: Use) -> bool:
+    write, doer = first.access, first.doer
+    read = read_acted_on(write, doer, second.access)
+    if read is None or is_other_item(write, second.access) or _leaves_as_found(first, second):
+        return False
+    awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
+    over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
+    return over_await and not keep_apart(kept_between(read, write, doer), second.access.locks)
+
+
+def _torn(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Objects that one publishes and the other changes piece by piece, without a common lock."""
+    for sender, changer in ((one, other), (other, one)):
+        yield from (
+            (Use(sender, sent), Use(changer, change))
+            for sent in sender.pieces
+            for change in changer.pieces
+            if sent.name == change.name
+            and change.update
+            and not sent.update
+            and _may_meet(Use(sender, sent), Use(changer, change))
+        )
+
+
+def _may_meet(first: Use, second: Use) -> bool:
+    """Whether no common lock keeps them apart, and neither is over before the other begins."""
+    return not (
+        keep_apart(first.access.locks, second.access.locks)
+        or comes_before(second.access, second.doer, first.doer)
+        or comes_before(first.access, first.doer, second.doer)
+    )
+
+
+# Their loops notice a change of size; those over a list see more or less, and raise nothing.
+_NOTICING = frozenset({'dict', 'set', 'deque'})
+
+
+def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Loops of one over a collection that the other changes in place, without a common lock."""
+    for looper, changer in ((one, other), (other, one)):
+        for read in looper.reads:
+            if read.iterates in _NOTICING:
+                yield from (
+                    (Use(looper, read), Use(changer, write))
+                    for write in changer.writes
+                    if write.name == read.name
+                    and write.in_place
+                    and not write.keeps_size
+                    and _may_meet(Use(looper, read), Use(changer, write))
+                )
+
+
+def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Objects that one tests and then uses, and the other sets to ``None`` in between."""
+    for user, clearer in ((one, other), (other, one)):
+        cleared = writes_of(clearer)
+        for use in (*user.reads, *(write for write in user.writes if write.in_place)):
+            clears = [write for write in cleared.get(use.name, ()) if write.clears]
+            tested = read_for(use, user) if use.rests and clears else None
+            if tested is not None:
+                kept = kept_between(tested, use, user)
+                yield from (
+                    (Use(user, use), Use(clearer, write))
+                    for write in clears
+                    if not keep_apart(kept, write.locks)
+                    and not comes_before(use, user, clearer)
+                    and not comes_before(write, clearer, user)
+                )
+
+
+def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+    if keep_apart(one.access.locks, other.access.locks):
+        return _classify_locked(one, other)
+    for first, second in ((one, other), (other, one)):
+        if first.access.update and not first.access.in_place and _may_be_lost(first, second):
+            return RaceKind.LOST_UPDATE, first, second
+    for first, second in ((one, other), (other, one)):
+        if first.access.whole:
+            continue
+        is_told = read_acted_on(first.access, first.doer, second.access) is not None
+        is_told = is_told or (first.access.rests and not first.access.in_place)
+        is_told = is_told and not _leaves_as_found(first, second)
+        if is_told and _is_read_before(first, second):
+            return RaceKind.CHECK_THEN_ACT, first, second
+    for first, second in ((one, other), (other, one)):
+        is_told = first.access.in_place and not _leaves_enough(first, second)
+        if is_told and _is_read_before(first, second) and first.access.rests:
+            return RaceKind.CHECK_THEN_CHANGE, first, second
+    for first, second in ((one, other), (other, one)):
+        if first.access.whole:
+            return RaceKind.WHOLE_UPDATE, first, second
+    if one.access.in_place and other.access.in_place:
+        return None
+    if _leaves_as_found(one, other) or _leaves_as_found(other, one):
+        return None
+    return RaceKind.LAST_WRITE_WINS, one, other
+
+
+def _may_be_lost(update: Use, rival: Use) -> bool:
+    """
+    Whether another write may meet the update in the middle, or wipe it out.
+
+    So does one that has read it before: ``print(self.n); self.n = 0``.
+    """
+    is_whole = update.access.whole
+    return not is_whole or (not rival.access.whole and _is_read_before(rival, update))
+
+
+def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+    """A lock helps only who keeps it from what was read to what is written because of that."""
+    for first, second in ((one, other), (other, one)):
+        write = first.access
+        read = read_acted_on(write, first.doer, second.access)
+        if _leaves_as_found(first, second):
+            continue
+        if read is not None and not keep_apart(
+            kept_between(read, write, first.doer), second.access.locks
+        ):
+            return RaceKind.CHECK_THEN_ACT, first, second
+    return None
+
+
+def _leaves_enough(first: Use, second: Use) -> bool:
+    """Who takes an item out because there is one finds one, whatever others put in."""
+    return first.access.moves == TAKES and second.access.moves == ADDS
+
+
+def _leaves_as_found(first: Use, second: Use) -> bool:
+    """Whether a write stores what the test of another has found: then that still holds."""
+    found, write = first.access.found, second.access
+    is_empty = found in (FOUND_NONE, FOUND_FALSE)
+    return (is_empty and write.clears) or (found == FOUND_FALSE and write.lowers)
+
+
+def _is_of_threads(*uses: Use) -> bool:
+    return any(isinstance(use.doer, Activity) for use in uses)
+
+
+def _is_read_before(first: Use, second: Use) -> bool:
+    """True when ``first``'s callback also reads the attribute, without a lock of ``second``'s."""
+    write = first.access
+    end, changed_at = steps(write), _changed_at(first.doer)
+    return any(
+        not is_other_item(read, second.access)
+        and (at < end or (write.in_place and is_operand(read, write)))
+        and at not in changed_at
+        and not keep_apart(read.locks, second.access.locks)
+        for at, read in reads_of(first.doer).get(write.name, ())
+    )
+
+
+@once
+def _changed_at(doer: Doer) -> frozenset[tuple[Place, ...]]:
+    return frozenset(steps(write) for write in doer.writes if write.in_place)
+
+
+def _is_flag(conflict: _Conflict) -> bool:
+    """A thread and another test a flag and store a constant: no value is computed from it."""
+    return conflict.first.access.constant and _is_of_threads(conflict.first, conflict.other)
+
+
+def _race(name: str, conflicts: list[_Conflict]) -> Race:
+    worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
+    first = worst.first.doer.name
+    uses = [
+        use
+        for conflict in conflicts
+        if first in (conflict.first.doer.name, conflict.other.doer.name)
+        for use in (conflict.first, conflict.other)
+    ]
+    others = {use.doer.name: use for use in reversed(uses)}
+    others.pop(first, None)
+    order = dict.fromkeys(use.doer.name for use in uses)
+    return Race(
+        names=(name,),
+        kind=worst.kind,
+        first=worst.first,
+        others=tuple(others[doer] for doer in order if doer in others) or (worst.other,),
+        run=worst.run or next((c.run for c in conflicts if c.run), None),
+        is_flag=all(_is_flag(conflict) for conflict in conflicts if conflict.kind is worst.kind),
+    )
+
+
+_WEIGHT = {kind: weight for weight, kind in enumerate(RaceKind)}

@@ -1,0 +1,312 @@
+"""CC109: the model knows a run in which somebody waits for ever, and no other rule says why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.model import Remark
+from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
+from ros2cc_extract.findings.base.words import called, listing, made_at, shown
+from ros2cc_extract.findings.rules.deadlocks import (
+    lock_over_wait,
+    nested_spin,
+    one_thread_call,
+    own_group_await,
+    own_group_call,
+    pool_exhausted,
+    rate_on_one_thread,
+)
+from ros2cc_extract.findings.waits.exhausted_permits import kept_for, used_up
+from ros2cc_extract.findings.waits.stuck_callbacks import Stuck, shut_out_for, stuck_in, why_stuck
+from ros2cc_extract.findings.waits.verdicts import (
+    PROGRESS,
+    is_of_repeated,
+    refuting_run,
+    rests_on_absent_service,
+    shown_hang,
+)
+from ros2cc_extract.findings.waits.waits import (
+    AnyWait,
+    Wait,
+    at_one_place,
+    callers_of,
+    kind_of,
+    waits_in,
+    ways_of_others,
+    who_waits,
+)
+from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.spec.model import Activity, ActivityKind
+
+EXPLAINED = (
+    own_group_call,
+    one_thread_call,
+    pool_exhausted,
+    own_group_await,
+    rate_on_one_thread,
+    nested_spin,
+    lock_over_wait,
+)
+
+
+def find(context: Context) -> Iterator[Hit]:
+    """
+    One finding for all that hang together, where all facts are known.
+
+    Who is held up by a wait that another rule explains is no finding of its own.
+    """
+    yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
+    if not open_facts(context):
+        yield from hits_of(context)
+        for wait in used_up(context):
+            yield _once_used_up(wait, context)
+
+
+def _all_concern(_together: Sequence[Stuck]) -> bool:
+    return True
+
+
+def hits_of(
+    context: Context, concerns: Callable[[Sequence[Stuck]], bool] = _all_concern
+) -> Iterator[Hit]:
+    """
+    One finding for all that hang together.
+
+    :param concerns: whether it is to be told of those.
+    """
+    for together, stuck in unexplained(context):
+        if concerns(together):
+            yield _hit(together, stuck, context)
+
+
+def _for_writers(context: Context) -> Iterator[AnyWait]:
+    """Waits for the end of children that wait for somebody to read what they write."""
+    for doer in context.doers:
+        blocks = (block for block in doer.blocking if block.unread is not None)
+        yield from (AnyWait(doer, block, kind_of(block)) for block in blocks)
+
+
+def _unread(waits: Sequence[AnyWait]) -> Hit:
+    wait = waits[0]
+    pipe = f'the pipe of its {wait.block.unread}'
+    it = 'it waits' if len(callers_of(waits)) == 1 else 'they wait'
+    return Hit(
+        place=wait.place,
+        message=f'{who_waits(waits)} in {waits_in(wait)} for a child process, and nobody reads '
+        f'{pipe} meanwhile: once that is full the child waits for a reader, and {it} for ever',
+        help='use communicate(), which reads while it waits; read the pipe before or in a thread, '
+        'or write to a file or DEVNULL',
+        severity=Severity.WARNING,
+        subjects=callers_of(waits),
+        chain=wait.chain,
+        related=tuple(ways_of_others(waits)),
+    )
+
+
+def _once_used_up(wait: Wait, context: Context) -> Hit:
+    givers = tuple(dict.fromkeys(waker.by for waker in wait.block.wakers))
+    doers = [context.doer_by_name[name] for name in givers]
+    needed = [
+        each
+        for doer in doers
+        if isinstance(doer, Activity)
+        for each in kept_for(doer, wait.caller, context)
+    ]
+    who, what = called(wait.caller), wait.block.resource or 'it'
+    by, kept = shown(doers), shown(needed)
+    cannot = f'{by} cannot run meanwhile' if givers else 'nobody gives back'
+    if needed:
+        cannot = f'{by} may be waiting for {kept} then, which cannot run meanwhile'
+    return Hit(
+        place=wait.place,
+        message=f'{who} waits in {waits_in(wait)} for {what} once nothing of it is left, and '
+        f'{cannot}: it waits for ever',
+        help=f'let {kept or by} run beside {who}, on a thread and in a group of its own, or do '
+        'not wait'
+        if givers
+        else 'end it somewhere, or give it a time-out',
+        severity=Severity.WARNING,
+        subjects=(wait.caller.name, *givers),
+        chain=wait.chain,
+        related=tuple(made_at(wait.caller, *doers, *needed)),
+    )
+
+
+def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
+    """Waits that the model refutes and no other rule explains, with all that stands still then."""
+    explained = {
+        subject for rule in EXPLAINED for hit in rule.find(context) for subject in hit.subjects
+    }
+    told: set[str] = set()
+    for caller in context.doers:
+        run = refuting_run(PROGRESS, context, caller)
+        if run is None or rests_on_absent_service(run) or caller.name in told:
+            continue
+        stuck = stuck_in(run, context)
+        names = {each.doer.name for each in stuck}
+        if caller.name in names and not names & explained:
+            together = _together(caller.name, stuck)
+            block = together[0].wait.block
+            # A thread that the program ends at its end waits as long as it is meant to.
+            if block.call == WORKING_LOOP or block.at_end is not None:
+                continue
+            told.update(each.doer.name for each in together)
+            yield together, stuck
+
+
+def open_facts(context: Context) -> str:
+    """Say what is not known of the unit and might undo a run; empty where all is known."""
+    executor = workers_of(context.unit.executor)
+    if isinstance(executor, Unknown):
+        return f'the executor is not known ({executor.reason})'
+    facts = (fact for fact in context.unit.unresolved if fact.fact in _MATTERS)
+    fact = next(facts, None)
+    return f'{fact.fact} of {fact.subject} is not known ({fact.reason})' if fact else ''
+
+
+_MATTERS = ('entities', 'group', 'executor', 'function', 'threads')
+"""Facts of a unit that may change who runs beside whom, or who ends a wait."""
+
+
+def _together(first: str, stuck: Sequence[Stuck]) -> list[Stuck]:
+    """``first`` and those of the others that stand in its way, which begin with it."""
+    names = {first}
+    while True:
+        needed = {name for each in stuck if each.doer.name in names for name in each.enders}
+        wider = names | {each.doer.name for each in stuck if each.doer.name in needed}
+        if wider == names:
+            return sorted(
+                (each for each in stuck if each.doer.name in names),
+                key=lambda each: each.doer.name != first,
+            )
+        names = wider
+
+
+def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit:
+    first = together[0]
+    who = f'{called(first.doer)} waits in {waits_in(first.wait)}'
+    named = f' for {first.what}' if first.what else ''
+    workers = workers_of(context.unit.executor)
+    reason = why_stuck(first, stuck, context)
+    is_counted = isinstance(workers, Workers) and workers.is_default
+    names = [each.doer.name for each in together]
+    repeated = _repeated(stuck) if is_of_repeated(first.doer, context) else ()
+    where = _where_repeated(repeated)
+    severity = Severity.WARNING if is_counted or _keeps_the_program(first) else None
+    return Hit(
+        place=first.wait.place,
+        message=f'{who}{named}, but {reason}: it waits for ever{where}',
+        help=_help_where_repeated(repeated) if where else _help(first, together, context),
+        severity=Severity.NOTE if where else severity,
+        subjects=tuple(dict.fromkeys([*names, *first.enders])),
+        chain=first.wait.chain,
+        related=tuple(
+            Remark(
+                each.wait.place,
+                f'{called(each.doer)} waits here in {waits_in(each.wait)}',
+            )
+            for each in together[1:]
+            if each.wait.place != first.wait.place
+        ),
+        run=shown_hang(first.doer, {*names, *first.enders}, context),
+    )
+
+
+def _repeated(stuck: Sequence[Stuck]) -> tuple[Doer, ...]:
+    """Who stands still in several runs at a time."""
+    doers = [each.doer for each in stuck]
+    return tuple(dict.fromkeys(doer for doer in doers if doers.count(doer) > 1))
+
+
+def _where_repeated(repeated: Sequence[Doer]) -> str:
+    if not repeated:
+        return ''
+    itself = 'itself' if len(repeated) == 1 else 'themselves'
+    return f' where {listing(map(called, repeated))} may overlap {itself} so often'
+
+
+def _help_where_repeated(repeated: Sequence[Doer]) -> str:
+    names = listing(map(called, repeated))
+    return f'put {names} into a mutually exclusive group of its own, with a thread to spare'
+
+
+def _keeps_the_program(stuck: Stuck) -> bool:
+    """What nobody else touches may be meant to keep ``main`` from its end."""
+    is_main = isinstance(stuck.doer, Activity) and stuck.doer.kind is ActivityKind.MAIN
+    return is_main and not stuck.enders and stuck.wait.block.call == 'Event.wait'
+
+
+def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
+    if not first.enders:
+        return 'end it somewhere, or give it a time-out'
+    if first.wait.block.forgets:
+        return (
+            'ask for what is waited for before waiting, under the lock and in a loop '
+            '(`while not self.ready: self.condition.wait()`), or give the wait a time-out'
+        )
+    served = [name for name in first.enders if name in context.by_name]
+    if len(together) > 1:
+        return (
+            f'break the circle of {listing(called(each.doer) for each in together)}: '
+            'one of them must not wait'
+        )
+    if served and is_one_thread(context.unit.executor):
+        return (
+            f'use MultiThreadedExecutor(num_threads=2) or more, with {listing(served)} in '
+            'another group, or look from a timer instead of waiting'
+        )
+    shut_out = shut_out_for(first, together, context)
+    if shut_out:
+        return f'give {listing(shut_out)} a callback group of its own, or the wait a time-out'
+    return (
+        f'see to it that {listing(first.enders)} can run while {called(first.doer)} '
+        'waits, or give the wait a time-out'
+    )
+
+
+RULE = Rule(
+    code='CC109',
+    slug='never-ends',
+    severity=Severity.ERROR,
+    title='Callback that waits for ever',
+    what='The model of the unit knows a run after which a callback, `main` or a thread of the '
+    'program waits and nothing moves any more: nobody ends the wait, or whoever could cannot '
+    'run, comes too early, or waits itself. This is the general rule; where a cause has a name '
+    'of its own, its rule speaks instead. Executors of one program that run at the same time '
+    'and wait for each other are judged together. The run is shown. As a note: it takes '
+    'several runs of one callback at a time, which a reentrant group allows, to hold all '
+    'threads or a lock; whether so many come together the rates decide. As a warning: a bounded '
+    'queue or a semaphore is used up by earlier runs, and who gives back, or whom the thread that '
+    'does so waits for, cannot run while somebody waits; or the end of a child process is waited '
+    'for while nobody reads the pipe it writes to.',
+    why='A thread of the program that is no daemon keeps the process from its end. A callback '
+    'keeps its thread and its mutually exclusive group while it waits. Two services that call '
+    'each other each keep the group that the other needs. Decided by the model of profile '
+    '`rclpy`, in which a waiting callback stays where it is until what it needs has run. '
+    'A pipe holds 64 KiB on Linux; a child that writes more waits for a reader. Sources: '
+    'Python 3.12, library reference, `subprocess` (`Popen.wait`); pipe(7); '
+    'rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, `callback_groups.py`.',
+    bad="""\
+class Arms(Node):            # on_left and on_right each in a group of its own,
+    def on_left(self, request, response):     # as are the clients
+        return self.right_client.call(request)
+
+    def on_right(self, request, response):
+        return self.left_client.call(request)
+""",
+    good="""\
+class Arms(Node):
+    def on_left(self, request, response):
+        return self.right_client.call(request)
+
+    def on_right(self, request, response):
+        return response
+""",
+    mend='Let whoever ends the wait run beside it: on a thread and in a group of its own. Break a '
+    'circle of waits: let one of them send by `call_async` and go on in a done-callback. Give a '
+    'wait that nobody may end a time-out.',
+    find=find,
+)

@@ -1,0 +1,85 @@
+"""CC104: an ``await`` for a callback of the coroutine's own mutually exclusive group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.words import group_words, made_at
+from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
+from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
+from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_for, waits_of
+from ros2cc_extract.findings.waits.workers import honours_groups
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.model import Callback
+
+
+def find(context: Context) -> Iterator[Hit]:
+    if not honours_groups(context.unit.executor):
+        return
+    for wait in waits_of(context):
+        shut_out = shut_out_by(wait, context)
+        if wait.kind is not WaitKind.AWAIT or shut_out is None:
+            continue
+        if not surely_ends(wait, context):
+            yield _hit(wait, shut_out, context)
+
+
+def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
+    caller = wait.caller.display_name
+    group = context.group_of(shut_out)
+    is_open = isinstance(context.unit.executor.kind, Unknown)
+    where = ' on every executor but the EventsExecutor' if is_open else ''
+    return Hit(
+        place=wait.place,
+        message=f'{caller} awaits {waits_for(wait)} while it keeps {group_words(group)} closed, '
+        f'and {shut_out.display_name} is in that group: it never resumes{where}, and no other '
+        'member of the group runs again',
+        help=f'give {shut_out.display_name} a callback group of its own or a reentrant one',
+        severity=Severity.WARNING if is_open else None,
+        subjects=(wait.caller.name, shut_out.name),
+        chain=wait.chain,
+        related=tuple(made_at(wait.caller, shut_out, group)),
+        run=run_in_which_one_hangs([wait], context),
+    )
+
+
+RULE = Rule(
+    code='CC104',
+    slug='own-group-await',
+    severity=Severity.ERROR,
+    title='Await within the own callback group',
+    what='A coroutine callback awaits something that only another callback of the same mutually '
+    'exclusive group can deliver. No thread is blocked, but the group stays closed for ever.',
+    why='An `await` gives the thread back and not the group: `ending_execution` is called when '
+    'the coroutine has ended. Until then no member of the group runs, and neither does the '
+    'client whose answer is awaited. The `EventsExecutor` never asks the groups and is not '
+    'concerned. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `task.py`. '
+    'Measured: 0 completions, the sibling timer frozen too.',
+    bad="""\
+class Gate(Node):
+    def __init__(self):
+        super().__init__('gate')
+        self.client = self.create_client(Trigger, 'lock')
+        self.create_service(Trigger, 'open', self.on_open)
+
+    async def on_open(self, request, response):
+        await self.client.call_async(Trigger.Request())
+        return response
+""",
+    good="""\
+class Gate(Node):
+    def __init__(self):
+        super().__init__('gate')
+        self.client = self.create_client(
+            Trigger, 'lock', callback_group=MutuallyExclusiveCallbackGroup())
+        self.create_service(Trigger, 'open', self.on_open)
+
+    async def on_open(self, request, response):
+        await self.client.call_async(Trigger.Request())
+        return response
+""",
+    mend='Put what is awaited into another callback group, or make the group reentrant.',
+    find=find,
+)

@@ -1,0 +1,350 @@
+"""CC120 and CC121: waits whose end the model does not know, and waits that others outside end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ros2cc_extract.checker.api import Verdict
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.words import listing, shown
+from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
+from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
+from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
+from ros2cc_extract.findings.waits.verdicts import PROGRESS, refuting_run, surely_ends, verdict_on
+from ros2cc_extract.findings.waits.waits import (
+    AnyWait,
+    WaitKind,
+    at_one_place,
+    callers_of,
+    kind_of,
+    waits_in,
+    ways_of_others,
+    who_waits,
+)
+from ros2cc_extract.places import Unknown
+from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
+from ros2cc_extract.verify.results.caveats import open_ends
+
+CODE = 'CC120'
+_TO_THE_END = frozenset({'Thread.join', 'polling loop'})
+_FOREIGN = frozenset({'await', 'unknown wait'})
+_NOBODY_KNOWN = 'it is not known who ends it'
+_WAKES_NOBODY = (
+    'only a thread ends it, which wakes no executor: it goes on once something else does so'
+)
+
+
+def find_undecided(context: Context) -> Iterator[Hit]:
+    """One line for each wait, however many callbacks it may hold up."""
+    yield from _hits(context, is_outside=False)
+
+
+def find_outside(context: Context) -> Iterator[Hit]:
+    """What ends by another process or the operating system, if it ends."""
+    yield from _hits(context, is_outside=True)
+
+
+def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
+    reasons: dict[int, str] = {}
+    waits: list[AnyWait] = []
+    ends = open_ends(context.unit)
+    for caller in context.doers:
+        for block, reason in _open(caller.blocking, ends[caller.name]):
+            wait = AnyWait(caller, block, kind_of(block))
+            is_settled = not is_outside and surely_ends(wait, context)
+            is_none = is_settled or block.call == WORKING_LOOP or _is_for_spinning(wait, context)
+            is_none = is_none or is_used_up(block, caller, context)
+            is_none = is_none or _holds_nobody_up(wait, context)
+            if _ends_outside(block) is is_outside and not is_none:
+                waits.append(wait)
+                reasons[id(wait)] = reason
+    if not is_outside:
+        for wait in _cut_short(context, waits):
+            waits.append(wait)
+            reasons[id(wait)] = _limit_of(wait, context)
+        for wait in _unwoken(context):
+            waits.append(wait)
+            reasons[id(wait)] = _WAKES_NOBODY
+        for wait in _not_proven(context):
+            waits.append(wait)
+            reasons[id(wait)] = open_facts(context)
+        for wait in _of_set_up(context):
+            waits.append(wait)
+            reasons[id(wait)] = _reason(wait.block)
+    else:
+        for wait in _for_messages(context):
+            waits.append(wait)
+            reasons[id(wait)] = ''
+    for alike in at_one_place(waits):
+        yield _hit(alike, reasons[id(alike[0])], context, is_outside=is_outside)
+
+
+def _for_messages(context: Context) -> Iterator[AnyWait]:
+    """
+    Waits for messages from another process: answers, and what nobody here can send meanwhile.
+
+    Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
+    anyhow, that is told.
+    """
+    for caller in context.doers:
+        if refuting_run(PROGRESS, context, caller) is None:
+            for block in caller.blocking:
+                if block.answer_to is not None or block.unsent is not None:
+                    yield AnyWait(caller, block, kind_of(block))
+
+
+def _open(
+    blocking: Sequence[Blocking], unknown: Sequence[Blocking]
+) -> Iterator[tuple[Blocking, str]]:
+    for block in blocking:
+        if any(block is each for each in unknown):
+            yield block, _reason(block)
+
+
+def _reason(block: Blocking) -> str:
+    if block.escapes is not None:
+        return f'it is not known who ends it: {block.escapes.reason}'
+    if isinstance(block.on, Unknown):
+        return f'{_NOBODY_KNOWN}: {block.on.reason}'
+    return _NOBODY_KNOWN
+
+
+def _ends_outside(block: Blocking) -> bool:
+    wakers = {waker.by for waker in block.wakers}
+    return block.escapes is None and OUTSIDE in wakers and block.unread is None
+
+
+def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
+    """
+    A thread that waits for the end of one that spins lives as long as the program.
+
+    So does one that goes round until a signal comes, or until the program ends; and the main
+    program, where no other thread needs it, waits until somebody wants it to go on or to end.
+    """
+    if not isinstance(wait.caller, Activity) or wait.block.answer_to is not None:
+        return False
+    is_main = wait.caller.kind is ActivityKind.MAIN and not _is_needed(wait, context)
+    return (is_main or wait.block.call in _TO_THE_END) and _ends_outside(wait.block)
+
+
+def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
+    """
+    Whether a thread waits in code that is not followed, and nobody needs it to go on.
+
+    A server on a loop of its own does nothing else.
+    """
+    is_thread = _is_foreign(wait.block) and isinstance(wait.caller, Activity)
+    return is_thread and not _is_needed(wait, context)
+
+
+def _is_needed(wait: AnyWait, context: Context) -> bool:
+    """Whether others wait for its caller, for what that signals, or for a lock that it holds."""
+    name = wait.caller.name
+    others = (each for doer in context.doers if doer.name != name for each in doer.blocking)
+    is_waker = any(waker.by == name for each in others for waker in each.wakers)
+    return bool(wait.block.held) or is_waker
+
+
+def _is_foreign(block: Blocking) -> bool:
+    return isinstance(block.on, Unknown) and block.call in _FOREIGN
+
+
+def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
+    """
+    Waits of callbacks about whose end a limit of the checker has left the question open.
+
+    Or that end only by what nobody knows to come; where a wait is told already, claims about
+    ends may be open for its reason.
+    """
+    callers = {wait.caller.name for wait in told}
+    for caller in context.doers:
+        result = verdict_on(PROGRESS, context, caller)
+        if result is None or result.verdict is not Verdict.UNDECIDED or caller.name in callers:
+            continue
+        if result.in_doubt or not told:
+            yield from (
+                AnyWait(caller, block, kind_of(block))
+                for block in caller.blocking
+                if kind_of(block) is not WaitKind.SLEEP
+                and block.seconds is None
+                and block.call != WORKING_LOOP
+            )
+
+
+def _unwoken(context: Context) -> Iterator[AnyWait]:
+    """
+    Awaits that a thread ends, and that last for ever in the model, which knows no other wake-up.
+
+    Whether somebody calls ``wake``, or else something comes, the specification does not say.
+    """
+    for caller in context.written:
+        run = refuting_run(PROGRESS, context, caller)
+        if run is None or caller.name in {stuck.doer.name for stuck in stuck_in(run, context)}:
+            continue
+        for block in caller.blocking:
+            if _is_by_thread(block):
+                yield AnyWait(caller, block, kind_of(block))
+
+
+def _is_by_thread(block: Blocking) -> bool:
+    return block.call == 'await' and block.foreign and block.seconds is None
+
+
+def _not_proven(context: Context) -> Iterator[AnyWait]:
+    """Waits that last for ever in the model of a unit of which not all facts are known."""
+    if open_facts(context):
+        yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
+
+
+def _of_set_up(context: Context) -> Iterator[AnyWait]:
+    """
+    Waits of code that no callback runs; what others outside end there is taken to end.
+
+    An await of a library's coroutine holds up nobody but its own coroutine, whatever it is called.
+    """
+    name = 'main' if context.unit.entry is not None else 'the set-up'
+    caller = Activity(name=name, kind=ActivityKind.MAIN)
+    foreign = [block for block in context.unit.set_up if _is_foreign(block)]
+    awaits = {_line_of(block) for block in foreign if block.call == 'await'}
+    for block in context.unit.set_up:
+        is_awaited = _is_foreign(block) and _line_of(block) in awaits
+        if block.escapes is not None and block.seconds is None and not is_awaited:
+            yield AnyWait(caller, block, kind_of(block))
+
+
+def _line_of(block: Blocking) -> object:
+    return (block.source.file, block.source.line) if block.source is not None else None
+
+
+def _limit_of(wait: AnyWait, context: Context) -> str:
+    result = verdict_on(PROGRESS, context, wait.caller)
+    return (result.reason if result else None) or 'a limit was hit'
+
+
+def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
+    """Who publishes them here."""
+    for doer in context.doers:
+        names = (act.name for act in doer.publishes if isinstance(act.name, str))
+        if any(name.strip('/') in topics.split(', ') for name in names):
+            yield doer
+
+
+def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside: bool) -> Hit:
+    wait = waits[0]
+    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
+    named = f' for {what}' if what else ''
+    verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
+    start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
+    ends = f'and {verb} for ever if {_nobody_else(wait)} ends it'
+    if wait.block.answer_to is not None and is_outside:
+        topic = wait.block.answer_to
+        ends = (
+            f'and {verb} for ever if nobody outside this program answers the message on {topic}, '
+            'or one of the two is lost'
+        )
+    elif wait.block.unsent is not None and is_outside:
+        topic = wait.block.unsent
+        ends = (
+            f'and {verb} for ever if nobody outside this program publishes {topic}, as '
+            f'{shown(_senders(topic, context))} cannot do so meanwhile'
+        )
+    return Hit(
+        place=wait.place,
+        message=f'{start} without a time-out, {ends}'
+        if is_outside
+        else f'not decided: {start}, and {reason}',
+        help=_help(wait, is_outside=is_outside),
+        subjects=callers_of(waits),
+        chain=wait.chain,
+        related=tuple(ways_of_others(waits)),
+        cause=waits_in(wait),
+    )
+
+
+def _help(wait: AnyWait, *, is_outside: bool) -> str:
+    """A loop has no time-out; who waits in a thread of its own is in one already."""
+    if is_outside:
+        own = '' if isinstance(wait.caller, Activity) else ', or do it in a thread of its own'
+        return f'give it a time-out{own}'
+    if _is_by_thread(wait.block):
+        return 'call wake() of the executor after that, or let a callback end it'
+    if wait.block.call == ENDLESS_LOOP:
+        return 'let a timer do the work of the loop'
+    return 'give it a time-out, or see to it that whoever ends it can be followed'
+
+
+def _nobody_else(wait: AnyWait) -> str:
+    """
+    Whom the unit does not show, with those of the unit that end it too.
+
+    That may be another executor of the same program: units are judged one by one.
+    """
+    inside = [waker.by for waker in wait.block.wakers if waker.by not in (OUTSIDE, TIME)]
+    others = 'else' if isinstance(wait.caller, Activity) else 'outside its executor'
+    return f'neither {listing(inside)} nor anybody {others}' if inside else f'nobody {others}'
+
+
+UNDECIDED = Rule(
+    code=CODE,
+    slug='undecided-wait',
+    severity=Severity.NOTE,
+    title='Wait that could not be decided',
+    what='A callback, `main` or a thread waits for something, and whoever ends that wait could '
+    'not be followed: the object was handed to code that is not in sight, or nobody in sight '
+    'ends it. So is an await of what a thread makes done: that wakes no executor, and nobody '
+    'knows when something else does. Whether the wait ends is open, and so is every claim that '
+    'rests on it. There is one line for each wait, not for each callback that it may hold up. '
+    'With `--strict` the exit status is 3.',
+    why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
+    'result means that no wait can last for ever; where that is not known it is said. Sources: '
+    'rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py`.',
+    bad="""\
+class Feeder(Node):
+    def __init__(self):
+        super().__init__('feeder')
+        self.jobs = connect_to_plant()           # a library whose source is not in sight
+        self.create_timer(0.5, self.feed)
+
+    def feed(self):
+        self.jobs.wait()
+""",
+    good="""\
+class Feeder(Node):
+    def feed(self):
+        self.jobs.wait(timeout=0.1)
+""",
+    mend='Give the wait a time-out. Or let a callback or a thread in sight end it, so that the '
+    'model can decide it.',
+    find=find_undecided,
+)
+
+OUTSIDE_WAIT = Rule(
+    code='CC121',
+    slug='outside-wait',
+    severity=Severity.NOTE,
+    title='Wait that nobody on its executor ends',
+    what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
+    'serial line or a person, for what another executor or program does, for the message by '
+    'which another program answers one that was published before, or for a message that nobody '
+    'in this program publishes before the wait has ended, as its publishers are in the same '
+    'group. The verdicts assume that it ends. If it does not, a callback keeps its thread and its '
+    'mutually exclusive group for ever, and a thread keeps the process.',
+    why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
+    'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
+    'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '
+    'returns.',
+    bad="""\
+class Feeder(Node):
+    def feed(self):
+        subprocess.run(['plant', 'feed'])
+""",
+    good="""\
+class Feeder(Node):
+    def feed(self):
+        subprocess.run(['plant', 'feed'], timeout=1.0)
+""",
+    mend='Give the wait a time-out, or do it in a thread of its own.',
+    find=find_outside,
+)

@@ -1,0 +1,78 @@
+"""CC107: an executor spun while it already spins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.words import made_at, served_at
+from ros2cc_extract.findings.rules.deadlocks.nested_spin import is_executor_call, is_global
+from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.spec.releases import SPIN_REFUSED_TWICE, has_change
+
+
+def find(context: Context) -> Iterator[Hit]:
+    executor = context.unit.executor
+    refused = has_change(context.unit.rclpy, SPIN_REFUSED_TWICE)
+    for wait in waits_of(context):
+        if wait.kind is WaitKind.SPIN and _is_of_this_executor(wait, context):
+            yield Hit(
+                place=wait.place,
+                message=f'{wait.caller.display_name} calls {wait.block.call} on the executor '
+                f'that runs it: {_consequence(refused)}',
+                help='do not spin in a callback: use call_async and continue in a done-callback, '
+                'or await in a coroutine callback, with what it awaits in another group',
+                severity=Severity.ERROR if refused else None,
+                subjects=(wait.caller.name, executor.name),
+                chain=wait.chain,
+                related=(*made_at(wait.caller), *served_at(executor, wait.place)),
+            )
+
+
+def _consequence(refused: bool | None) -> str:
+    if refused is None:
+        return (
+            'from rclpy 7.1.9 on a RuntimeError, before that other callbacks run inside this one'
+        )
+    return 'it raises RuntimeError' if refused else 'other callbacks run inside this one'
+
+
+def _is_of_this_executor(wait: Wait, context: Context) -> bool:
+    """``rclpy.spin…`` of another node uses the global executor, as ``rclpy.spin`` does."""
+    if is_executor_call(wait):
+        return wait.block.on == context.unit.executor.name
+    is_other = wait.block.on is not None and wait.block.on not in context.unit.nodes
+    return is_other and is_global(context.unit)
+
+
+RULE = Rule(
+    code='CC107',
+    slug='executor-spun-twice',
+    severity=Severity.WARNING,
+    title='Executor spun while it spins',
+    what='An executor is spun from two threads, by two callbacks that may run at the same time, '
+    'or from inside a callback that it runs itself. `rclpy.spin` and its kin without `executor=` '
+    'all spin one executor, the global one, whatever node they are given. '
+    'Libraries do so too: the methods of `BasicNavigator` spin a node of their own by the global '
+    'executor, which under `rclpy.spin` runs the callback that calls them.',
+    why='The executor walks through what is ready by one generator. From two threads that ends '
+    'in `ValueError: generator already executing` where both ask with the same time-out; nested, '
+    'other callbacks run inside the one '
+    'that waits, and members of its group do not. From rclpy 7.1.9 (Jazzy) and 9.1.5 (Kilted) on '
+    'both raise `RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, '
+    '`executors.py` (`wait_for_ready_callbacks`); ros2/rclpy pull request 1510.',
+    bad="""\
+class Arm(Node):
+    def on_timer(self):
+        future = self.client.call_async(Trigger.Request())
+        self.executor.spin_until_future_complete(future)
+""",
+    good="""\
+class Arm(Node):
+    async def on_timer(self):
+        await self.client.call_async(Trigger.Request())  # the client in another group
+""",
+    mend='Spin an executor once, in one thread, outside callbacks.',
+    find=find,
+)

@@ -1,0 +1,39 @@
+"""CC119: what belongs to a loop of asyncio is touched by another thread; the extractor tells."""
+
+from __future__ import annotations
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Rule
+
+RULE = Rule(
+    code='CC119',
+    slug='foreign-loop',
+    severity=Severity.WARNING,
+    title='asyncio object touched by another thread',
+    what='A callback, or a thread of the program, puts into an `asyncio.Queue`, sets an '
+    '`asyncio.Event` or future, or calls `call_soon` or `create_task` of a loop, and another '
+    'thread runs that loop. The loop is not woken: the coroutine that waits goes on when '
+    'something else wakes it, or never.',
+    why='A loop sleeps until a time or a file descriptor wakes it; `call_soon_threadsafe` writes '
+    'to one, `put_nowait`, `set`, `set_result` and `call_soon` do not, and they keep no lock. '
+    'Sources: Python 3.12, library reference, "Developing with asyncio" (concurrency and '
+    'multithreading), `asyncio/base_events.py`. Measured with rclpy 7.1.6 and 9.1.2: nothing is '
+    'taken out of the queue.',
+    bad="""\
+class Bridge(Node):
+    def __init__(self, loop, outbox):
+        super().__init__('bridge')
+        self.loop, self.outbox = loop, outbox        # the loop runs in a thread of its own
+        self.create_subscription(String, 'text', self.on_text, 10)
+
+    def on_text(self, msg):
+        self.outbox.put_nowait(msg)
+""",
+    good="""\
+class Bridge(Node):
+    def on_text(self, msg):
+        self.loop.call_soon_threadsafe(self.outbox.put_nowait, msg)
+""",
+    mend='Hand it to the loop by `loop.call_soon_threadsafe(function, …)`, or a coroutine by '
+    '`asyncio.run_coroutine_threadsafe(coroutine, loop)`.',
+)

@@ -1,0 +1,95 @@
+"""
+Rules that speak for what the extractor notices of ends: nodes, entities, executors, rclpy itself.
+
+Each takes over the diagnostics of its slug; only the help text is here.
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Rule
+from ros2cc_extract.spec.releases import DESTROYED_SPIN_GOES_ON, SHUTDOWN_WAITS_NOT
+
+SERVED_NO_MORE = Rule(
+    code='CC116',
+    slug='served-no-more',
+    severity=Severity.WARNING,
+    title='Nothing is served any more',
+    what='A callback destroys its node, or takes it out of its executor, and that executor has no '
+    'other node: the spin goes on, and nothing runs. Or a client is destroyed while somebody '
+    'waits for its answer, a publisher while a thread or another callback may publish by it, or '
+    'one is used in a callback that has shut rclpy down.',
+    why='`spin` ends with rclpy and not with the last node. `Client.call` waits for an event that '
+    'the executor sets when it has taken the answer, which it does only for clients that are '
+    'there. Who publishes by a publisher that is gone gets an exception, which ends its thread. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`spin`), `client.py` (`call`), '
+    '`publisher.py`. Measured on both: a timer of 0.2 s falls silent, a call waits for ever, and '
+    'a publisher raises `RCLError` or `InvalidHandle`.',
+    bad="""\
+class Job(Node):
+    def work(self):
+        self.destroy_node()      # rclpy.spin(job) goes on with nothing
+""",
+    good="""\
+class Job(Node):
+    def work(self):
+        self.done.set_result(True)
+
+rclpy.spin_until_future_complete(job, job.done)
+job.destroy_node()
+""",
+    mend='End the spin, and destroy nodes and entities behind it.',
+)
+DESTROYED_WHILE_SPUN = Rule(
+    code='CC117',
+    slug='destroyed-while-spun',
+    severity=Severity.WARNING,
+    title='Entity destroyed while another thread spins it',
+    what='A callback of a pool, or a thread of the program, destroys a subscription, timer, '
+    'client or service of a node that another thread spins. A note for one that the set-up or a '
+    'life-cycle transition has made: it goes once, and each time the spin most likely goes on.',
+    why='The thread that spins reads the handle of each entity behind its wait; of one that was '
+    'destroyed meanwhile that raises `InvalidHandle`, which ends the spin. Measured: on rclpy '
+    '7.1.6 after 34 to 43 times, on 3.3.21 after 3, on 9.1.2 not in 243. The timer of a `Rate` '
+    'may go at any time: no spin ended in 10,385 rounds on 7.1.6. Sources: rclpy 7.1.6, '
+    '`executors.py` (`_wait_for_ready_callbacks`); ros2/rclpy issue 1206.',
+    bad="""\
+class View(Node):                 # on a MultiThreadedExecutor
+    def on_topic(self, request, response):
+        self.destroy_subscription(self.sub)
+        self.sub = self.create_subscription(Image, self.topic, self.on_image, 1)
+        return response
+""",
+    good="""\
+class View(Node):                 # on a SingleThreadedExecutor, or the sub stays
+    def on_topic(self, request, response):
+        self.wanted = self.topic
+        return response
+""",
+    mend='Keep entities for as long as the node is spun, or spin it by one thread.',
+    until=DESTROYED_SPIN_GOES_ON,
+)
+SHUT_DOWN_IN_CALLBACK = Rule(
+    code='CC118',
+    slug='shut-down-in-callback',
+    severity=Severity.NOTE,
+    title='Shut down inside a callback',
+    what='A callback calls `rclpy.shutdown()` under `rclpy.spin`, or `shutdown()` of the '
+    'single-threaded executor that runs it.',
+    why='On Humble (rclpy 3.3) the shutdown waits until all callbacks have ended, that one too. '
+    'Later releases go on. Measured: 3.3.21 hangs, rclpy 7.1.6 and 9.1.2 end. Sources: 3.3.21, '
+    '`executors.py` (`shutdown`); ros2/rclpy issue 944.',
+    bad="""\
+class Job(Node):
+    def on_done(self, msg):
+        rclpy.shutdown()
+""",
+    good="""\
+class Job(Node):
+    def on_done(self, msg):
+        raise SystemExit
+""",
+    mend='Make a future done and spin until that, or raise `SystemExit`; shut down behind the '
+    'spin.',
+    until=SHUTDOWN_WAITS_NOT,
+)

@@ -1,0 +1,94 @@
+"""CC305: an object that is tested and then used, and set to ``None`` in between."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.races.flag_locks import shared_by
+from ros2cc_extract.findings.races.races import RaceKind, Use, races_of, uses_cleared
+from ros2cc_extract.findings.rules.races.lost_update import hit_of
+from ros2cc_extract.findings.waits.overlap import is_quick, overlaps_itself
+from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
+from ros2cc_extract.spec.model import Callback
+
+HELP = (
+    'take a copy first (x = self.x; if x is not None: x.…), or hold one lock around the test and '
+    'the use, and where it is set to None'
+)
+
+
+def find(context: Context) -> Iterator[Hit]:
+    told: set[tuple[str, str]] = set()
+    for race in races_of(context):
+        if race.kind is RaceKind.CLEARED_IN_USE:
+            told |= {(race.first.doer.name, name) for name in race.names}
+            hit = hit_of(race, help_text=HELP)
+            yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
+    for callback in shared_by(context):
+        if overlaps_itself(callback, context):
+            uses = {
+                use.access.name: use for use, _ in reversed([*uses_cleared(callback, callback)])
+            }
+            for name, use in uses.items():
+                if (callback.name, name) not in told:
+                    yield _of_itself(callback, use, context)
+
+
+def _of_itself(callback: Callback, use: Use, context: Context) -> Hit:
+    name = use.access.name
+    return Hit(
+        place=use.place,
+        message=f'{callback.display_name} tests {name} and then uses it, and another run of it '
+        'may set it to None in between: the use then ends in an exception',
+        help=HELP,
+        severity=Severity.NOTE if is_quick(callback, context) or not use.access.later else None,
+        subjects=(callback.name, name),
+        run=refuting_run(SELF_OVERLAP, context, callback),
+    )
+
+
+RULE = Rule(
+    code='CC305',
+    slug='cleared-in-use',
+    severity=Severity.WARNING,
+    title='Object set to None between a test and its use',
+    what='A callback tests whether an object is there (`if self.goal is not None`) and then uses '
+    'it (`self.goal.cancel()`), and a callback that may run at the same time sets it to None. '
+    'Where that happens between the test and the use, the use ends in an AttributeError or '
+    'TypeError, which ends the spin. No lock is held around both. Where nothing is called between '
+    'the test and the use, it is only a note: an interpreter with a global lock does not switch '
+    'threads there.',
+    why='Each reading of an attribute looks anew. CPython switches threads at calls and at the '
+    'ends of rounds of loops (3.12, `Python/bytecodes.c`, `CHECK_EVAL_BREAKER`), a build without '
+    'the global lock anywhere. '
+    'Whether two callbacks may overlap is decided by the model where it was verified, else by '
+    'their groups and the number of threads. An exception in a callback leaves `spin`. Source: '
+    'rclpy 7.1.6 and 9.1.2, `executors.py` (`MultiThreadedExecutor`, `_spin_once_impl`).',
+    bad="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.goal = None
+        self.create_timer(0.01, self.check, callback_group=MutuallyExclusiveCallbackGroup())
+        self.create_subscription(Empty, 'stop', self.on_stop, 10)
+
+    def check(self):
+        if self.goal is not None and self.goal.is_active():
+            self.goal.refresh()
+
+    def on_stop(self, msg):
+        self.goal = None
+""",
+    good="""\
+class Arm(Node):
+    def check(self):
+        goal = self.goal
+        if goal is not None and goal.is_active():
+            goal.refresh()
+""",
+    mend='Read the attribute once, into a local variable, and test and use that.',
+    find=find,
+)

@@ -1,0 +1,101 @@
+"""CC301: an attribute read and written back while another callback may write it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.races.races import Race, RaceKind, describe, races_of
+
+HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
+OF_OTHER_RULES = (RaceKind.LAST_WRITE_WINS, RaceKind.CLEARED_IN_USE)
+HELP_OUTSIDE_GROUPS = 'hold one lock around both; a callback group cannot help'
+
+
+def find(context: Context) -> Iterator[Hit]:
+    for race in races_of(context):
+        if race.kind not in OF_OTHER_RULES and not race.is_outside_groups:
+            yield hit_of(race)
+
+
+def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
+    """The finding of one race; ``message`` is added to what happens."""
+    is_free = race.is_outside_groups or race.has_threads
+    is_less = race.kind in (RaceKind.CHECK_THEN_CHANGE, RaceKind.WHOLE_UPDATE)
+    is_less = is_less or (race.kind is RaceKind.CHECK_THEN_ACT and race.is_flag)
+    return Hit(
+        place=race.first.place,
+        message=describe(race) + message,
+        help=help_text or (HELP_OUTSIDE_GROUPS if is_free else HELP),
+        severity=Severity.NOTE if is_less else None,
+        subjects=race.subjects,
+        related=race.related(),
+        run=race.run,
+    )
+
+
+RULE = Rule(
+    code='CC301',
+    slug='lost-update',
+    severity=Severity.WARNING,
+    title='Attribute updated by callbacks that may overlap',
+    what='A callback reads an attribute and writes it back (`self.n += self.size(msg)`, or a test '
+    'followed by an assignment), another callback writes it, the two may run at the same time, '
+    'and no lock is held by both. A write of what the test has found (`if self.x is None`, and '
+    'others only set it to None) is no disturbance. A change in place after a look (`if d: '
+    'd.pop()`, `d[k] = d.get(k) + 1`) is only a note: the two may mean different items; not so '
+    'where both have looked for an item in the collection and one of them waits before it '
+    'changes that one. A '
+    'loop over a dictionary, set or deque that another callback changes meanwhile ends in '
+    'a RuntimeError; one that is handed to a helper or a thread stays the same, and a copy '
+    '(`list(d.items())`) is another one. A message that is kept and changed piece by piece '
+    '(`self.msg.position[k] = x`, two fields one after the other) and published by another '
+    'callback meanwhile goes out part old and part new; one that is made anew each time, or '
+    'changed in one piece, does not. Threads that the program starts, timers and tasks '
+    'of pools among them, and `main` beside a thread that spins count as callbacks do, on '
+    'any executor. Not told is what is done before the start of a thread or after its '
+    'join, and where branches may leave out both. A flag that one tests and both set to '
+    'constants is only a note there. So is an update of a number with nothing but constants and '
+    'names between its read and its write (`self.n += 1`), where the other one updates it like '
+    'that too or has not read it before: CPython does that in one piece.',
+    why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
+    'group, run on different threads. CPython may switch threads between reading and writing: '
+    'where a function of Python begins, a property and `__add__` among them, at a call, and where '
+    'a loop goes round. Measured on CPython 3.10 to 3.13, two threads: of 4 to 20 million '
+    '`self.n += 1` none was lost, of those with a call or a property 27 to 45 %. The language '
+    'promises none of that, and free-threaded builds switch anywhere. '
+    'Whether two callbacks may overlap is decided by the model where it was verified, else by '
+    'their groups and the number of threads. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor`), `callback_groups.py`. A thread that the program starts is asked '
+    'by no executor. Measured with rclpy 7.1.6: a thread and a timer added to one counter, on a '
+    '`SingleThreadedExecutor`; of 35593 additions 32800 were lost. A thread that read a sensor '
+    'for each of the six items of a message which a timer published: of 80 messages 43 held two '
+    'samples (rclpy 7.1.6; 42 with 9.1.2), and none under one lock.',
+    bad="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())
+        self.create_subscription(Empty, 'reset', self.on_reset, 10)
+
+    def tick(self):
+        self.count += self.steps()
+
+    def on_reset(self, msg):
+        self.count = 0
+""",
+    good="""\
+class Arm(Node):
+    def tick(self):
+        with self.lock:
+            self.count += self.steps()
+
+    def on_reset(self, msg):
+        with self.lock:
+            self.count = 0
+""",
+    mend='Hold one `threading.Lock` around both, never over a blocking call; or put both '
+    'callbacks into one mutually exclusive group.',
+    find=find,
+)

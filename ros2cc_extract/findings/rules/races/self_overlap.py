@@ -1,0 +1,201 @@
+"""CC304: a callback that may overlap itself updates an attribute."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.words import made_at
+from ros2cc_extract.findings.races.flag_locks import shared_by
+from ros2cc_extract.findings.races.races import IN_ONE_PIECE, LOSING, RaceKind, races_of
+from ros2cc_extract.findings.races.self_races import (
+    SelfRace,
+    SelfRaceKind,
+    self_races_of,
+    self_races_over_awaits,
+)
+from ros2cc_extract.findings.waits.one_shot_timers import (
+    cancel_of,
+    cancels_too_late,
+    may_cancel_too_late,
+)
+from ros2cc_extract.findings.waits.overlap import interleaves, is_quick, overlaps_itself
+from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
+from ros2cc_extract.findings.waits.workers import runs_in_parallel
+from ros2cc_extract.places import Place
+from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.model import Activity, Callback, EntityKind
+
+_TWICE = {
+    EntityKind.TIMER: 'when a run lasts longer than the period',
+    EntityKind.ACTION_EXECUTE: 'when there are two goals',
+    EntityKind.DONE_CALLBACK: 'when two answers come together',
+}
+
+
+def find(context: Context) -> Iterator[Hit]:
+    """Only where no other callback loses the same update: one lock mends both."""
+    late = [callback for callback in context.written if _runs_again(callback, context)]
+    yield from (_late_hit(callback, cancel_of(callback), context) for callback in late)
+    losing = list(_losing(context))
+    worse = set(_told_of_others(context, LOSING[:2])) if losing else set()
+    any_told = worse | set(_told_of_others(context, LOSING)) if losing else set()
+    for race in losing:
+        if race.callback in late:
+            continue
+        name, callback = race.use.access.name, race.callback.name
+        told = any_told if race.is_whole else worse
+        if not told & {(name, race.use.place), (name, callback)}:
+            yield _hit(race, context)
+
+
+def _runs_again(callback: Callback, context: Context) -> bool:
+    """Whether a timer that is to run once may run beside itself before it is cancelled."""
+    if not runs_in_parallel(context.unit.executor):
+        return False
+    is_free = context.group_of(callback).unresolved is None
+    is_free = is_free and context.exclusive_group(callback) is None
+    return is_free and may_cancel_too_late(callback)
+
+
+def _late_hit(callback: Callback, cancel: Act | None, context: Context) -> Hit:
+    every = callback.period_s
+    period = f'its period of {every:g} s' if isinstance(every, float) else 'its period'
+    is_sure = cancels_too_late(callback)
+    how = 'runs several times, beside itself' if is_sure else 'may run several times'
+    waits = 'sleeps' if is_sure else 'waits'
+    when = f'longer than {period}' if is_sure else f', perhaps longer than {period},'
+    return Hit(
+        place=(cancel and cancel.source) or callback.defined or Place(callback.name),
+        message=f'{callback.display_name} {waits} {when} before it cancels its timer here: what '
+        f'is to be done once {how}',
+        help='cancel the timer first, or put it into a mutually exclusive group',
+        severity=None if is_sure else Severity.NOTE,
+        subjects=(callback.name,),
+        related=tuple(made_at(callback, context.group_of(callback))),
+    )
+
+
+def _losing(context: Context) -> Iterator[SelfRace]:
+    """The worst race of each attribute that two runs of one callback may have."""
+    for callback in shared_by(context):
+        if overlaps_itself(callback, context):
+            yield from self_races_of(callback, _stored_by_others(callback, context))
+        elif interleaves(callback, callback, context):
+            yield from self_races_over_awaits(callback, _stored_by_others(callback, context))
+
+
+def _stored_by_others(callback: Callback, context: Context) -> frozenset[str]:
+    """Attributes in which other functions store values, and not only clear them."""
+    everybody: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)
+    others = (one for one in everybody if _text_of(one) != _text_of(callback))
+    return frozenset(
+        write.name
+        for other in others
+        for write in other.writes
+        if not write.in_place and not write.clears
+    )
+
+
+def _text_of(doer: Callback | Activity) -> str:
+    return doer.function.rpartition('.')[2] if doer.function else doer.name
+
+
+def _told_of_others(
+    context: Context, kinds: Container[RaceKind]
+) -> Iterator[tuple[str, Place | str]]:
+    """Attributes with the place of the update that is told, and with who else is named there."""
+    for race in races_of(context):
+        if race.kind in kinds:
+            for name in race.names:
+                yield name, race.first.place
+                yield name, race.first.doer.name
+                yield from ((name, use.doer.name) for use in race.others)
+
+
+def _hit(race: SelfRace, context: Context) -> Hit:
+    callback, name = race.callback, race.use.access.name
+    default = 'when messages come together'
+    when = _TWICE.get(callback.entity, default) if callback.entity else default
+    is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and not race.waits)
+    what = _UPDATES_WHOLE if race.is_whole else _WHAT[race.kind]
+    return Hit(
+        place=race.use.place,
+        message=f'{callback.display_name} may overlap itself {when}, and '
+        + what.format(name=name),
+        help=_help(race),
+        severity=Severity.NOTE if is_less or is_quick(callback, context) else None,
+        subjects=(callback.name, name),
+        related=tuple(made_at(callback, context.group_of(callback))),
+        run=refuting_run(SELF_OVERLAP, context, callback),
+    )
+
+
+def _help(race: SelfRace) -> str:
+    """A lock kept over an await stops the threads of the other runs."""
+    group = 'put the callback into a mutually exclusive group'
+    if race.callback.groupless:
+        return _HELP_OUTSIDE[race.kind]
+    if race.callback.coroutine and race.waits:
+        return f'{group}, with what it awaits in another one'
+    return f'{_HELP_OUTSIDE[race.kind]}, or {group}'
+
+
+_UPDATES_WHOLE = f'updates {{name}} from its old value without a lock: {IN_ONE_PIECE}'
+_WHAT = {
+    SelfRaceKind.LOST_UPDATE: 'updates {name} from its old value without a lock: one of the '
+    'changes can get lost',
+    SelfRaceKind.STALE_READ: 'writes {name} because of what it has read of it before, without '
+    'one lock around both: that may no longer hold',
+    SelfRaceKind.OVERWRITTEN: 'writes {name}, waits, and reads it here: the other run may have '
+    'written it meanwhile',
+}
+_HELP_OUTSIDE = {
+    SelfRaceKind.LOST_UPDATE: 'hold a lock around the update',
+    SelfRaceKind.STALE_READ: 'hold one lock from the read to the write',
+    SelfRaceKind.OVERWRITTEN: 'keep it in a local variable, or let only one run in at a time',
+}
+
+
+RULE = Rule(
+    code='CC304',
+    slug='self-overlap',
+    severity=Severity.WARNING,
+    title='Callback that may overlap itself updates an attribute',
+    what='A callback of a reentrant group, or one outside every group, reads an attribute and '
+    'writes it back without a lock, at once (`+=`), after a test, or from a copy; or it writes '
+    'one, waits, and reads it back; or it looks for an item in a collection, waits, and changes '
+    'that one. Two runs of the same callback may coincide. So do those of a timer that is to run '
+    'once and cancels itself only after it has slept longer than its period (a note where it '
+    'waits and nobody knows how long): everything in it is done several times. An update is only '
+    'a note where it is one of a number with nothing but constants and names between its read and '
+    'its write (`self.n += 1`), see CC301, '
+    'for a timer whose runs are known to be shorter than its period, for a done-callback where '
+    'one such timer alone asks, once in a run, and for a test that is followed by the write '
+    'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
+    'stands for both.',
+    why='An entity may be collected again as soon as its data was taken; a reentrant group '
+    'refuses nothing, so that one subscription runs on several threads at once. Source: rclpy '
+    '7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '
+    '(`ReentrantCallbackGroup`). Measured: three overlapping runs of one timer.',
+    bad="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_subscription(
+            Image, 'image', self.on_image, 10, callback_group=ReentrantCallbackGroup())
+
+    def on_image(self, msg):
+        self.received += len(msg.data)
+""",
+    good="""\
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_subscription(
+            Image, 'image', self.on_image, 10, callback_group=MutuallyExclusiveCallbackGroup())
+""",
+    mend='Give the callback a mutually exclusive group of its own, or hold a lock.',
+    find=find,
+)

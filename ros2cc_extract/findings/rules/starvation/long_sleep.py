@@ -1,0 +1,277 @@
+"""CC201: a long sleep, or a wait with a long time-out, in a callback that others wait for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
+from math import inf
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.model import Remark
+from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.words import (
+    called,
+    group_words,
+    made_at,
+    plural,
+    served_at,
+    shown,
+)
+from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
+from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
+from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
+from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.model import Callback, EntityKind
+from ros2cc_extract.verify.results.rates import least_slept_s, period_of
+
+LONG_SLEEP_S = 1.0
+"""From here on a sleep counts as long: our choice."""
+MISSED = 5
+"""So many runs that a timer misses make a shorter sleep long too, from ``SHORTEST_S`` on."""
+SHORTEST_S = 0.5
+LISTED = 5
+"""How many of the other sleeps are shown."""
+
+
+def find(context: Context) -> Iterator[Hit]:
+    """One finding per callback, at its longest pause; execute callbacks are CC203's."""
+    told: set[str] = set()
+    timed = (_as_timed(wait, context) for wait in waits_of(context))
+    pauses = (wait for wait in timed if _is_pause(wait) or _is_long_wait(wait, context))
+    for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
+        own = list(waits)
+        long = [wait for wait in own if seconds_of(wait) >= LONG_SLEEP_S]
+        short = _long_for_timers_s(own[0].caller, context)
+        if not long:
+            sleeps = [wait for wait in own if _is_sleep(wait)]
+            long = [wait for wait in sleeps if seconds_of(wait) >= short]
+        if not long and least_slept_s(own[0].caller.blocking) >= short:
+            long = [wait for wait in own if not wait.block.conditional]
+        if long:
+            hits = list(_hits(tuple({wait.place: wait for wait in long}.values()), context))
+            told |= {subject for hit in hits for subject in hit.subjects}
+            yield from hits
+    for hold in long_holds(context, LONG_SLEEP_S):
+        if hold.wait.caller.name not in told:
+            yield _of_lock(hold)
+
+
+def _of_lock(hold: LongHold) -> Hit:
+    wait, lock = hold.wait, hold.lock
+    who = shown(taker for taker, _ in hold.takers)
+    verb = 'waits' if len(hold.takers) == 1 else 'wait'
+    until = 'until that is over' if hold.seconds is None else 'that long'
+    often = ' in each round of a loop' if hold.seconds is None else ''
+    return Hit(
+        place=wait.place,
+        message=f'{called(wait.caller)} {_how_long(wait)}{often} and holds {lock} meanwhile: '
+        f'{who}, which also {"takes" if verb == "waits" else "take"} it, {verb} {until}',
+        help=f'hold {lock} only while the data is read or written, and sleep without it',
+        subjects=(wait.caller.name, lock),
+        chain=wait.chain,
+        related=tuple(
+            Remark(act.source, f'{taker.display_name} takes {lock} here')
+            for taker, act in hold.takers
+            if act.source is not None
+        ),
+    )
+
+
+def _is_pause(wait: Wait) -> bool:
+    """Whether it is a sleep, or ends after a time in any case, as one does if nothing comes."""
+    if wait.caller.entity is EntityKind.ACTION_EXECUTE:
+        return False
+    return _is_sleep(wait) or (wait.block.call in _TIMED and not wait.needs)
+
+
+def _as_timed(wait: Wait, context: Context) -> Wait:
+    """A sleep by a rate whose timer has a thread lasts a period of that timer."""
+    on = wait.block.on
+    timer = context.by_name.get(on) if isinstance(on, str) else None
+    is_rate = wait.kind is WaitKind.RATE and timer is not None
+    if not is_rate or timer is None or is_one_thread(context.unit.executor):
+        return wait
+    return replace(wait, block=replace(wait.block, seconds=timer.period_s))
+
+
+def _is_sleep(wait: AnyWait) -> bool:
+    return wait.kind is WaitKind.SLEEP or (wait.kind is WaitKind.RATE and wait.has_timeout)
+
+
+def _is_long_wait(wait: Wait, context: Context) -> bool:
+    """
+    Whether it may last so long that a timer misses runs, though somebody else may end it.
+
+    What nobody can end meanwhile other rules tell.
+    """
+    is_timed = wait.block.call in _ANSWERED and bool(wait.needs)
+    if not is_timed or wait.caller.entity is EntityKind.ACTION_EXECUTE:
+        return False
+    if is_one_thread(context.unit.executor) or shut_out_by(wait, context) is not None:
+        return False
+    held_up = _held_up(wait.caller, context)
+    every = min((period for _, period in _timers(held_up[1] if held_up else ())), default=inf)
+    return seconds_of(wait) >= max(LONG_SLEEP_S, MISSED * every)
+
+
+_TIMED = frozenset(
+    {
+        'Event.wait',
+        'Condition.wait',
+        'Condition.wait_for',
+        'Queue.get',
+        'Queue.put',
+        'Thread.join',
+        'Process.join',
+        'Barrier.wait',
+    }
+)
+
+
+_ANSWERED = _TIMED | {'client.call'}
+
+
+def seconds_of(wait: Wait) -> float:
+    """How long it lasts in all, or may last; none where that is not known."""
+    seconds = wait.block.seconds
+    return seconds * wait.block.times if isinstance(seconds, (int, float)) else 0.0
+
+
+def _held_up(caller: Callback, context: Context) -> tuple[str, tuple[Callback, ...]] | None:
+    """What a callback holds that has no thread or no group of its own, and who waits for that."""
+    executor = context.unit.executor
+    if is_one_thread(executor):
+        others = tuple(c for c in context.written if c != caller)
+        return f'the only thread of the {executor.kind or "executor"}', others
+    group = context.exclusive_group(caller)
+    if group is None or not group.default or not honours_groups(executor):
+        return None
+    others = tuple(c for c in context.written if c.group == group.name and c != caller)
+    return group_words(group), others
+
+
+def _long_for_timers_s(caller: Callback, context: Context) -> float:
+    """From here on a sleep is long for the timers that it holds up."""
+    held_up = _held_up(caller, context)
+    every = min((period for _, period in _timers(held_up[1] if held_up else ())), default=inf)
+    return min(LONG_SLEEP_S, max(SHORTEST_S, MISSED * every))
+
+
+def _timers(callbacks: Iterable[Callback]) -> Iterator[tuple[Callback, float]]:
+    for callback in callbacks:
+        period = period_of(callback)
+        if callback.entity is EntityKind.TIMER and period is not None:
+            yield callback, period
+
+
+def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
+    wait = max(sleeps, key=seconds_of)
+    executor = context.unit.executor
+    held_up = _held_up(wait.caller, context)
+    if held_up is None:
+        return
+    held, others = held_up
+    stopped = [*([shown(others)] if others else []), 'the parameter services']
+    more = sorted((s for s in sleeps if s is not wait), key=lambda sleep: sleep.place)
+    yield Hit(
+        place=wait.place,
+        message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
+        f'holds {held}: {" and ".join(stopped)} of the node wait that long',
+        help='let a timer that cancels itself go on after the pause'
+        + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
+        severity=Severity.NOTE if _is_rare(wait, others) else None,
+        subjects=(wait.caller.name,),
+        chain=wait.chain,
+        related=(
+            *made_at(wait.caller),
+            *served_at(executor, wait.place),
+            *_missing(wait, others),
+            *_listed(more),
+        ),
+    )
+
+
+def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:
+    """Whether it mostly ends sooner, or nobody waits but the services that rclpy has made."""
+    return not _is_sleep(wait) and (not others or bool(wait.needs))
+
+
+def _missing(wait: Wait, others: Sequence[Callback]) -> Iterator[Remark]:
+    """The timers that miss runs meanwhile."""
+    slept = max(seconds_of(wait), least_slept_s(wait.caller.blocking))
+    for timer, period in _timers(others):
+        if timer.source is not None and slept >= MISSED * period:
+            yield Remark(timer.source, f'{timer.display_name} is due every {period:g} s')
+
+
+def _how_long(wait: AnyWait) -> str:
+    seconds = wait.block.seconds
+    assert isinstance(seconds, (int, float))
+    often = f' {wait.block.times} times' if wait.block.times > 1 else ''
+    if _is_sleep(wait):
+        return f'sleeps {seconds:g} s{often}'
+    return f'waits up to {seconds:g} s{often} in {wait.block.call}'
+
+
+def _how_often(more: Sequence[Wait], longest: Wait) -> str:
+    """A run may take one branch of several: what it waits in all is not known then."""
+    if not more:
+        return ''
+    places = plural(len(more), 'more place')
+    total = least_slept_s(longest.caller.blocking)
+    if seconds_of(longest) >= LONG_SLEEP_S:
+        return f' here, {LONG_SLEEP_S:g} s or longer at {places},'
+    if total <= seconds_of(longest):
+        return f' here, and sleeps at {places},'
+    return f' here, with {places} {total:g} s in all,'
+
+
+def _listed(more: Sequence[Wait]) -> Iterator[Remark]:
+    for wait in more[:LISTED]:
+        yield Remark(wait.place, f'{wait.caller.display_name} {_how_long(wait)} here')
+
+
+RULE = Rule(
+    code='CC201',
+    slug='long-sleep',
+    severity=Severity.WARNING,
+    title='Long sleep in a callback that others wait for',
+    what='A callback sleeps for a second or longer while it holds the only thread, or the '
+    'default group of its node; for half a second or longer where a timer there misses five '
+    'runs meanwhile. Everything else there waits, also the parameter services: '
+    '`ros2 param` hangs. So it is with a lock that is held over a long sleep, or over a '
+    'loop that sleeps in each round, where other callbacks take the lock: an execute '
+    'callback that holds it during its whole run holds up the request to cancel. A wait '
+    'with a time-out counts too: it lasts that long where nothing comes. So does a sleep by '
+    'a `Rate`. It is only a note where a timer misses five runs and somebody may end the wait '
+    'sooner, and where nobody waits but the services that rclpy itself has made: they wait that '
+    'long in the rare case alone, and then go on. Rounds of a loop are counted where their '
+    'number is known, and short sleeps are added up where no branch skips them. A callback '
+    'has one finding, at the longest of them.',
+    why='Who holds a lock keeps all others from it that long, in whatever group and on however '
+    'many threads; a loop of unknown length counts from 0.1 s a round on. Every node has six '
+    'parameter services and a type-description service in its default group, which is '
+    'mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and 9.1.2, '
+    '`node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second or '
+    'five runs of a timer, is our choice. Measured with rclpy 7.1.6 and 9.1.2, four threads: a '
+    'subscription of the default group that sleeps 0.9 s makes a timer of 0.1 s 0.8 s late.',
+    bad="""\
+class Arm(Node):
+    def on_dock(self, request, response):
+        self.publish_speed(0.1)
+        time.sleep(5.0)
+        self.publish_speed(0.0)
+        return response
+""",
+    good="""\
+class Arm(Node):
+    def on_dock(self, request, response):
+        self.publish_speed(0.1)
+        self.timer = self.create_timer(5.0, self.stop)   # stop() cancels the timer
+        return response
+""",
+    mend='Do the second half in a timer callback; or give the callback a group of its own on a '
+    'multi-threaded executor.',
+    find=find,
+)

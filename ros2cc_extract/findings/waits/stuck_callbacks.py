@@ -1,0 +1,170 @@
+"""Who stands still at the end of a run of the model, in which wait of the source, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from ros2cc_extract.findings.base.rule import Context, Doer
+from ros2cc_extract.findings.base.words import called, group_words, listing, plural
+from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
+from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
+from ros2cc_extract.findings.waits.workers import is_one_thread
+from ros2cc_extract.spec.deeds import Blocking, Needs
+from ros2cc_extract.spec.model import Activity, Callback
+from ros2cc_extract.spec.partners import client_before, is_client, server_of
+from ros2cc_extract.verify.results.caveats import block_at, taking_at
+from ros2cc_extract.verify.results.evidence import Evidence
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """
+    A wait that has not ended when nothing moves any more.
+
+    :param wait: as the source has it.
+    :param enders: names of those that could end it, and of the service that answers a client.
+    :param holder: who has the lock that is waited for, as the source calls it.
+    """
+
+    wait: AnyWait
+    standstill: Standstill
+    enders: tuple[str, ...]
+    holder: str = ''
+
+    @property
+    def doer(self) -> Doer:
+        """Who waits."""
+        return self.wait.caller
+
+    @property
+    def what(self) -> str:
+        """What is waited for, in words; empty where the wait says it all."""
+        if self.standstill.is_for_lock:
+            return f'the lock of {self.holder}'
+        block = self.wait.block
+        return block.resource or (block.on if isinstance(block.on, str) else '')
+
+
+def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
+    """Give all that stands still at the end of a run, in the order in which it began to."""
+    found = []
+    for standstill in open_waits(run.moments):
+        doer = context.doer_by_name.get(standstill.who)
+        block = _block(doer, standstill, context) if doer is not None else None
+        if doer is not None and block is not None:
+            enders = tuple(_with_servers(standstill.enders, context))
+            holder = context.by_name.get(standstill.needed)
+            name = holder.display_name if holder is not None else standstill.needed
+            found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders, name))
+    return found
+
+
+def _with_servers(names: Iterable[str], context: Context) -> Iterator[str]:
+    for name in names:
+        yield name
+        ender = context.by_name.get(name)
+        server = server_of(ender, context.unit.callbacks) if ender is not None else None
+        if server is not None:
+            yield server.name
+
+
+def _block(doer: Doer, standstill: Standstill, context: Context) -> Blocking | None:
+    """Give the wait of the source, or where it takes the lock; else the first that is known."""
+    block = block_at(context.unit, doer, standstill.wait)
+    if block is None and standstill.is_for_lock:
+        block = taking_at(context.unit, doer, standstill.wait)
+    waits = (b for b in doer.blocking if kind_of(b) is not WaitKind.SLEEP)
+    return block or next(waits, None)
+
+
+def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
+    """Say why nobody ends a wait: the first cause that holds for all that could."""
+    enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
+    if not enders:
+        return _why_nobody(stuck, context)
+    waiting = [each for each in others if each.doer in enders and each is not stuck]
+    if waiting:
+        return listing(_waits_too(each) for each in waiting)
+    served = [ender for ender in enders if isinstance(ender, Callback)]
+    holder = next((each.doer for each in others if isinstance(each.doer, Callback)), None)
+    if served and holder is not None and is_one_thread(context.unit.executor):
+        on_it = stuck.doer if isinstance(stuck.doer, Callback) else holder
+        keeps = f'{called(on_it)} holds the only thread of the executor'
+        return f'{_names(served)} cannot run: {keeps}'
+    shut = _shut_out_of(enders, others, context)
+    if shut:
+        return listing(_shut_out(ender, others, context) for ender in shut)
+    if served and _is_full(others, context):
+        threads = plural(len(context.unit.executor.threads), 'thread')
+        return f'no thread is left to run {_names(enders)}: {threads} in all, and each waits'
+    late = [each for each in enders if isinstance(each, Activity) and _follows(each)]
+    if len(late) == len(enders):
+        starters = dict.fromkeys(start.by for each in late for start in each.starts)
+        return f'{_names(late)} begins only when {listing(starters)} has ended, on one thread'
+    early = 'comes too early, or is used up by another wait'
+    if stuck.wait.block.needs is not Needs.EACH:
+        early = 'is not sure to come'
+    return f'what {_names(enders)} does for it {early}'
+
+
+def shut_out_for(stuck: Stuck, others: Sequence[Stuck], context: Context) -> list[str]:
+    """Who could end a wait and is kept from it by a closed group, by display name."""
+    enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
+    return [ender.display_name for ender in _shut_out_of(enders, others, context)]
+
+
+def _shut_out_of(
+    enders: Sequence[Doer], others: Sequence[Stuck], context: Context
+) -> list[Callback]:
+    served = (ender for ender in enders if isinstance(ender, Callback))
+    shut = [ender for ender in served if _keeper(ender, others, context) is not None]
+    is_all = len(shut) == len(enders) or any(is_client(ender) for ender in shut)
+    return shut if is_all else []
+
+
+def _follows(thread: Activity) -> bool:
+    """Whether it begins when whoever starts it has ended."""
+    return bool(thread.starts) and all(start.after is None for start in thread.starts)
+
+
+def _why_nobody(stuck: Stuck, context: Context) -> str:
+    names = dict.fromkeys(waker.by for waker in stuck.wait.block.wakers)
+    late = [context.by_name[name] for name in names if name in context.by_name]
+    if late and all(client_before(each, context.unit.callbacks) == stuck.doer for each in late):
+        client = context.by_name[stuck.doer.name]
+        return (
+            f'{_names(late)}, which ends it, comes with an answer that the same client takes, and '
+            f'{group_words(context.group_of(client))} is closed meanwhile'
+        )
+    return 'nobody ends that wait'
+
+
+def _names(doers: Sequence[Doer]) -> str:
+    return listing(map(called, doers))
+
+
+def _waits_too(stuck: Stuck) -> str:
+    what = f' for {stuck.what}' if stuck.what else ''
+    return f'{called(stuck.doer)}, which ends it, waits itself{what}'
+
+
+def _keeper(ender: Callback, others: Sequence[Stuck], context: Context) -> Callback | None:
+    """Who keeps the group of ``ender`` closed while it waits."""
+    group = context.exclusive_group(ender)
+    keepers = (each.doer for each in others if isinstance(each.doer, Callback))
+    return next((k for k in keepers if group is not None and k.group == group.name), None)
+
+
+def _shut_out(ender: Callback, others: Sequence[Stuck], context: Context) -> str:
+    keeper = _keeper(ender, others, context)
+    assert keeper is not None, 'asked of those that are shut out'
+    return (
+        f'{ender.display_name} is in {group_words(context.group_of(ender))}, which is closed '
+        f'while {keeper.display_name} waits'
+    )
+
+
+def _is_full(others: Sequence[Stuck], context: Context) -> bool:
+    held = {each.standstill.thread for each in others if not each.standstill.spins}
+    return held >= set(context.unit.executor.threads)
