@@ -140,8 +140,8 @@ def both():
     group.beginning_execution(entity)
     group.ending_execution(entity)
 bare = min(timeit.repeat(both, number=2000, repeat=70)) / 4000
-from ros2cc_extract.extract.live.events import SIZE
-from ros2cc_extract.extract.live.hook import Hook
+from ros2cc_extract.extract.live.recorder.events import SIZE
+from ros2cc_extract.extract.live.hook.wrapping import Hook
 import rclpy.executors
 hook = Hook(tempfile.mkdtemp())
 hook.wrap(rclpy.executors)

@@ -22,8 +22,8 @@ import rclpy.executors
 from hook_load import WARM_UP_S, Load, cpu_s, executor_for, keep_to_one_core
 from rclpy.executors import Executor
 
-from ros2cc_extract.extract.live.hook import Hook
-from ros2cc_extract.extract.live.steps import trace_submits
+from ros2cc_extract.extract.live.hook.steps import trace_submits
+from ros2cc_extract.extract.live.hook.wrapping import Hook
 
 SLICE_S = 0.5
 # After the hook is put on or off, the interpreter adapts its code to the new methods.

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 
-from ros2cc_extract.extract.live.hook import OUTPUT_VARIABLE, install
+from ros2cc_extract.extract.live.hook.wrapping import OUTPUT_VARIABLE, install
 
 # The process may have been started with the hook already; it must not be there twice.
 if '_ros2cc_live' not in sys.modules:

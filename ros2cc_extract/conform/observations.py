@@ -204,7 +204,7 @@ def with_groups(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, .
     Say whose exclusive group a begin closes and an end opens.
 
     The hook reads the clock after a group let somebody begin, and before it is told of an end
-    (``extract/live/groups.py``): by the clock these never overlap where the group is kept.
+    (``extract/live/hook/groups.py``): by the clock these never overlap where the group is kept.
     """
     exclusive = {group.name for group in spec.groups if group.type is GroupType.EXCLUSIVE}
     group_of = {

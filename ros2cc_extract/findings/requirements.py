@@ -11,13 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.rules.reading.requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
 NEVER_TOGETHER = 'never_together'
 CAN_OVERLAP = 'can_overlap'

@@ -42,7 +42,7 @@ ALLOWED = {
         'checker',
         'conform',
         'spec',
-        'merge',
+        'compare',
         'extract',
         'extract.static',
         'extract.live',
@@ -59,7 +59,7 @@ ALLOWED = {
         'extract.live',
     },
     'packages': set(),
-    'report': {'findings', 'verify', 'spec', 'merge'},
+    'report': {'findings', 'verify', 'spec', 'compare'},
     'findings': {'verify', 'spec'},
     'verify': {'generator', 'checker', 'spec'},
     'generator': {'spec'},
@@ -67,13 +67,12 @@ ALLOWED = {
     'conform': {'generator', 'checker', 'spec'},
     'spec': set(),
     'revision': set(),
-    'merge': {'spec', 'extract'},
+    'compare': {'spec', 'extract'},
     'extract': {'spec'},
     'extract.static': {'spec', 'extract'},
     'extract.live': {'spec', 'extract'},
     'live': {'extract.live'},
 }
-ROOM_OF_MODULE = {'drift': 'merge'}
 LONGEST_MODULE = 800
 LONGEST_FUNCTION = 60
 
@@ -99,7 +98,7 @@ def room(module: str) -> str:
         return ''
     if parts[:2] in (['extract', 'static'], ['extract', 'live']):
         return '.'.join(parts[:2])
-    return ROOM_OF_MODULE.get(parts[0], parts[0])
+    return parts[0]
 
 
 def imports(module: str, path: Path, *, top_level: bool) -> Iterator[str]:

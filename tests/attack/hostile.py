@@ -16,7 +16,7 @@ from pathlib import Path
 
 import yaml
 
-from ros2cc_extract.extract.live.events import RAW_SUFFIX
+from ros2cc_extract.extract.live.recorder.events import RAW_SUFFIX
 from tests.attack.arena import Attempt
 from tests.attack.bombs import bomb
 from tests.attack.mutations import as_json, damaged, reshaped, with_words

@@ -18,7 +18,7 @@ from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.slices.slicer import narrowing
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 #: A larger one is passed over: it would take seconds.

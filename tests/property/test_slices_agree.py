@@ -24,7 +24,7 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals.structural_starvation import structural_verdicts
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.slices.slicer import narrowing
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 Drawn = Iterator[tuple[int, ClosedSpec]]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TextIO
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS
 
 if TYPE_CHECKING:
-    from ros2cc_extract.merge import Difference
+    from ros2cc_extract.compare.merge import Difference
     from ros2cc_extract.spec.model import Spec
 
 
@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.merge import diff
+    from ros2cc_extract.compare.merge import diff
     from ros2cc_extract.pipeline.sources import load_units
 
     left, right = load_units(args.left, stderr), load_units(args.right, stderr)

@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _tell_conflicts(pair: tuple[Spec, Spec], args: argparse.Namespace, stderr: TextIO) -> None:
     """Say which known facts differ: the first side's are kept."""
-    from ros2cc_extract.merge import Kind, diff_units
+    from ros2cc_extract.compare.merge import Kind, diff_units
 
     for found in diff_units(*pair):
         if found.kind is Kind.DIFFERS and not found.marked:
@@ -42,7 +42,7 @@ def _tell_conflicts(pair: tuple[Spec, Spec], args: argparse.Namespace, stderr: T
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.output import write_text
-    from ros2cc_extract.merge import match_units, merge_units
+    from ros2cc_extract.compare.merge import match_units, merge_units
     from ros2cc_extract.pipeline.sources import load_units
     from ros2cc_extract.spec.yaml.yaml_io import write_specs
 

@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple[Spec, ...]], int]:
     """Scan before the command starts, so that a bad path costs no run."""
     from ros2cc_extract.cli.commands.diff import report
-    from ros2cc_extract.merge import diff
+    from ros2cc_extract.compare.merge import diff
     from ros2cc_extract.pipeline.sources import load_units
 
     units = load_units(source, stderr)
@@ -101,7 +101,7 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
 
 def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
     """Leave out other programs of a package: those of whose units the run holds none."""
-    from ros2cc_extract.merge import match_units
+    from ros2cc_extract.compare.merge import match_units
 
     entries = {unit.entry for unit, _ in match_units(units, live)[0]}
     return [unit for unit in units if unit.entry is None or not entries or unit.entry in entries]
@@ -109,8 +109,8 @@ def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
 
 def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
     """Tell whether a live unit is made in the files that were scanned, or is one of theirs."""
+    from ros2cc_extract.compare.merge import match_units
     from ros2cc_extract.files import real_path
-    from ros2cc_extract.merge import match_units
 
     callbacks = [callback for callback in unit.callbacks if not callback.builtin]
     places = [place for callback in callbacks for place in (callback.source, callback.defined)]
@@ -126,7 +126,7 @@ def _distinct(units: Sequence[Spec], named: Set[str]) -> list[Spec]:
 
     :param named: nodes that the source names; any other may be one of these under a new name.
     """
-    from ros2cc_extract.merge import diff
+    from ros2cc_extract.compare.merge import diff
 
     def is_renamed(unit: Spec) -> bool:
         return named.isdisjoint(unit.nodes)

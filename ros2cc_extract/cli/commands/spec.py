@@ -95,7 +95,7 @@ def _write(
 def _has_drift(
     args: argparse.Namespace, extraction: Extraction, stdout: TextIO, stderr: TextIO
 ) -> bool:
-    from ros2cc_extract.drift import drift
+    from ros2cc_extract.compare.drift import drift
     from ros2cc_extract.report.text.drift import print_drift
     from ros2cc_extract.report.text.style import console_for
     from ros2cc_extract.spec.yaml.yaml_io import load_specs

@@ -45,7 +45,7 @@ def _fault_of(module: str) -> str:
     except ImportError as error:
         return str(error)
     if module == JOURNAL:
-        from ros2cc_extract.extract.live import journal
+        from ros2cc_extract.extract.live.recorder import journal
 
         # Used in place, what was built of an older text stays where it is.
         if journal.native is None:
@@ -56,6 +56,6 @@ def _fault_of(module: str) -> str:
 def _used(name: str, args: argparse.Namespace) -> Iterator[str]:
     if getattr(args, 'engine', '') == 'auto':
         yield CORE
-    # As extract/live/journal.py reads it, which is not imported for that.
+    # As extract/live/recorder/journal.py reads it, which is not imported for that.
     if name in HOOKS and os.environ.get('ROS2CC_LIVE_NATIVE') != '0':
         yield JOURNAL

@@ -59,7 +59,7 @@ def _record(name='_ros2cc_attached'):
         spec = importlib.util.spec_from_file_location(
             name, os.path.join(folder, '__init__.py'), submodule_search_locations=[folder])
         sys.modules[name] = importlib.util.module_from_spec(spec)
-        importlib.import_module(name + '.inspection').record_process(path + '.new')
+        importlib.import_module(name + '.hook.inspection').record_process(path + '.new')
         os.replace(path + '.new', path)
     except Exception as error:
         with open(path + '.failed', 'w') as stream:

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
-from ros2cc_extract.extract.live.hook import OUTPUT_VARIABLE, TRACE_VARIABLE
+from ros2cc_extract.extract.live.hook.wrapping import OUTPUT_VARIABLE, TRACE_VARIABLE
 
 BOOTSTRAP = Path(__file__).resolve().parent / 'bootstrap'
 

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, TextIO, cast
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.collect import home_of
-from ros2cc_extract.extract.live.events import (
+from ros2cc_extract.extract.live.recorder.events import (
     EVENT_NAMES,
     LOST,
     RAW_SUFFIX,

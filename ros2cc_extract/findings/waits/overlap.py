@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.capacity import can_overlap_itself
 from ros2cc_extract.findings.waits.verdicts import CAN_OVERLAP, verdict_on
@@ -18,6 +17,7 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.rates import demand_of
+from ros2cc_extract.verify.results.results import Verdict
 
 
 @dataclass(frozen=True)

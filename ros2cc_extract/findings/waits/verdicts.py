@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.hangs import show_hang
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait
 from ros2cc_extract.verify.results.evidence import Evidence
-from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.results.results import QueryResult, Verdict
 
 CAN_OVERLAP = 'can_overlap'
 SELF_OVERLAP = 'self_overlap'

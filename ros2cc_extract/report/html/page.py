@@ -15,7 +15,6 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.report.html.findings import finding_card
@@ -28,7 +27,7 @@ from ros2cc_extract.report.shared.run_lanes import Lane, lanes_of
 from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
-from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 from ros2cc_extract.version import __version__
 
 BLOCKED = 'blocked'

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ros2cc_extract.compare.merge import Difference
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.merge import Difference
 from ros2cc_extract.shown import json_text
 from ros2cc_extract.spec.confidence import Summary, confidence_in
 from ros2cc_extract.spec.model import Spec

@@ -9,7 +9,6 @@ from pathlib import Path
 from rich.console import Console
 from rich.padding import Padding
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
@@ -23,7 +22,7 @@ from ros2cc_extract.report.text.verdicts import print_digest, print_evidence, pr
 from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.confidence import confidence_in
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
 MOST_TABLES = 3
 """More units than this are shown as one row each."""

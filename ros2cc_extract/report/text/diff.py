@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rich.console import Console
 
-from ros2cc_extract.merge import Difference
+from ros2cc_extract.compare.merge import Difference
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.shown import printable

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rich.console import Console
 
-from ros2cc_extract.drift import Drift
+from ros2cc_extract.compare.drift import Drift
 from ros2cc_extract.shown import printable
 
 

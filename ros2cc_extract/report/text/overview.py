@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.padding import Padding
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.places import Unknown
@@ -17,7 +16,7 @@ from ros2cc_extract.report.shared.owners import is_about
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.shown import one_line
 from ros2cc_extract.spec.model import Executor, Spec
-from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.results.results import Verdict, Verification
 
 
 def print_overview(

@@ -13,8 +13,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.shown import Shown, printable
+from ros2cc_extract.verify.results.results import Verdict
 
 LOG_WIDTH = 160
 GAP = 2

@@ -8,9 +8,9 @@ from itertools import groupby
 from rich.console import Console
 from rich.text import Text
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.shown import printable
+from ros2cc_extract.verify.results.results import Verdict
 from ros2cc_extract.verify.sweep import Point, Sweep
 
 _SIGNS = {

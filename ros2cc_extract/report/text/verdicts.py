@@ -7,13 +7,12 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.report.shared.closing import closing_lines
 from ros2cc_extract.report.text.spec import short
 from ros2cc_extract.report.text.style import print_rows, table, verdict_text
 from ros2cc_extract.shown import one_line
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
-from ros2cc_extract.verify.results.results import QueryResult, Verification
+from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
 LISTED_SUBJECTS = 20
 MOST_ROWS, ROWS_OF_A_KIND = 2_000, 200

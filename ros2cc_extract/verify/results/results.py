@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
-from ros2cc_extract.checker.api import CheckResult, Verdict
+from ros2cc_extract.checker.api import CheckResult
+from ros2cc_extract.checker.api import Verdict as Verdict
 from ros2cc_extract.generator.build import Query
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.load import Load

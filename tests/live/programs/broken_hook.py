@@ -10,9 +10,10 @@ import sys
 from pathlib import Path
 
 modules = {
-    name: sys.modules[f'_ros2cc_live.{name}'] for name in ('hook', 'journal', 'record', 'writer')
+    name.rpartition('.')[2]: sys.modules[f'_ros2cc_live.{name}']
+    for name in ('hook.wrapping', 'recorder.journal', 'recorder.record', 'hook.writer')
 }
-(hook,) = [each for each in gc.get_objects() if type(each) is modules['hook'].Hook]
+(hook,) = [each for each in gc.get_objects() if type(each) is modules['wrapping'].Hook]
 
 
 def fail(*arguments: object, **named: object) -> None:
@@ -34,7 +35,7 @@ class BrokenLock:
 def break_notes() -> None:
     for name in ('note_added', 'note_removed', 'note_entity', 'note_task', 'look_around'):
         setattr(modules['record'].Recorder, name, fail)
-    modules['hook'].trace_creation = fail
+    modules['wrapping'].trace_creation = fail
 
 
 def break_journal() -> None:
@@ -50,7 +51,7 @@ def break_lock() -> None:
 
 
 def break_clock() -> None:
-    modules['journal'].get_ident = sys.modules['_ros2cc_live.steps'].get_ident = fail
+    modules['journal'].get_ident = sys.modules['_ros2cc_live.hook.steps'].get_ident = fail
 
 
 def break_writer() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.cli.shared.native_parts import CORE, JOURNAL, MEND, tell_what_is_missing
-from ros2cc_extract.extract.live import journal
+from ros2cc_extract.extract.live.recorder import journal
 
 NODE = Path(__file__).parents[3] / 'launch_free_examples/two_groups/node.py'
 

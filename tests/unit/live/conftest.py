@@ -7,9 +7,10 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live import groups, journal, steps
-from ros2cc_extract.extract.live.events import EVENT_NAMES, rows
-from ros2cc_extract.extract.live.record import Recorder
+from ros2cc_extract.extract.live.hook import groups, steps
+from ros2cc_extract.extract.live.recorder import journal
+from ros2cc_extract.extract.live.recorder.events import EVENT_NAMES, rows
+from ros2cc_extract.extract.live.recorder.record import Recorder
 from tests.unit.live.stand_ins import Replace, Told, wrap
 
 

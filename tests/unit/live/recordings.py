@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ros2cc_extract.extract.live.events import EVENT_NAMES, RAW_SUFFIX, pack
+from ros2cc_extract.extract.live.recorder.events import EVENT_NAMES, RAW_SUFFIX, pack
 from ros2cc_extract.extract.live.recording import Recording, read_recording
 from ros2cc_extract.extract.live.trace import Trace, read_trace
 

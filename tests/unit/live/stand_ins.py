@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
-from ros2cc_extract.extract.live.events import BEGIN, REFUSED
-from ros2cc_extract.extract.live.groups import reporting
-from ros2cc_extract.extract.live.record import Recorder
+from ros2cc_extract.extract.live.hook.groups import reporting
+from ros2cc_extract.extract.live.recorder.events import BEGIN, REFUSED
+from ros2cc_extract.extract.live.recorder.record import Recorder
 
 Told = Callable[[], list[tuple[str, int]]]
 

@@ -6,9 +6,9 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from ros2cc_extract.extract.live.events import BEGIN, END, REFUSED, TAKE, WAIT, pack, rows
-from ros2cc_extract.extract.live.record import LARGEST_BATCH, Recorder
-from ros2cc_extract.extract.live.tracefile import TraceFile
+from ros2cc_extract.extract.live.hook.tracefile import TraceFile
+from ros2cc_extract.extract.live.recorder.events import BEGIN, END, REFUSED, TAKE, WAIT, pack, rows
+from ros2cc_extract.extract.live.recorder.record import LARGEST_BATCH, Recorder
 
 
 class Group:

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live import entries
-from ros2cc_extract.extract.live.events import BEGIN, END
-from ros2cc_extract.extract.live.frames import Creation
-from ros2cc_extract.extract.live.record import Recorder
+from ros2cc_extract.extract.live.recorder import entries
+from ros2cc_extract.extract.live.recorder.events import BEGIN, END
+from ros2cc_extract.extract.live.recorder.frames import Creation
+from ros2cc_extract.extract.live.recorder.record import Recorder
 
 LINE = ('robot.py', 10, 5)
 

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2cc_extract.extract.live.events import BEGIN, END, SIZE, rows
-from ros2cc_extract.extract.live.journal import Journal, PlainJournal, native, new_journal
+from ros2cc_extract.extract.live.recorder.events import BEGIN, END, SIZE, rows
+from ros2cc_extract.extract.live.recorder.journal import Journal, PlainJournal, native, new_journal
 
 Make = Callable[[int], Journal]
 MAKES = [pytest.param(PlainJournal, id='plain'), pytest.param(native.Journal, id='native')]

@@ -9,11 +9,20 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live import groups, journal
-from ros2cc_extract.extract.live.events import BEGIN, COLLECT, END, REFUSED, TAKE, WAIT, WOKEN
-from ros2cc_extract.extract.live.groups import reporting
-from ros2cc_extract.extract.live.record import Recorder
-from ros2cc_extract.extract.live.writer import Writer
+from ros2cc_extract.extract.live.hook import groups
+from ros2cc_extract.extract.live.hook.groups import reporting
+from ros2cc_extract.extract.live.hook.writer import Writer
+from ros2cc_extract.extract.live.recorder import journal
+from ros2cc_extract.extract.live.recorder.events import (
+    BEGIN,
+    COLLECT,
+    END,
+    REFUSED,
+    TAKE,
+    WAIT,
+    WOKEN,
+)
+from ros2cc_extract.extract.live.recorder.record import Recorder
 
 # Of a second or so each at 1 kHz; the last 256 durations and periods are kept for the median.
 CALLBACKS = 400

@@ -20,10 +20,15 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live import journal
-from ros2cc_extract.extract.live.journal import native
-from ros2cc_extract.extract.live.record import Recorder
-from ros2cc_extract.extract.live.steps import trace_runs, trace_submits, trace_takes, trace_waits
+from ros2cc_extract.extract.live.hook.steps import (
+    trace_runs,
+    trace_submits,
+    trace_takes,
+    trace_waits,
+)
+from ros2cc_extract.extract.live.recorder import journal
+from ros2cc_extract.extract.live.recorder.journal import native
+from ros2cc_extract.extract.live.recorder.record import Recorder
 from tests.unit.live.stand_ins import (
     RCLPY,
     Broken,

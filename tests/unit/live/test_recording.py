@@ -12,7 +12,7 @@ import pytest
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.chrome import write_chrome
-from ros2cc_extract.extract.live.events import loss, thread_name
+from ros2cc_extract.extract.live.recorder.events import loss, thread_name
 from ros2cc_extract.extract.live.recording import read_recording
 from ros2cc_extract.extract.live.trace import Event, Trace, read_trace, write_lines
 from tests.unit.live.recordings import data, event, group, node, recording, timer, trace

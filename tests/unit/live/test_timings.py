@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.live.timings import Timings
+from ros2cc_extract.extract.live.recorder.timings import Timings
 
 MS = 1_000_000
 

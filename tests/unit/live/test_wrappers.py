@@ -18,17 +18,17 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.extract.live.events import BEGIN, END, TAKE, rows
-from ros2cc_extract.extract.live.groups import reporting
-from ros2cc_extract.extract.live.hook import Hook
-from ros2cc_extract.extract.live.record import Recorder
-from ros2cc_extract.extract.live.steps import (
+from ros2cc_extract.extract.live.hook.groups import reporting
+from ros2cc_extract.extract.live.hook.steps import (
     mark_task,
     trace_runs,
     trace_submits,
     trace_takes,
     trace_waits,
 )
+from ros2cc_extract.extract.live.hook.wrapping import Hook
+from ros2cc_extract.extract.live.recorder.events import BEGIN, END, TAKE, rows
+from ros2cc_extract.extract.live.recorder.record import Recorder
 from tests.unit.live.stand_ins import (
     RCLPY,
     Broken,

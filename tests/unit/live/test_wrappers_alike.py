@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2cc_extract.extract.live import groups, journal, steps
-from ros2cc_extract.extract.live.events import EVENT_NAMES, rows
-from ros2cc_extract.extract.live.record import Recorder
+from ros2cc_extract.extract.live.hook import groups, steps
+from ros2cc_extract.extract.live.recorder import journal
+from ros2cc_extract.extract.live.recorder.events import EVENT_NAMES, rows
+from ros2cc_extract.extract.live.recorder.record import Recorder
 from tests.unit.live.stand_ins import Entity, Executor, Handler, Pause, Waiting, WaitSet, wrap
 
 ERRORS: tuple[type[BaseException], ...] = (ValueError, KeyError, KeyboardInterrupt, SystemExit)

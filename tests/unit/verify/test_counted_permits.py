@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.slices.slicer import narrowing
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 PROGRAM = """\

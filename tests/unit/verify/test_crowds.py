@@ -18,7 +18,7 @@ from ros2cc_extract.spec.model import (
 )
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.slices.slicer import narrowing
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 SLICED = Options(profile=Profile.RCLPY, structural=False, limits=Limits(seconds=120))

@@ -21,8 +21,8 @@ from ros2cc_extract.spec.model import (
 )
 from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Key
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.slices.narrowing import FIRST_LOOK_STATES, narrow
-from ros2cc_extract.verify.slices.slicer import narrowing
 
 SATISFIED, REFUTED, OPEN = Verdict.SATISFIED, Verdict.NOT_SATISFIED, Verdict.UNDECIDED
 Answers = Callable[[Key], Verdict]

@@ -19,7 +19,7 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.slices.slicer import narrowing
+from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.unit import verify_unit
 
 

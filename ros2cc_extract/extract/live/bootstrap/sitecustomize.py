@@ -28,7 +28,7 @@ def _load_hook() -> None:
     package = importlib.util.module_from_spec(spec)
     sys.modules[_HOOK_PACKAGE] = package
     spec.loader.exec_module(package)
-    importlib.import_module(f'{_HOOK_PACKAGE}.hook').install_from_environment()
+    importlib.import_module(f'{_HOOK_PACKAGE}.hook.wrapping').install_from_environment()
 
 
 def _run_next_sitecustomize() -> None:

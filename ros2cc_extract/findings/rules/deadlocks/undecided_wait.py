@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.words import listing, shown
@@ -26,6 +25,7 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 from ros2cc_extract.verify.results.caveats import open_ends
+from ros2cc_extract.verify.results.results import Verdict
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})

@@ -18,9 +18,9 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from .entries import EntityRecord
-from .events import BEGIN, END
-from .record import Recorder
+from ..recorder.entries import EntityRecord
+from ..recorder.events import BEGIN, END
+from ..recorder.record import Recorder
 
 Replace = Callable[[type, str, Any], None]
 SPINNING = ('spin', 'spin_once', 'spin_until_future_complete', 'spin_once_until_future_complete')

@@ -15,10 +15,10 @@ import threading
 import time
 from collections.abc import Callable
 
-from .events import RAW_SUFFIX
-from .record import EVENTS_KEPT, Recorder
-from .snapshot import snapshot
-from .spinning import look_for_spinning_threads
+from ..recorder.events import RAW_SUFFIX
+from ..recorder.record import EVENTS_KEPT, Recorder
+from ..recorder.snapshot import snapshot
+from ..recorder.spinning import look_for_spinning_threads
 from .tracefile import TraceFile
 
 # The file is at most 0.5 s old: something new is written at once, mere counts every other time.

@@ -66,7 +66,7 @@ def _load_native() -> Any:
     if os.environ.get(NATIVE_VARIABLE) == '0':
         return None
     try:
-        from . import _journal  # type: ignore[attr-defined]
+        from .. import _journal  # type: ignore[attr-defined]
     except ImportError:
         return None
     # Where the tool is used in place, what was built of an older text of it stays there.

@@ -20,8 +20,8 @@ import time
 from threading import get_ident
 from typing import Any
 
-from .journal import native
-from .record import Recorder
+from ..recorder.journal import native
+from ..recorder.record import Recorder
 
 # Of types whose objects become methods of the instance that they are found on, as functions do:
 # Py_TPFLAGS_METHOD_DESCRIPTOR.

@@ -16,11 +16,11 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from .events import BEGIN, END, REFUSED
+from ..recorder.events import BEGIN, END, REFUSED
+from ..recorder.frames import is_node, trace_creation
+from ..recorder.record import Recorder
 from .events_executor import mark_spinning, measure_callbacks
-from .frames import is_node, trace_creation
 from .groups import reporting
-from .record import Recorder
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
 from .writer import Writer
 

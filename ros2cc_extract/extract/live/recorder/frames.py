@@ -22,7 +22,7 @@ RawPlace = tuple[str, int, int]
 # Libraries that create entities on a node's behalf; the place of interest is their caller's.
 LIBRARIES = frozenset({'tf2_ros', 'message_filters', 'diagnostic_updater'})
 # Our wrappers lie between rclpy and the program.
-_OURS = __name__.rpartition('.')[0]
+_OURS = __name__.rsplit('.', 2)[0]
 
 
 @dataclass
@@ -62,7 +62,7 @@ def trace_creation(frame: FrameType | None, made: Any = None) -> Creation:
         package, _, rest = module.partition('.')
         if package == 'rclpy':
             _pass_rclpy(creation, frame, rest)
-        elif module.rpartition('.')[0] == _OURS:
+        elif module.rsplit('.', 2)[0] == _OURS:
             pass
         elif package in LIBRARIES and creation.place is None:
             creation.library = package

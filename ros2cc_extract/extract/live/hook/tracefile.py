@@ -13,7 +13,7 @@ import sys
 import threading
 from typing import BinaryIO
 
-from .events import loss, thread_name, unpack
+from ..recorder.events import loss, thread_name, unpack
 
 
 class TraceFile:

@@ -17,8 +17,8 @@ from threading import get_ident
 from types import CodeType, FrameType
 from typing import Any
 
-from .entries import TaskRecord
-from .events import (
+from ..recorder.entries import TaskRecord
+from ..recorder.events import (
     COLLECT,
     PAUSE,
     RESUME,
@@ -30,8 +30,8 @@ from .events import (
     WAIT,
     WOKEN,
 )
-from .journal import native
-from .record import Recorder
+from ..recorder.journal import native
+from ..recorder.record import Recorder
 
 Replace = Callable[[type, str, Any], None]
 # What we keep with each task of rclpy; these are the values of one not yet seen.

@@ -11,10 +11,10 @@ import gc
 import sys
 from typing import Any
 
-from .frames import is_node
-from .record import Recorder
-from .snapshot import snapshot
-from .spinning import look_for_spinning_threads
+from ..recorder.frames import is_node
+from ..recorder.record import Recorder
+from ..recorder.snapshot import snapshot
+from ..recorder.spinning import look_for_spinning_threads
 
 
 def record_process(path: str) -> None:
