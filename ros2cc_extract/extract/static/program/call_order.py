@@ -8,7 +8,12 @@ from collections.abc import Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.program.relevance import creates_entities, noted_on, walk
+from ros2cc_extract.extract.static.program.relevance import (
+    creates_entities,
+    noted_on,
+    waits_for_others,
+    walk,
+)
 
 Item = TypeVar('Item')
 
@@ -50,18 +55,25 @@ def callers_first(
 
 
 def leading_to_entities(
-    names: Sequence[str], nodes: Sequence[ast.AST], makers: frozenset[str]
+    names: Sequence[str],
+    nodes: Sequence[ast.AST],
+    makers: frozenset[str],
+    *,
+    or_wait: bool = False,
 ) -> frozenset[str]:
     """
     Names of the methods that make or serve entities, themselves or through each other.
 
     :param makers: names of classes and functions that do so.
+    :param or_wait: so do those that wait for others.
     """
     methods = list(zip(names, nodes, strict=True))
     found = {
         name
         for name, node in methods
-        if creates_entities(node) or not makers.isdisjoint(mentions(node))
+        if creates_entities(node)
+        or not makers.isdisjoint(mentions(node))
+        or (or_wait and waits_for_others(node))
     }
     users = defaultdict[str, list[str]](list)
     for name, node in methods:

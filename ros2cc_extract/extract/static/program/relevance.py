@@ -79,6 +79,45 @@ def _creates_entities(node: ast.AST) -> bool:
     )
 
 
+_WAITS = frozenset(
+    [
+        'accept',
+        'call',
+        'call_async',
+        'communicate',
+        'get_result',
+        'get_result_async',
+        'recv',
+        'recvfrom',
+        'wait',
+        'wait_for',
+        'wait_for_message',
+        'wait_for_server',
+        'wait_for_service',
+    ]
+)
+_OF_PROCESSES = frozenset(['run', 'check_call', 'check_output'])
+
+
+def waits_for_others(node: ast.AST) -> bool:
+    """Whether ``node`` calls something by the name of a wait for somebody else."""
+    return noted_on(node, 'waits_for_others', _waits_for_others)
+
+
+def _waits_for_others(node: ast.AST) -> bool:
+    return any(part.__class__ is ast.Call and _is_wait(part) for part in walk(node))  # type: ignore[arg-type]
+
+
+def _is_wait(call: ast.Call) -> bool:
+    function = call.func
+    if not isinstance(function, ast.Attribute):
+        return isinstance(function, ast.Name) and function.id == 'input'
+    if function.attr in _OF_PROCESSES:
+        return isinstance(function.value, ast.Name) and function.value.id == 'subprocess'
+    is_of_thread = function.attr == 'join' and not call.args  # that of a text takes something
+    return function.attr in _WAITS or is_of_thread
+
+
 def is_test(name: str) -> bool:
     """Whether test runners take a function of this name for a test."""
     return name.startswith('test')

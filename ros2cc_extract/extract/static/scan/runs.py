@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.python.language.open_tests import holds_objec
 from ros2cc_extract.extract.static.python.language.plain_data_calls import (
     leads_nowhere,
     may_make_entities,
+    may_wait,
 )
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError
@@ -115,14 +116,15 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
 
 def _run_escaped(machine: Interpreter) -> None:
     """Functions handed to code that is not scanned, such as the loop of another framework."""
-    for value, place in machine.world.escaped[:_CALLBACK_LIMIT]:
+    world = machine.world
+    for value, place in world.escaped[:_CALLBACK_LIMIT]:
         inner = value
         while isinstance(inner, Partial):
             inner = inner.function
         function = inner.function if isinstance(inner, Bound) else inner
-        if not isinstance(function, Function) or id(function.node) in machine.world.called:
+        if not isinstance(function, Function) or id(function.node) in world.called:
             continue
-        if may_make_entities(machine.world, function.node):
+        if may_make_entities(world, function.node) or may_wait(world, function.node):
             _run_escaped_one(machine, value, function, place)
 
 
@@ -432,7 +434,7 @@ def _methods_without_caller(machine: Interpreter, instance: Instance) -> list[_M
         and creates_entities(value.node)
     )
     names, nodes = [method.name for method in left], [method.function.node for method in left]
-    wanted = leading_to_entities(names, nodes, makers)
+    wanted = leading_to_entities(names, nodes, makers, or_wait=True)
     if isinstance(instance.state, NodeState) and instance.state.lifecycle:
         wanted |= {_DESTROYING}
     return [method for method in callers_first(left, names, nodes) if method.name in wanted]

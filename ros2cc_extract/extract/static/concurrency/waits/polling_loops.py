@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     spins,
 )
 from ros2cc_extract.extract.static.program.relevance import walk
+from ros2cc_extract.extract.static.python.language.plain_data_calls import reachable
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -255,11 +256,12 @@ def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
     """Code that no callback runs only spins or sleeps until something has changed."""
     if is_endless(loop) or not (only_waits(loop) or spins(loop)):
         return
+    world = machine.world
     end = getattr(loop, 'end_lineno', None) or loop.lineno
     place = frame.place(loop)
     spun = tuple(
         node
-        for spin in machine.world.spins.values()
+        for spin in world.spins.values()
         if spin.place.file == place.file and loop.lineno <= spin.place.line <= end
         for node in spin.nodes
     )
@@ -273,11 +275,25 @@ def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
         return
     is_foreign = _is_foreign(machine, loop.test, loop, frame)
     names = _read(machine, [loop.test], frame)
-    if names and only_waits(loop):
+    if names:
+        is_foreign = is_foreign or not (only_waits(loop) or _leaves_to_others(world, loop, names))
         reason = Unknown('the loop also ends otherwise', place)
         reference = DataRef(sorted(names)[0])
         reference.names = frozenset(names)
         machine.note_loop_on_data(POLL, reference, reason if is_foreign else None, place, spun)
+
+
+def _leaves_to_others(world: World, loop: ast.While, names: set[str]) -> bool:
+    """Whether neither the loop nor what it calls by name stores what its test looks at."""
+    attributes = {name.rpartition('.')[2] for name in names}
+    stores = (
+        isinstance(part, ast.Attribute)
+        and isinstance(part.ctx, ast.Store)
+        and part.attr in attributes
+        for node in reachable(world, loop)
+        for part in walk(node)
+    )
+    return not _leaves(loop) and not any(stores)
 
 
 def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:

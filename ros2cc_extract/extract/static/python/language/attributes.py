@@ -111,6 +111,8 @@ class Attributes(Machine):
         if name == '__setattr__':
             return Native(name, builtin_methods.set_attribute, value)
         found = self._in_order(value.mro, value, name, place)
+        if isinstance(found, Const):
+            return self._as_of_now(value, name, found, place)
         if not isinstance(found, (Bound, Native)):
             open_tests.note_attribute(self, value, name, found)
         return found or self._handed_on(value, name, place)

@@ -11,7 +11,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 
-from ros2cc_extract.extract.static.program.relevance import creates_entities, noted_on, walk
+from ros2cc_extract.extract.static.program.relevance import (
+    creates_entities,
+    noted_on,
+    waits_for_others,
+    walk,
+)
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
@@ -78,16 +83,21 @@ def leads_nowhere(world: World, start: ast.AST) -> bool:
     """Whether nothing that ``start`` names makes, serves or waits for anything of ROS."""
     return not any(
         creates_entities(node) or noted_on(node, 'does_more', _does_more)
-        for node in _reachable(world, start)
+        for node in reachable(world, start)
     )
 
 
 def may_make_entities(world: World, start: ast.AST) -> bool:
     """Whether something that ``start`` names makes or serves entities."""
-    return any(creates_entities(node) for node in _reachable(world, start))
+    return any(creates_entities(node) for node in reachable(world, start))
 
 
-def _reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
+def may_wait(world: World, start: ast.AST) -> bool:
+    """Whether something that ``start`` names waits for somebody else."""
+    return any(waits_for_others(node) for node in reachable(world, start))
+
+
+def reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
     """``start``, and the functions and classes that it leads to by name."""
     indices = [noted_on(tree, 'by_name', _by_name) for tree in world.trees]
     waiting, seen = [start], {id(start)}
