@@ -60,6 +60,9 @@ class RaceKind(Enum):
     LAST_WRITE_WINS = 'last write wins'
 
 
+_OWN_HARM = (RaceKind.CHANGED_IN_LOOP, RaceKind.CLEARED_IN_USE, RaceKind.TORN)
+"""What not every other write does."""
+
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
 
 
@@ -456,9 +459,10 @@ def _is_flag(conflict: _Conflict) -> bool:
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
     worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
     first = worst.first.doer.name
+    told = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
     uses = [
         use
-        for conflict in conflicts
+        for conflict in told
         if first in (conflict.first.doer.name, conflict.other.doer.name)
         for use in (conflict.first, conflict.other)
     ]

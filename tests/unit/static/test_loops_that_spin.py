@@ -1,4 +1,4 @@
-"""``main`` spins in a loop until a callback has stored what the loop looks at, and works beside."""
+"""``main`` spins in a loop, and works, until a callback has stored what the loop looks at."""
 
 from __future__ import annotations
 

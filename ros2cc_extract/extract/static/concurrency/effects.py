@@ -136,6 +136,8 @@ class Effects(Waits):
         chosen = is_content and (flows or name in reading.choices.get(at, ()))
         rests = reading.governs(name, self.world.path) or flows or chosen
         is_used = rests and is_read and at in reading.used
+        # What is imported is the same each time, whatever was found before.
+        is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
         access = Access(
@@ -152,7 +154,7 @@ class Effects(Waits):
             iterates=self.world.iterating,
             item=reading.items.get(at),
             chosen=chosen,
-            rests=is_used or (rests and not is_read),
+            rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
             later=is_used and reading.has_called_since(name, self.world.path),
             clears=is_stored and reading.stored == NONE,

@@ -105,7 +105,7 @@ def waits_for_others(node: ast.AST) -> bool:
 
 
 def _waits_for_others(node: ast.AST) -> bool:
-    return any(part.__class__ is ast.Call and _is_wait(part) for part in walk(node))  # type: ignore[arg-type]
+    return any(part.__class__ is ast.Call and _is_wait(part) for part in walk(node))
 
 
 def _is_wait(call: ast.Call) -> bool:
