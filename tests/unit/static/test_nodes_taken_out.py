@@ -61,3 +61,51 @@ def test_a_node_that_leaves_the_executor_of_a_thread(
     mine = [each for each in found if each.slug == 'node-taken-out']
     assert [each.place.line for each in mine] == lines
     assert all('after that it is in none' in each.message for each in mine)
+
+
+ROBBER = """
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class Tour(Node):
+    def __init__(self):
+        super().__init__('tour')
+        self.client = self.create_client(Trigger, 'open')
+        self.create_timer(1.0, lambda: None)
+        self.thread = threading.Thread(target=self.drive)
+        self.thread.start()
+
+    def drive(self):
+        {spins}(self, self.client.call_async(Trigger.Request()))
+
+def main():
+    rclpy.init()
+    tour = Tour()
+    {first}
+    executor = SingleThreadedExecutor()
+    executor.add_node(tour)
+    executor.spin()
+
+main()
+"""
+SPINS = 'rclpy.spin_until_future_complete'
+
+
+@pytest.mark.parametrize(
+    ('spins', 'first', 'lines'),
+    [
+        (SPINS, 'pass', [17]),
+        (SPINS, 'tour.thread.join()', []),  # over before another executor has the node
+        ('print', 'pass', []),
+        (SPINS, 'tour = rclpy.create_node("other")', []),
+    ],
+)
+def test_a_node_that_a_thread_takes_out_which_began_before(
+    spins: str, first: str, lines: list[int]
+) -> None:
+    found = scan_text(ROBBER.format(spins=spins, first=first)).diagnostics
+    mine = [each for each in found if each.slug == 'node-taken-out']
+    assert [each.place.line for each in mine] == lines

@@ -56,6 +56,9 @@ from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_te
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
 from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
+from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
+    note_taken_by_threads,
+)
 from ros2cc_extract.extract.static.units.whole_program.taken_messages import note_taken
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import note_unanswered
 from ros2cc_extract.places import Place, Unknown
@@ -108,6 +111,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
     note_spun_twice(machine.world)
+    note_taken_by_threads(machine.world)
     note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
