@@ -197,7 +197,7 @@ def _of_loop(loop: ast.While) -> str | None:
 
 def _of_call(call: ast.Call, text: Text, around: Sequence[Function]) -> str | None:
     name = _name(call)
-    if _has_limit(call, name):
+    if _has_limit(call, name) or _is_of_socket_with_limit(call, name, text):
         return WITH_LIMIT
     if _is_no_wait(call, name, text, around):
         return NO_WAIT
@@ -219,6 +219,20 @@ def _has_limit(call: ast.Call, name: str) -> bool:
     return any(not (isinstance(v, ast.Constant) and v.value is None) for v in limits)
 
 
+def _is_of_socket_with_limit(call: ast.Call, name: str, text: Text) -> bool:
+    """Whether the file gives a limit to the socket of that name."""
+    if not name.startswith('recv') or not isinstance(call.func, ast.Attribute):
+        return False
+    socket = ast.unparse(call.func.value)
+    setters = (part.func for part in text.parts if isinstance(part, ast.Call) and part.args)
+    return any(
+        isinstance(setter, ast.Attribute)
+        and setter.attr in ('settimeout', 'setblocking')
+        and ast.unparse(setter.value) == socket
+        for setter in setters
+    )
+
+
 def _is_no_wait(call: ast.Call, name: str, text: Text, around: Sequence[Function]) -> bool:
     owner = call.func.value if isinstance(call.func, ast.Attribute) else None
     flags = [k.value for k in call.keywords if k.arg in ('block', 'blocking')]
@@ -226,7 +240,8 @@ def _is_no_wait(call: ast.Call, name: str, text: Text, around: Sequence[Function
         return True
     if name == 'result':
         # ``rclpy.task.Future.result`` returns at once (rclpy 7.1.6, ``task.py``).
-        return not text.imported & _FUTURES or _is_done(owner, text, around)
+        is_known = owner is not None and _is_of_rclpy(owner, text)
+        return not text.imported & _FUTURES or is_known or _is_done(owner, text, around)
     if name == 'put':
         return owner is not None and _is_boundless(owner, text)
     if name == 'get':  # of a dictionary
@@ -257,17 +272,30 @@ def _is_done(owner: ast.expr | None, text: Text, around: Sequence[Function]) -> 
     return any(function.name in given for function in around)
 
 
-def _is_boundless(owner: ast.expr, text: Text) -> bool:
-    """Whether the queue is made without a size, wherever a thing of that name is made."""
+def _is_of_rclpy(owner: ast.expr, text: Text) -> bool:
+    """Whether clients of rclpy make all that is stored under that name: ``call_async``."""
+    made = _made_as(owner, text)
+    calls = [each for each in made if not isinstance(each, ast.Constant)]
+    return bool(calls) and all(
+        isinstance(each, ast.Call) and _name(each).endswith('_async') for each in calls
+    )
+
+
+def _made_as(owner: ast.expr, text: Text) -> list[ast.expr | None]:
+    """What is stored in the file where things have the last name of ``owner``."""
     name = ast.unparse(owner).rpartition('.')[2]
-    made = [
+    return [
         part.value
         for part in text.parts
         if isinstance(part, (ast.Assign, ast.AnnAssign))
         for target in (part.targets if isinstance(part, ast.Assign) else [part.target])
         if ast.unparse(target).rpartition('.')[2] == name
     ]
-    calls = [value for value in made if isinstance(value, ast.Call)]
+
+
+def _is_boundless(owner: ast.expr, text: Text) -> bool:
+    """Whether the queue is made without a size, wherever a thing of that name is made."""
+    calls = [value for value in _made_as(owner, text) if isinstance(value, ast.Call)]
     return bool(calls) and all(
         _name(each) in ('Queue', 'SimpleQueue', 'LifoQueue', 'PriorityQueue')
         and not each.args

@@ -51,3 +51,14 @@ def test_a_read_of_a_camera_is_in_the_specification_and_no_finding(source: str) 
 
 def test_a_read_of_a_file_is_no_wait() -> None:
     assert waits_of(unit_of("'record.mp4'")) == ()
+
+
+def test_frames_of_a_pipeline_come_or_the_wait_for_them_gives_up() -> None:
+    text = PROGRAM.replace('import cv2', 'import pyrealsense2 as rs')
+    text = text.replace('cv2.VideoCapture(SOURCE)', 'rs.pipeline()')
+    (unit,) = scan_text(text.replace('ok, frame = self.capture.read()', FRAMES)).units
+    (wait,) = waits_of(unit)
+    assert (wait.call, wait.wakers) == ('pipeline.wait_for_frames', (Waker(by=TIME),))
+
+
+FRAMES = 'frames = self.capture.wait_for_frames()'

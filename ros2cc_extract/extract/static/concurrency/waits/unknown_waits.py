@@ -17,6 +17,7 @@ _ALWAYS = frozenset(
 )
 _WITHOUT_VALUES = frozenset(['join', 'get'])
 _OF_FUTURES = frozenset(['result', 'exception'])
+_WAIT = 'wait_'
 _TIMEOUT_FIRST = frozenset(['wait', 'join', 'result', 'exception'])
 _KEYWORDS = frozenset(['timeout', 'block', 'blocking'])
 # What has a ``get`` or ``wait`` that does not wait, or waits for a person that looks at it.
@@ -52,14 +53,16 @@ def timeout_of(call: Call) -> Value | None:
     """The time-out of a wait, which may be the first argument where nothing else can be."""
     if called_name(call) == 'poll':
         return None
-    first = call.args[0] if call.args and called_name(call) in _TIMEOUT_FIRST else None
+    name = called_name(call)
+    may_be_first = name in _TIMEOUT_FIRST or name.startswith(_WAIT)
+    first = call.args[0] if call.args and may_be_first else None
     return call.keywords.get('timeout', first if _is_number(first) else None)
 
 
 def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
     if _does_not_block(call):
         return False
-    if name in _ALWAYS:
+    if name in _ALWAYS or name.startswith(_WAIT):
         return True
     if name == 'poll':
         return _has_no_end(call)

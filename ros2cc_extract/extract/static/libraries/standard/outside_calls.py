@@ -4,7 +4,8 @@ Calls that wait for what is outside of the program: processes, sockets, ports, p
 Sources: CPython 3.12, ``subprocess.py``, ``socket``, ``select``, ``urllib/request.py``; pyserial
 3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``; OpenCV 4, ``waitKey`` (a delay of zero or
 less means for ever) and ``videoio`` (a read takes as long as a frame, and gives up after 10 s by
-``cap_v4l.cpp``, after 30 s by ``cap_ffmpeg_impl.hpp``).
+``cap_v4l.cpp``, after 30 s by ``cap_ffmpeg_impl.hpp``); librealsense 2, ``pyrealsense2``
+(``wait_for_frames`` gives up after 5 s).
 """
 
 from __future__ import annotations
@@ -245,7 +246,8 @@ def _wait_key(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 _CAPTURE = 'cv2.VideoCapture'
-READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab'})
+_FRAMES = 'pipeline.wait_for_frames'
+READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab', _FRAMES})
 """They wait for the next frame, and end by themselves where none comes."""
 
 
@@ -285,8 +287,13 @@ TABLE = Library(
         _CAPTURE: LibraryClass(
             init=_open_capture,
             methods={
-                name.rpartition('.')[2]: _reads_camera(name) for name in sorted(READS_OF_CAMERAS)
+                name.rpartition('.')[2]: _reads_camera(name)
+                for name in sorted(READS_OF_CAMERAS - {_FRAMES})
             },
+        ),
+        'pyrealsense2.pipeline': LibraryClass(
+            init=lambda machine, receiver, call: NONE,
+            methods={'wait_for_frames': _reads_camera(_FRAMES)},
         ),
     },
     functions={
