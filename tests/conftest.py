@@ -5,16 +5,14 @@ from __future__ import annotations
 import pytest
 from hypothesis import HealthCheck, settings
 
-# A change is judged by examples that are the same everywhere; `make test-long` draws new ones.
-settings.register_profile('same', derandomize=True)
-settings.register_profile('new', derandomize=False)
-# An emulated processor is slow, and nobody's fault.
+# How long an example takes is no verdict: machines are busy, and emulated processors slow.
 settings.register_profile(
-    'emulated',
-    derandomize=True,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
+    'patient', deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
 )
+PATIENT = settings.get_profile('patient')
+# A change is judged by examples that are the same everywhere; `make test-long` draws new ones.
+settings.register_profile('same', parent=PATIENT)
+settings.register_profile('new', parent=PATIENT, derandomize=False)
 settings.load_profile('same')
 
 
