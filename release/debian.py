@@ -118,24 +118,52 @@ def _unpack(suite: str, name: str, packages: list[str], root: Path) -> bool:
         (root / 'usr' / part).mkdir(parents=True)
         (root / part).symlink_to(f'usr/{part}')
     folder = root.with_name(f'{root.name}-apt')
+    fetch = ['-y', '--no-install-recommends', '--download-only', 'install', *packages]
+    if not _apt(suite, name, folder, fetch):
+        return False
+    for package in sorted((folder / 'cache/archives').glob('*.deb')):
+        # Not dpkg -x: that would put folders in the place of the links.
+        unpacked = subprocess.run(['dpkg-deb', '--fsys-tarfile', package], capture_output=True)
+        tar = ['tar', '-x', '--keep-directory-symlink', '--no-same-owner', '-C', root]
+        subprocess.run(tar, input=unpacked.stdout, check=True)
+    return True
+
+
+def fetched_sources(suite: str, packages: list[str], folder: Path) -> list[Path]:
+    """Give the archives of what others wrote of some packages; nothing where they are not had."""
+    if not shutil.which('apt-get') or not _archive():
+        return []
+    folder.mkdir(parents=True)
+    fetch = ['--download-only', 'source', *packages]
+    name = ARCHITECTURES[os.uname().machine]
+    if not _apt(suite, name, folder.with_name(f'{folder.name}-apt'), fetch, folder):
+        return []
+    return sorted(path for path in folder.glob('*.orig.tar.*') if path.suffix != '.asc')
+
+
+def _apt(
+    suite: str, name: str, folder: Path, fetch: Sequence[str], where: Path | None = None
+) -> bool:
+    """Let apt fetch from one release, with lists and settings of its own in ``folder``."""
     shutil.rmtree(folder, ignore_errors=True)
     for part in ('state/lists/partial', 'cache/archives/partial', 'etc/apt.conf.d'):
         (folder / part).mkdir(parents=True, exist_ok=True)
     (folder / 'state/status').touch()
     settings = SETTINGS.format(folder=folder, name=name)
     (folder / 'apt.conf').write_text(settings, encoding='utf-8')
-    source = f'deb [signed-by={KEYS}] {_archive()} {suite} main\n'
+    kind = 'deb-src' if 'source' in fetch else 'deb'
+    source = f'{kind} [signed-by={KEYS}] {_archive()} {suite} main\n'
     (folder / 'etc/sources.list').write_text(source, encoding='utf-8')
     environment = {**os.environ, 'APT_CONFIG': str(folder / 'apt.conf')}
-    fetch = ['apt-get', '-qq', '-y', '--no-install-recommends', '--download-only', 'install']
-    for command in (['apt-get', '-qq', 'update'], [*fetch, *packages]):
-        done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    for arguments in (['update'], fetch):
+        done = subprocess.run(
+            ['apt-get', '-qq', *arguments],
+            cwd=where,
+            env=environment,
+            capture_output=True,
+            text=True,
+        )
         if done.returncode:
             print(f'Debian {suite} {name}: {done.stderr.strip()}', file=sys.stderr)
             return False
-    for package in sorted((folder / 'cache/archives').glob('*.deb')):
-        # Not dpkg -x: that would put folders in the place of the links.
-        unpacked = subprocess.run(['dpkg-deb', '--fsys-tarfile', package], capture_output=True)
-        tar = ['tar', '-x', '--keep-directory-symlink', '--no-same-owner', '-C', root]
-        subprocess.run(tar, input=unpacked.stdout, check=True)
     return True

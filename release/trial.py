@@ -3,9 +3,10 @@
 Installs each wheel where no compiler is, and runs an example and the tests of its native parts.
 
 ``python -m release.trial [DIR] [--only TEXT] [--short]``: x86-64 wheels in a new virtual
-environment of their version, aarch64 ones under ``qemu-aarch64-static`` with Debian's CPython.
-There is no CPython on musl: the native parts of such a wheel are bound by Debian's musl, and no
-more. A wheel without an interpreter is named: only auditwheel has seen it.
+environment of their version, aarch64 ones under ``qemu-aarch64-static`` with Debian's CPython, on
+musl with one that is built of Debian's sources where ``musl-gcc`` is. Without one the native
+parts of such a wheel are bound by Debian's musl, and no more. A wheel without an interpreter is
+named: only auditwheel has seen it.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from pathlib import Path
 
 from release.debian import aarch64_python, musl_loader
 from release.environments import QUIET, made
+from release.musl import musl_python
 from release.sources import ROOT
 from release.targets import UNPACKED, interpreters
 
@@ -110,10 +112,15 @@ def tried(wheel: Wheel, *, is_short: bool) -> Outcome:
     folder = WORK / wheel.tag
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    if wheel.is_musl:
-        return loaded(wheel, folder)
     is_here = wheel.machine == os.uname().machine
-    python = installed_here(wheel, folder) if is_here else installed_there(wheel, folder)
+    if wheel.is_musl:
+        built = musl_python(wheel.version, UNPACKED) if is_here else None
+        if not built:
+            return loaded(wheel, folder)
+        python = [str(built)]
+        install([sys.executable, '-m', 'pip'], wheel, told_to_pip(wheel, folder / 'site'))
+    else:
+        python = installed_here(wheel, folder) if is_here else installed_there(wheel, folder)
     if not python:
         return Outcome(wheel, None, f'there is no CPython {wheel.version} for {wheel.machine}')
     return judged(wheel, python, folder, is_short=is_short)
@@ -155,10 +162,7 @@ def installed_there(wheel: Wheel, folder: Path) -> list[str]:
     if not python:
         return []
     site = folder / 'site'
-    there = [f'--platform=manylinux2014_{wheel.machine}', f'--python-version={wheel.version}']
-    there += [f'--platform=manylinux_2_{minor}_{wheel.machine}' for minor in (17, 28)]
-    there += ['--implementation=cp', f'--target={site}', '--no-compile']
-    install([sys.executable, '-m', 'pip'], wheel, there)
+    install([sys.executable, '-m', 'pip'], wheel, told_to_pip(wheel, site))
     here = interpreters().get(wheel.version)
     if here:
         # Its byte code is the same on every machine, and emulated it takes most of the time.
@@ -166,6 +170,18 @@ def installed_there(wheel: Wheel, folder: Path) -> list[str]:
         compiling = [here.path, '-m', 'compileall', '-q', '-j', '1', site, library]
         subprocess.run(compiling, check=False, stdout=subprocess.DEVNULL)
     return python
+
+
+def told_to_pip(wheel: Wheel, site: Path) -> list[str]:
+    """Give what lets pip choose what runs on another system, and put it into a folder."""
+    platforms = (
+        [f'musllinux_1_{minor}_{wheel.machine}' for minor in (1, 2)]
+        if wheel.is_musl
+        else [f'manylinux{glibc}_{wheel.machine}' for glibc in ('2014', '_2_17', '_2_28')]
+    )
+    there = [f'--platform={platform}' for platform in platforms]
+    there += [f'--python-version={wheel.version}', '--implementation=cp']
+    return [*there, f'--target={site}', '--no-compile']
 
 
 def install(pip: list[str], wheel: Wheel, how: list[str]) -> None:
@@ -186,7 +202,7 @@ def judged(wheel: Wheel, python: list[str], folder: Path, *, is_short: bool) -> 
         'XDG_CACHE_HOME': str(folder / 'cache'),
     }
     is_emulated = len(python) > 1
-    tests = (*EMULATED_TESTS, '--hypothesis-profile=emulated') if is_emulated else TESTS
+    tests = EMULATED_TESTS if is_emulated else TESTS
     commands = [('-c', SEEN, str(tree), *(EMULATED_LIMITS if is_emulated else ()))]
     if not is_short:
         commands.append(('-m', 'pytest', '-q', '-p', 'no:cacheprovider', *tests))
