@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
-from ros2cc_extract.extract.static.python.machine.machine import THING_STEPS, Machine
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
-from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
+from ros2cc_extract.extract.static.python.machine.machine import THING_STEPS
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -29,7 +30,7 @@ from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
-def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
+def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None:
     """Follow what another thread sets up; it holds no lock of ours and is no callback."""
     world = machine.world
     if world.retelling:
@@ -55,7 +56,7 @@ def run_in_thread(machine: Machine, target: Value, call: Call) -> None:
 
 
 def begin(
-    machine: Machine,
+    machine: ConcurrentMachine,
     kind: ActivityKind,
     target: Value | None,
     call: Call,
@@ -104,7 +105,7 @@ def begin(
         _go_on_beside(machine, call.place)
 
 
-def _note_again(world: World, known: ActivityState) -> None:
+def _note_again(world: ConcurrentWorld, known: ActivityState) -> None:
     """
     It starts itself anew; what leads there from its own function is told.
 
@@ -115,7 +116,7 @@ def _note_again(world: World, known: ActivityState) -> None:
         known.again = world.chain[1] if len(world.chain) > 1 else known.place
 
 
-def _own_text(world: World, text: object) -> ActivityState | None:
+def _own_text(world: ConcurrentWorld, text: object) -> ActivityState | None:
     """That one which starts itself anew, itself or by others."""
     each: object = world.activity
     while isinstance(each, ActivityState):
@@ -129,13 +130,13 @@ def _more(known: ActivityState) -> int | Unknown:
     return known.count + 1 if isinstance(known.count, int) else known.count
 
 
-def _count(world: World, place: Place) -> int | Unknown:
+def _count(world: ConcurrentWorld, place: Place) -> int | Unknown:
     if world.when is not When.CALLBACK or world.activity is not None:
         return world.count
     return Unknown('started each time the callback runs', place)
 
 
-def _note_start(machine: Machine, state: ActivityState, runner: Value | None) -> None:
+def _note_start(machine: ConcurrentMachine, state: ActivityState, runner: Value | None) -> None:
     world = machine.world
     doer = world.activity or world.current
     behind = world.deeds.behind if world.deeds is not None else None
@@ -149,7 +150,7 @@ def _note_start(machine: Machine, state: ActivityState, runner: Value | None) ->
         world.wakings.setdefault(id(runner), []).append(Waking(Word.END, state, place))
 
 
-def _go_on_beside(machine: Machine, place: Place) -> None:
+def _go_on_beside(machine: ConcurrentMachine, place: Place) -> None:
     """From here on the main program runs beside an executor that a thread of its own spins."""
     world = machine.world
     is_main = world.current is None and world.activity is None and world.deeds is None
@@ -160,7 +161,7 @@ def _go_on_beside(machine: Machine, place: Place) -> None:
     world.activity, world.deeds, world.callback_path = state, state.deeds, world.path
 
 
-def spins(world: World, *, for_ever: bool) -> None:
+def spins(world: ConcurrentWorld, *, for_ever: bool) -> None:
     """The code that is followed spins an executor from here on."""
     activity = world.activity
     if activity is None:
@@ -191,7 +192,7 @@ def _text_of(target: Value) -> object:
     return id(target.node) if isinstance(target, Function) else id(target)
 
 
-def followed(world: World) -> Iterator[ActivityState]:
+def followed(world: ConcurrentWorld) -> Iterator[ActivityState]:
     """Those that have not been followed for what they do."""
     while world.told < len(world.activities):
         state = world.activities[world.told]
@@ -200,7 +201,7 @@ def followed(world: World) -> Iterator[ActivityState]:
             yield state
 
 
-def begin_telling(world: World, state: ActivityState) -> None:
+def begin_telling(world: ConcurrentWorld, state: ActivityState) -> None:
     """What is followed from here on is what ``state`` does."""
     starters = [start.by for start in state.starts]
     world.activity, world.deeds = state, state.deeds

@@ -13,46 +13,33 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
-from ros2cc_extract.extract.static.concurrency.waits import (
-    cleared_events,
-    values_during_waits,
-)
+from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
 from ros2cc_extract.extract.static.program.relevance import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.world import (
-    RECENT,
-    AccessKind,
-    ExecutorState,
-    PlainState,
-    note_once,
-)
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind, note_once
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import (
     Collection,
-    Sequence,
     collection_class,
 )
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
-    Call,
     Class,
     Const,
-    Coroutine,
     Function,
     Heaped,
     Instance,
     Library,
     Module,
-    Mystery,
     Native,
     Scope,
     Value,
-    choice,
     options_of,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
@@ -319,60 +306,13 @@ class Effects(Waits):
             given_back = (lock, lock + SHARED)
             self.world.held = tuple(held for held in self.world.held if held not in given_back)
 
-    def note_publish(self, publisher: Value, place: Place) -> None:
-        """A message is published."""
-        deeds = self.world.deeds
-        if deeds is None or not isinstance(publisher, Instance):
-            return
-        key = publisher.state.key if isinstance(publisher.state, PlainState) else None
-        name: str | Unknown = Unknown('topic that could not be followed', place)
-        if isinstance(key, Const):
-            name = str(key.value)
-        elif isinstance(key, Mystery):
-            name = key.unknown
-        is_open = self.world.path != self.world.callback_path
-        deeds.written.setdefault((name, place), (deeds.behind, is_open))
-        cleared_events.note_sent(deeds, str(name))
-        lost_notifies.note_begun(self.world, place)
-        note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
-
-    def note_change(self, what: str, node: Instance, place: Place) -> None:
-        """A callback changes which executor serves ``node``."""
-        if self.world.deeds is not None:
-            act = Act(name=what, source=place, chain=self.world.chain[1:])
-            note_once(self.world.deeds.changes, act)
-
-    def enter_context(self, value: Value, place: Place) -> Value:
-        """What ``with value as x`` binds to ``x``; locks are held inside."""
-        if isinstance(value, Instance):
-            if isinstance(value.state, (PlainState, ExecutorState)):
-                if _is_semaphore(value):
-                    self.note_blocking('Semaphore.acquire', value, None, place)
-                elif is_counter(self.world, value):
-                    self.note_blocking('Lock.acquire', value, None, place)
-                self.note_acquire(value, place)
-                return value
-            method = self.attribute(value, '__enter__', place)
-            if isinstance(method, Bound):
-                entered = self.call(method, Call(place))
-                self.note_lock_method(value, '__enter__')
-                return entered
-            return value
-        return self._enter_generator(value, place)
-
-    def _enter_generator(self, value: Value, place: Place) -> Value:
-        """
-        A generator under ``contextmanager`` stops at its ``yield`` until the block is left.
-
-        Source: ``contextlib.py``. It is run to its end here, so its locks were given back.
-        """
-        if isinstance(value, Coroutine):
-            value = self.run_if_coroutine(value, place)
-        made, held = self.world.yielding or (None, ())
-        if value is not made or not isinstance(value, Sequence):
-            return value
-        self.world.held = tuple(dict.fromkeys((*self.world.held, *held)))
-        return choice(list(value.items)) if value.items else value
+    def note_entered(self, value: Instance, place: Place) -> None:
+        """Locks are held inside of a ``with``."""
+        if _is_semaphore(value):
+            self.note_blocking('Semaphore.acquire', value, None, place)
+        elif is_counter(self.world, value):
+            self.note_blocking('Lock.acquire', value, None, place)
+        self.note_acquire(value, place)
 
 
 _VIEWS = frozenset({'items', 'keys', 'values'})

@@ -19,12 +19,12 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
 from ros2cc_extract.extract.static.concurrency.waits import polling_loops
-from ros2cc_extract.extract.static.libraries.rclpy import end_operations
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.places import Place, Unknown
 
 
 class Notes(Effects):
@@ -67,10 +67,6 @@ class Notes(Effects):
         """A flag that is held on some ways out only is not held for certain."""
         flag_locks.leave(self.world, frame, goes_on=goes_on)
 
-    def note_raised(self, error: ast.expr, place: Place) -> None:
-        """What a callback raises may end the spin that runs it."""
-        end_operations.note_raised(self, error, place)
-
     def held_behind_block(self, before: tuple[str, ...]) -> tuple[str, ...]:
         """The locks of a ``with`` are given back, and flags stay as they are."""
         return flag_locks.after_block(before, self.world.held)
@@ -94,3 +90,15 @@ class Notes(Effects):
         """Whoever goes over what ``Executor.map`` gives waits for it."""
         if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
             self.note_blocking('Executor.map', value, None, place)
+
+    def give_away(self, value: Value, reason: str, place: Place) -> None:
+        """
+        Note that code that is not followed has an event, a queue …, or a method of one.
+
+        It may end waits then, and so it may with what is inside of a list, a tuple or an object.
+        """
+        for thing in reached(value):
+            known = self.world.given.get(id(thing))
+            # What a queue does with it may be seen in the end; nobody sees what others do.
+            if known is None or (known.reason != reason and 'queue' in known.reason):
+                self.world.given[id(thing)] = Unknown(reason, place)

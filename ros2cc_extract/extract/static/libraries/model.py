@@ -6,7 +6,7 @@ To add an API: a row in the table of its library, and a case in ``tests/scanner_
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     actions,
@@ -32,7 +32,7 @@ from ros2cc_extract.extract.static.libraries.standard import (
     threads,
 )
 from ros2cc_extract.extract.static.python.builtins import builtin_functions
-from ros2cc_extract.extract.static.python.machine.library_table import Library, merged
+from ros2cc_extract.extract.static.python.machine.library_table import LibraryModel
 
 _BY_LAST_NAME = frozenset(
     [
@@ -51,10 +51,38 @@ _BY_LAST_NAME = frozenset(
 )
 
 
+_HARMLESS = (
+    'tf2_ros.',
+    'rclpy.',
+    'builtins.',
+    'rosidl',
+    'cv_bridge',
+    'diagnostic_updater.',
+    'launch',
+)
+"""Helpers of the ROS libraries that take a node and add nothing its executor would serve."""
+
+
+class _RosModel(LibraryModel):
+    """All tables as one; names that rclpy gives a class in several places mean one class."""
+
+    def other_name(self, name: str) -> str:
+        """The class of that name, wherever in rclpy it stands."""
+        last = name.rpartition('.')[2]
+        if not name.startswith('rclpy.') or last not in _BY_LAST_NAME:
+            return name
+        return self._by_last_name.get(last, name)
+
+    @cached_property
+    def _by_last_name(self) -> dict[str, str]:
+        names = (name for name in self.table.classes if name.startswith('rclpy.'))
+        return {**{name.rpartition('.')[2]: name for name in names}, 'Node': nodes.NODE}
+
+
 @lru_cache(maxsize=1)
-def table() -> Library:
-    """All tables as one."""
-    return merged(
+def model() -> LibraryModel:
+    """What is known of Python's own libraries, of rclpy, and of those beside it."""
+    return _RosModel(
         [
             builtin_functions.TABLE,
             threads.TABLE,
@@ -76,38 +104,6 @@ def table() -> Library:
             called_by_services.TABLE,
             shutdown.TABLE,
             async_nodes.TABLE,
-        ]
+        ],
+        _HARMLESS,
     )
-
-
-@lru_cache(maxsize=4096)
-def with_bases(name: str) -> tuple[str, ...]:
-    """A library class and its bases, as they stand in the tables, nearest first."""
-    classes, found, waiting = table().classes, [], [canonical(name)]
-    while waiting:
-        known = waiting.pop(0)
-        if known in classes:
-            found.append(known)
-            waiting.extend(classes[known].bases)
-    return tuple(found)
-
-
-@lru_cache(maxsize=4096)
-def canonical(name: str) -> str:
-    """The one name under which ``name`` stands in the tables."""
-    whole = table()
-    name = whole.aliases.get(name, name)
-    if name in whole.classes or name in whole.functions or not name.startswith('rclpy.'):
-        return name
-    last = name.rpartition('.')[2]
-    if last in _BY_LAST_NAME:
-        return _by_last_name().get(last, name)
-    return name
-
-
-@lru_cache(maxsize=1)
-def _by_last_name() -> dict[str, str]:
-    whole = table()
-    found = {name.rpartition('.')[2]: name for name in whole.classes if name.startswith('rclpy.')}
-    found['Node'] = nodes.NODE
-    return found

@@ -6,15 +6,17 @@ import ast
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency import activities
-from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.values_during_waits import show_to_callbacks
-from ros2cc_extract.extract.static.libraries.done_callbacks import add_left
+from ros2cc_extract.extract.static.libraries.rclpy.held_by_callbacks import call_holding
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services import (
     BUILDING,
     TRANSITIONS,
 )
+from ros2cc_extract.extract.static.libraries.standard.done_callbacks import add_left
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import run_exit_hooks
 from ros2cc_extract.extract.static.libraries.standard.queue_items import take_back
 from ros2cc_extract.extract.static.program.call_order import (
@@ -33,8 +35,8 @@ from ros2cc_extract.extract.static.python.language.plain_data_calls import (
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.world import Cut, EntityState, NodeState, World
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.objects.reanalysis import both
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.exclusive_paths import IN_A_CALLBACK
@@ -51,7 +53,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.scan.interpreter import Interpreter
+from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
@@ -88,9 +90,9 @@ STEP_LIMIT = 600_000
 """Statements and expressions of one set-up, callback or method; ``RUN_LIMIT`` holds for all."""
 
 
-def run_entry(project: Project, entry: Entry) -> Interpreter:
+def run_entry(project: Project, entry: Entry) -> RosInterpreter:
     """Follow a program from one of its entries, then its callbacks."""
-    machine = Interpreter(project)
+    machine = RosInterpreter(project)
     machine.world.is_program = True
     place = Place(entry.source.shown, 1, 1)
 
@@ -118,7 +120,7 @@ def run_entry(project: Project, entry: Entry) -> Interpreter:
     return machine
 
 
-def _run_escaped(machine: Interpreter) -> None:
+def _run_escaped(machine: RosInterpreter) -> None:
     """Functions handed to code that is not scanned, such as the loop of another framework."""
     world = machine.world
     for value, place in world.escaped[:_CALLBACK_LIMIT]:
@@ -132,7 +134,9 @@ def _run_escaped(machine: Interpreter) -> None:
             _run_escaped_one(machine, value, function, place)
 
 
-def _run_escaped_one(machine: Interpreter, value: Value, function: Function, place: Place) -> None:
+def _run_escaped_one(
+    machine: RosInterpreter, value: Value, function: Function, place: Place
+) -> None:
     def follow() -> None:
         machine.world.path = ((place, UNCALLED),)
         machine.world.when = When.LATER
@@ -147,7 +151,7 @@ def _run_escaped_one(machine: Interpreter, value: Value, function: Function, pla
 
 
 def guarded(
-    machine: Interpreter, act: object, place: Place, text: ast.Module | None = None
+    machine: RosInterpreter, act: object, place: Place, text: ast.Module | None = None
 ) -> str:
     """
     Do ``act``; a program too large to be followed ends in a diagnostic.
@@ -192,11 +196,11 @@ def _note_cut(deeds: Deeds, why: str, place: Place) -> None:
         deeds.blocking.append(wait)
 
 
-def _is_late(machine: Interpreter) -> bool:
+def _is_late(machine: RosInterpreter) -> bool:
     return machine.deadline is not None and machine.deadline.is_over
 
 
-def _why_cut(machine: Interpreter) -> str:
+def _why_cut(machine: RosInterpreter) -> str:
     is_late = _is_late(machine) and machine.steps_left and machine.steps <= machine.step_limit
     return machine.deadline.reason if machine.deadline and is_late else TOO_LONG
 
@@ -218,7 +222,7 @@ def _is_there(owner: Heaped, name: str | None) -> bool:
     return holds_objects(owner) if isinstance(owner, Collection) else name in owner.slots
 
 
-def run_callbacks(machine: Interpreter) -> None:
+def run_callbacks(machine: RosInterpreter) -> None:
     """
     Follow every callback, also of entities that callbacks make.
 
@@ -234,9 +238,9 @@ def run_callbacks(machine: Interpreter) -> None:
         _run_all_callbacks(machine)
 
 
-def _run_all_callbacks(machine: Interpreter) -> None:
+def _run_all_callbacks(machine: RosInterpreter) -> None:
     _run_new_callbacks(machine)
-    while again := next_round(machine.world):
+    while again := next_round(machine.world, machine.world.entities):
         for entity in again:
             _run_again(machine, entity)
         _run_new_callbacks(machine)
@@ -247,7 +251,7 @@ def _run_all_callbacks(machine: Interpreter) -> None:
         _tell(machine, state)
 
 
-def _run_new_callbacks(machine: Interpreter) -> None:
+def _run_new_callbacks(machine: RosInterpreter) -> None:
     """Follow new entities, and functions that callbacks have given to others since."""
     _run_new_entities(machine)
     while late := [
@@ -265,7 +269,7 @@ def _functions(entity: EntityState) -> tuple[Value, ...]:
     return tuple(callback for callback in given if callback is not None)
 
 
-def _run_new_entities(machine: Interpreter) -> None:
+def _run_new_entities(machine: RosInterpreter) -> None:
     world, too_early = machine.world, list[_TooEarly]()
     while world.followed < min(len(world.entities), _CALLBACK_LIMIT):
         entity = world.entities[world.followed]
@@ -280,7 +284,7 @@ def _run_new_entities(machine: Interpreter) -> None:
                 _run_again(machine, entity)
 
 
-def _tell(machine: Interpreter, state: ActivityState) -> None:
+def _tell(machine: RosInterpreter, state: ActivityState) -> None:
     """Follow what a thread does beside the callbacks."""
 
     def follow() -> None:
@@ -294,18 +298,20 @@ def _tell(machine: Interpreter, state: ActivityState) -> None:
     _note_cut(state.deeds, guarded(machine, follow, state.place), state.place)
 
 
-def _end_branch(machine: Interpreter, mark: int) -> None:
+def _end_branch(machine: RosInterpreter, mark: int) -> None:
     """Join what was written with what held before, and with what others met meanwhile."""
     written = machine.store.close_branch(mark)
     machine.store.join([written, {}, *machine.store.take_shown()])
 
 
-def _run_again(machine: Interpreter, entity: EntityState) -> None:
+def _run_again(machine: RosInterpreter, entity: EntityState) -> None:
     before = entity.deeds or Deeds()
     entity.deeds = both(before, _run_callbacks_of(machine, entity, again=True))
 
 
-def _run_callbacks_of(machine: Interpreter, entity: EntityState, *, again: bool = False) -> Deeds:
+def _run_callbacks_of(
+    machine: RosInterpreter, entity: EntityState, *, again: bool = False
+) -> Deeds:
     entity.deeds = Deeds()
     machine.world.met = machine.world.met_by[id(entity)] = {}
     functions = _functions(entity)
@@ -316,7 +322,7 @@ def _run_callbacks_of(machine: Interpreter, entity: EntityState, *, again: bool 
 
 
 def _run_callback(
-    machine: Interpreter, entity: EntityState, callback: Value, deeds: Deeds, *, again: bool
+    machine: RosInterpreter, entity: EntityState, callback: Value, deeds: Deeds, *, again: bool
 ) -> None:
     def follow() -> None:
         world = machine.world
@@ -333,7 +339,7 @@ def _run_callback(
         mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
-            flag_locks.call(machine, entity, option, call)
+            call_holding(machine, entity, option, call)
         if mark is not None:
             _end_branch(machine, mark)
 
@@ -359,7 +365,7 @@ def _callback_arguments(entity: EntityState) -> list[Value]:
     ]
 
 
-def run_rest_of_instances(machine: Interpreter) -> None:
+def run_rest_of_instances(machine: RosInterpreter) -> None:
     """Methods that make entities and that nobody in sight calls; they may be called later."""
     seen = 0
     while seen < min(len(machine.world.instances), _CALLBACK_LIMIT):
@@ -377,7 +383,7 @@ def run_rest_of_instances(machine: Interpreter) -> None:
         machine.world.settled[id(instance)] = _stamp(machine.world, instance)
 
 
-def _stamp(world: World, instance: Instance) -> int:
+def _stamp(world: RosWorld, instance: Instance) -> int:
     """Grows whenever there may be something new to follow in ``instance``."""
     return sum(
         world.followed_later[cls] + len(cls.slots)
@@ -402,7 +408,7 @@ class _Method:
     is_hidden: bool = False
 
 
-def _lacks_caller(world: World, method: _Method, instance: Instance) -> bool:
+def _lacks_caller(world: RosWorld, method: _Method, instance: Instance) -> bool:
     """
     Whether nobody in sight calls it.
 
@@ -417,7 +423,7 @@ def _lacks_caller(world: World, method: _Method, instance: Instance) -> bool:
     return number not in world.called or (is_other and not is_private)
 
 
-def _methods_without_caller(machine: Interpreter, instance: Instance) -> list[_Method]:
+def _methods_without_caller(machine: RosInterpreter, instance: Instance) -> list[_Method]:
     """
     Methods not followed yet that lead to entities, callers before what they call.
 
@@ -444,7 +450,7 @@ def _methods_without_caller(machine: Interpreter, instance: Instance) -> list[_M
     return [method for method in callers_first(left, names, nodes) if method.name in wanted]
 
 
-def _methods_of(machine: Interpreter, instance: Instance) -> list[_Method]:
+def _methods_of(machine: RosInterpreter, instance: Instance) -> list[_Method]:
     """Its methods with their decorators, and then those that a decorator has not called."""
     behind = {
         (function.owner, function.name): function
@@ -469,7 +475,7 @@ def _turn(name: str, lifecycle: bool) -> int:
     return 0 if is_first else 2 if name in PREPARING else 1
 
 
-def _run_later(machine: Interpreter, instance: Instance, name: str, method: Function) -> None:
+def _run_later(machine: RosInterpreter, instance: Instance, name: str, method: Function) -> None:
     lifecycle = isinstance(instance.state, NodeState) and instance.state.lifecycle
     place = method.place
 

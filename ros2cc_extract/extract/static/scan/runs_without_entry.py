@@ -7,6 +7,7 @@ from typing import TypeGuard
 
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import forget_awaits
+from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld
 from ros2cc_extract.extract.static.program.call_order import (
     callers_first,
     leading_to_entities,
@@ -16,7 +17,6 @@ from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.relevance import creates_entities, is_test, walk
 from ros2cc_extract.extract.static.program.relevant_files import names_from_scanned
 from ros2cc_extract.extract.static.program.source import SourceFile
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.extract.static.scan.interpreter import Interpreter
+from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.runs import (
     UNCALLED,
     guarded,
@@ -40,7 +40,7 @@ from ros2cc_extract.spec.model import When
 
 def run_library(
     project: Project, source: SourceFile, covered: frozenset[Place]
-) -> Interpreter | None:
+) -> RosInterpreter | None:
     """
     Follow what no entry reaches in a file: its node classes, and functions given a node.
 
@@ -48,7 +48,7 @@ def run_library(
     """
     if source.tree is None or not _has_uncovered(project, source, source.tree, covered):
         return None
-    machine = Interpreter(project)
+    machine = RosInterpreter(project)
     place = Place(source.shown, 1, 1)
     guarded(machine, lambda: machine.run_module(source, source.module_name) and None, place)
     module = machine.modules[source.shown]
@@ -79,7 +79,7 @@ def _classes_and_setters_first(value: Class | Function) -> tuple[bool, bool, int
     return isinstance(value, Function), not sets, value.node.lineno
 
 
-def _is_followed(machine: Interpreter, value: Class | Function) -> bool:
+def _is_followed(machine: RosInterpreter, value: Class | Function) -> bool:
     if isinstance(value, Function):
         return id(value.node) in machine.world.called
     return any(instance.cls is value for instance in machine.world.instances)
@@ -120,7 +120,7 @@ def _has_uncovered(
     return any(not known.isdisjoint(mentions(node)) for node in left)
 
 
-def _definitions(machine: Interpreter, module: Module) -> list[Class | Function]:
+def _definitions(machine: RosInterpreter, module: Module) -> list[Class | Function]:
     """Classes and functions of a module, also those that a decorator or its like hides."""
     found = [
         option
@@ -151,7 +151,7 @@ def _bases_in_use(values: list[Class | Function]) -> set[int]:
     }
 
 
-def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
+def _use_without_caller(machine: RosInterpreter, value: Class | Function) -> None:
     machine.world.after_spin = False
     if isinstance(value, Class):
         init = next(
@@ -180,7 +180,7 @@ def _use_without_caller(machine: Interpreter, value: Class | Function) -> None:
             end_test(machine)
 
 
-def _mark_later(world: World, nodes: int, entities: int, place: Place) -> None:
+def _mark_later(world: RosWorld, nodes: int, entities: int, place: Place) -> None:
     """What a function adds to a node that was there before is made when somebody calls it."""
     known = {id(node) for node in world.nodes[:nodes]}
     for entity in world.entities[entities:]:

@@ -18,13 +18,13 @@ from ros2cc_extract.crew import Crew
 from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld
 from ros2cc_extract.extract.static.program.entry_points import console_scripts, entries_of
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.relevance import replaces_rclpy
 from ros2cc_extract.extract.static.program.relevant_files import scanned_files
 from ros2cc_extract.extract.static.program.runtime_limits import forget_programs
 from ros2cc_extract.extract.static.program.source import SourceFile
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Class
 from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
@@ -356,7 +356,7 @@ def _failed(source: SourceFile, slug: str, message: str, mend: str = '') -> Foun
     return Found(noticed=(noticed,))
 
 
-def _found(world: World, label: str | None) -> Found:
+def _found(world: RosWorld, label: str | None) -> Found:
     units = tuple(specs_of(world, label))
     joined = tuple(joined_of(world, label, units))
     return Found(units, tuple(world.diagnostics), _covered(world), joined=joined)
@@ -390,7 +390,7 @@ def _with_starts(found: Sequence[Found]) -> list[Found]:
     ]
 
 
-def _covered(world: World) -> frozenset[Place]:
+def _covered(world: RosWorld) -> frozenset[Place]:
     functions = (function.place for function in world.called.values())
     classes = (
         cls.place for instance in world.instances for cls in instance.mro if isinstance(cls, Class)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of, remove_node
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Function, Instance
-from ros2cc_extract.extract.static.scan.interpreter import Interpreter
+from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 
 PREPARING = ('setUp', 'asyncSetUp', 'setup_method')
 """Methods that are called before each test."""
 
 
-def begin_test(machine: Interpreter, instance: Instance) -> Instance:
+def begin_test(machine: RosInterpreter, instance: Instance) -> Instance:
     """
     Start a program of its own, on an object of its own.
 
@@ -22,7 +22,7 @@ def begin_test(machine: Interpreter, instance: Instance) -> Instance:
     return _set_up_for_test(machine, instance)
 
 
-def end_test(machine: Interpreter) -> None:
+def end_test(machine: RosInterpreter) -> None:
     """What the global executor served is free again: ``rclpy.shutdown`` has ended it."""
     executor = machine.world.global_executor
     if executor is not None:
@@ -31,7 +31,7 @@ def end_test(machine: Interpreter) -> None:
     machine.world.global_executor = None
 
 
-def _set_up_for_test(machine: Interpreter, instance: Instance) -> Instance:
+def _set_up_for_test(machine: RosInterpreter, instance: Instance) -> Instance:
     """The object of its own that each test has, prepared (``unittest/case.py``)."""
     found = (
         cls.slots[name]

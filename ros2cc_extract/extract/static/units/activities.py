@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.units.callback_names import FunctionFacts, describe
 from ros2cc_extract.extract.static.units.waits import UnitWaits
@@ -17,7 +18,7 @@ _MAIN = 'main'
 
 
 def activities_of(
-    world: World, nodes: Sequence[Instance], entities: Iterable[EntityState], *, is_only: bool
+    world: RosWorld, nodes: Sequence[Instance], entities: Iterable[EntityState], *, is_only: bool
 ) -> list[ActivityState]:
     """
     Find those that have to do with a unit, in the order of their start.
@@ -49,7 +50,7 @@ def activities_of(
         things |= {number for state in more for number in state.things}
 
 
-def _things(world: World, entity: EntityState) -> Iterable[int]:
+def _things(world: RosWorld, entity: EntityState) -> Iterable[int]:
     """What a callback waits on, or ends waits on."""
     for block in (entity.deeds or Deeds()).blocking:
         if isinstance(block.resource, ResourceRef):

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
-from ros2cc_extract.extract.static.concurrency.accesses.torn_updates import pieces_of
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, beyond, shared
 from ros2cc_extract.extract.static.python.values.values import (
@@ -27,6 +26,7 @@ from ros2cc_extract.extract.static.units.callback_names import (
 from ros2cc_extract.extract.static.units.entity_aliases import same_on_a_ghost
 from ros2cc_extract.extract.static.units.executor import Unit, executor_of
 from ros2cc_extract.extract.static.units.set_up_waits import told
+from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
 from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.places import Place, Unknown
@@ -66,7 +66,7 @@ _GROUPLESS = (EntityKind.ACTION_EXECUTE, EntityKind.DONE_CALLBACK, EntityKind.TA
 class UnitBuilder:
     """Builds the specification of one executor with its nodes."""
 
-    def __init__(self, world: World, unit: Unit) -> None:
+    def __init__(self, world: RosWorld, unit: Unit) -> None:
         self._world = world
         self._unit = unit
         self._nodes = unit.nodes

@@ -10,14 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
-    NodeState,
-    PlainState,
-    SetUpWait,
-    World,
-)
+from ros2cc_extract.extract.static.concurrency.state import ActivityState, SetUpWait
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
 from ros2cc_extract.extract.static.units.waits import UnitWaits
@@ -30,7 +25,7 @@ _NOBODY = 'nobody in sight ends it'
 _STAYS = 'the thread may go round for ever'
 
 
-def share_out(world: World, units: Sequence[Unit]) -> None:
+def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
     """Give each wait to the unit whose nodes it has to do with; the rest to the first."""
     homes = {id(node): unit for unit in units for node in unit.nodes}
     for wait in world.set_up.values():
@@ -42,7 +37,7 @@ def share_out(world: World, units: Sequence[Unit]) -> None:
             home.set_up.append(wait)
 
 
-def _nodes_of(wait: SetUpWait, world: World) -> Iterator[object]:
+def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:
     thing = wait.outside.client
     state = thing.state if isinstance(thing, Instance) else None
     of = state.of if isinstance(state, PlainState) and state.of is not None else thing
@@ -57,7 +52,7 @@ def _nodes_of(wait: SetUpWait, world: World) -> Iterator[object]:
 
 
 def told(
-    waits: Iterable[SetUpWait], world: World, named: UnitWaits, doers: Mapping[str, object]
+    waits: Iterable[SetUpWait], world: RosWorld, named: UnitWaits, doers: Mapping[str, object]
 ) -> tuple[Blocking, ...]:
     """
     The waits by the names of their unit, with those who end them.
@@ -76,7 +71,12 @@ def told(
 
 
 def _decided(
-    block: Blocking, wait: SetUpWait, world: World, doers: Mapping[str, object], *, is_told: bool
+    block: Blocking,
+    wait: SetUpWait,
+    world: RosWorld,
+    doers: Mapping[str, object],
+    *,
+    is_told: bool,
 ) -> Blocking:
     """The wait with the reason why nobody knows whether it ends, where that is so."""
     is_open = block.seconds is None and block.escapes is None and not is_told
@@ -88,7 +88,7 @@ def _decided(
 
 
 def _why_open(
-    block: Blocking, wait: SetUpWait, world: World, doers: Mapping[str, object]
+    block: Blocking, wait: SetUpWait, world: RosWorld, doers: Mapping[str, object]
 ) -> str | None:
     served = {id(node) for node in (*wait.outside.spun, *spun_beside(wait.outside, world))}
     reasons = [_why_not(doers.get(waker.by), wait, served) for waker in block.wakers]

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld, Spin
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
-from ros2cc_extract.extract.static.python.machine.world import Cut, Spin, World
+from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, exclusive
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, options_of
 from ros2cc_extract.extract.static.python.values.values import Value as AnyValue
@@ -20,7 +21,7 @@ from ros2cc_extract.spec.joined import KINDS, Joined, joined
 from ros2cc_extract.spec.model import Executor, Spec, collect_unresolved
 
 
-def specs_of(world: World, entry: str | None) -> list[Spec]:
+def specs_of(world: RosWorld, entry: str | None) -> list[Spec]:
     """The specifications of one run."""
     found = []
     units = units_of(world)
@@ -40,7 +41,7 @@ def specs_of(world: World, entry: str | None) -> list[Spec]:
     return found
 
 
-def joined_of(world: World, entry: str | None, specs: Sequence[Spec]) -> Iterator[Joined]:
+def joined_of(world: RosWorld, entry: str | None, specs: Sequence[Spec]) -> Iterator[Joined]:
     """
     Units that run at the same time and wait for each other, as one.
 
@@ -98,7 +99,7 @@ def _with_unresolved(spec: Spec) -> Spec:
     return replace(spec, unresolved=(*collected, *own))
 
 
-def units_of(world: World) -> list[Unit]:
+def units_of(world: RosWorld) -> list[Unit]:
     """One unit for each executor that is spun; then nodes that nobody spins."""
     units = [unit for unit in _spun_units(world) if unit.nodes]
     served = {id(node) for unit in units for node in unit.nodes}
@@ -133,7 +134,7 @@ def _mark_alternatives(units: list[Unit]) -> None:
             unit.mark = branches.mark_of(unit.spin.path)
 
 
-def _spin_in_thread(executor: Instance, world: World) -> Spin | None:
+def _spin_in_thread(executor: Instance, world: RosWorld) -> Spin | None:
     """A thread that spins on also serves the nodes that are added after its start."""
     spins = (s for s in world.spins.values() if s.executor is executor and s.in_thread)
     return next((spin for spin in spins if spin.for_ever), None)
@@ -145,7 +146,7 @@ def _class_key(node: Instance) -> object:
     return id(node)
 
 
-def _filled_nodes(executor: Instance, world: World) -> list[Instance]:
+def _filled_nodes(executor: Instance, world: RosWorld) -> list[Instance]:
     return [
         node
         for node in nodes_of(executor)
@@ -154,7 +155,7 @@ def _filled_nodes(executor: Instance, world: World) -> list[Instance]:
     ]
 
 
-def _spun_units(world: World) -> list[Unit]:
+def _spun_units(world: RosWorld) -> list[Unit]:
     """Spins of one executor become one unit; of the global one, those that share nodes."""
     units: list[Unit] = []
     spins = list(world.spins.values())
@@ -171,7 +172,7 @@ def _spun_units(world: World) -> list[Unit]:
     return sorted(units, key=lambda u: order[id(u.spin)])
 
 
-def _same_unit(world: World, unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
+def _same_unit(world: RosWorld, unit: Unit, spin: Spin, nodes: list[Instance]) -> bool:
     if unit.executor is not spin.executor or unit.spin is None:
         return False
     if not spin.executor.state.is_global:
@@ -183,7 +184,7 @@ def _same_unit(world: World, unit: Unit, spin: Spin, nodes: list[Instance]) -> b
     return not unit.spin.for_ever and not spin.for_ever
 
 
-def _at_once(world: World, one: Spin, other: Spin) -> bool:
+def _at_once(world: RosWorld, one: Spin, other: Spin) -> bool:
     return are_concurrent(world, one, other) or are_concurrent(world, other, one)
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 
+from ros2cc_extract.extract.static.libraries.rclpy.state import GroupState, RosWorld
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
-from ros2cc_extract.extract.static.python.machine.world import GroupState, World
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
 
 
-def unused_groups(nodes: Iterable[Instance], world: World) -> Iterator[Instance]:
+def unused_groups(nodes: Iterable[Instance], world: RosWorld) -> Iterator[Instance]:
     """
     Groups in which nothing is, whatever was not followed.
 
@@ -29,7 +29,7 @@ def unused_groups(nodes: Iterable[Instance], world: World) -> Iterator[Instance]
                         yield group
 
 
-def _trees(node: Instance, world: World) -> Iterable[ast.AST]:
+def _trees(node: Instance, world: RosWorld) -> Iterable[ast.AST]:
     """Everything that was run, and the classes of the node."""
     return (*world.trees, *(cls.node for cls in node.mro if isinstance(cls, Class)))
 

@@ -6,24 +6,13 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
-from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
-    answer_from_outside,
-    why_wiped_out,
-)
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
-from ros2cc_extract.extract.static.libraries.standard import child_pipes
-from ros2cc_extract.extract.static.libraries.standard.outside_calls import OF_CHILDREN
-from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
-    ActivityState,
-    Deeds,
-    way_of,
-)
-from ros2cc_extract.extract.static.python.machine.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.wake_operations import (
     ClockRef,
     DataRef,
     EntityRef,
@@ -31,10 +20,18 @@ from ros2cc_extract.extract.static.python.machine.wake_operations import (
     SettableRef,
     TopicRef,
     Waking,
-    Word,
 )
-from ros2cc_extract.extract.static.python.machine.world import End, EntityState, World
+from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.standard import child_pipes
+from ros2cc_extract.extract.static.libraries.standard.outside_calls import OF_CHILDREN
+from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
+from ros2cc_extract.extract.static.units.wakers.lost_events import (
+    answer_from_outside,
+    why_wiped_out,
+)
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
 from ros2cc_extract.extract.static.units.wakers.queue_consumers import (
@@ -94,7 +91,7 @@ class UnitWaits:
     :param names: of entities, activities, nodes and the executor, by their identity.
     """
 
-    def __init__(self, world: World, names: dict[int, str], doers: Iterable[Doer]) -> None:
+    def __init__(self, world: RosWorld, names: dict[int, str], doers: Iterable[Doer]) -> None:
         self._world = world
         self._names = names
         self._resources: dict[object, str] = {}
@@ -494,7 +491,7 @@ class UnitWaits:
         return kept.places.get(waking.behind, 0) if kept is not None else 0
 
 
-def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
+def wakings_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
     """
     What is done to an object.
 
@@ -507,7 +504,7 @@ def wakings_of(world: World, reference: ResourceRef) -> list[Waking]:
     return [waking for number in reference.like for waking in world.wakings.get(number, ())]
 
 
-def comes_last(waking: Waking, world: World) -> bool:
+def comes_last(waking: Waking, world: RosWorld) -> bool:
     """Whether the set-up does it when its last spin is over, and no callback runs any more."""
     is_behind = 0 < waking.spins == world.main_spins
     return waking.by is None and (waking.after_spin or is_behind)
@@ -527,7 +524,7 @@ def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
     return tuple(replace(waker, conditional=True) for waker in wakers)
 
 
-def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: World) -> Unknown | None:
+def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
     """Why it is not known whether anybody ends a wait that nobody in sight ends."""
     if mine or not isinstance(raw.resource, ResourceRef):
         return None

@@ -14,9 +14,9 @@ import ast
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -28,7 +28,9 @@ from ros2cc_extract.extract.static.python.values.values import (
 
 
 @contextmanager
-def noted(machine: Machine, node: ast.AugAssign | ast.Assign, frame: Frame) -> Iterator[None]:
+def noted(
+    machine: ConcurrentMachine, node: ast.AugAssign | ast.Assign, frame: Frame
+) -> Iterator[None]:
     """While the statement is followed, its write is known to be in one piece, if it is."""
     reading = machine.world.reading
     if machine.world.deeds is None:
@@ -41,7 +43,7 @@ def noted(machine: Machine, node: ast.AugAssign | ast.Assign, frame: Frame) -> I
         reading.is_whole = False
 
 
-def _is_whole(machine: Machine, node: ast.AugAssign | ast.Assign, frame: Frame) -> bool:
+def _is_whole(machine: ConcurrentMachine, node: ast.AugAssign | ast.Assign, frame: Frame) -> bool:
     if isinstance(node, ast.AugAssign):
         parts: list[ast.expr] = [_as_read(node.target), node.value]
     else:
@@ -101,7 +103,7 @@ def _leaves(value: ast.expr) -> Iterator[ast.expr]:
         yield value
 
 
-def _is_plain(machine: Machine, leaf: ast.expr, frame: Frame) -> bool:
+def _is_plain(machine: ConcurrentMachine, leaf: ast.expr, frame: Frame) -> bool:
     """Whether it is a number or a text, and no code of Python gives it."""
     if isinstance(leaf, ast.Attribute):
         if not _is_quiet_path(machine, leaf, frame):
@@ -122,14 +124,14 @@ def _is_plain(machine: Machine, leaf: ast.expr, frame: Frame) -> bool:
     return is_number_or_text(machine.evaluate(leaf, frame))
 
 
-def _is_quiet_path(machine: Machine, node: ast.expr, frame: Frame) -> bool:
+def _is_quiet_path(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> bool:
     """A name, with attributes that no code of Python gives."""
     if isinstance(node, ast.Attribute):
         return _is_quiet_path(machine, node.value, frame) and _has(machine, node, frame)
     return isinstance(node, ast.Name)
 
 
-def _has(machine: Machine, node: ast.Attribute, frame: Frame) -> bool:
+def _has(machine: ConcurrentMachine, node: ast.Attribute, frame: Frame) -> bool:
     """Whether the object has the attribute itself, or a constant of its class, no property."""
     owners = options_of(machine.evaluate(node.value, frame))
     name = frame.attribute_name(node.attr)

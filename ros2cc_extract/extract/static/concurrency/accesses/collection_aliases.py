@@ -7,8 +7,8 @@ changes it under the one is seen under the other.
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.relevance import reassigned_attributes
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
 
@@ -16,7 +16,9 @@ Home = tuple[Instance, str]
 _FIXED = ('tuple', 'frozenset')
 
 
-def note_held(world: World, owner: Value, attribute: str, value: Value, shown: str) -> None:
+def note_held(
+    world: ConcurrentWorld, owner: Value, attribute: str, value: Value, shown: str
+) -> None:
     """``owner`` holds ``value`` from here on; ``shown`` names the attribute."""
     if not isinstance(value, Collection) or getattr(value, 'kind', '') in _FIXED:
         return
@@ -24,7 +26,7 @@ def note_held(world: World, owner: Value, attribute: str, value: Value, shown: s
         world.homes.setdefault(value, (owner, shown))
 
 
-def home_of(world: World, owner: Value, attribute: str) -> Home | None:
+def home_of(world: ConcurrentWorld, owner: Value, attribute: str) -> Home | None:
     """Who held first the collection that an attribute holds for good, and how it is called."""
     if not isinstance(owner, Instance) or not world.homes:
         return None
@@ -34,7 +36,7 @@ def home_of(world: World, owner: Value, attribute: str) -> Home | None:
     return world.homes.get(held)
 
 
-def homes_of(world: World, value: Value) -> list[Home]:
+def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:
     """The same of the collections that a local variable may hold."""
     known = (world.homes.get(v) for v in options_of(value) if isinstance(v, Collection))
     return [home for home in known if home is not None]

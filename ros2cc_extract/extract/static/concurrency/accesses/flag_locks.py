@@ -12,16 +12,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
-from ros2cc_extract.extract.static.python.values.values import NONE, Call, Const, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import NONE, Const, Value, options_of
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
-from ros2cc_extract.spec.model import EntityKind
 
 _THEN, _ELSE, _AFTER = 0, 1, -1
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
@@ -100,7 +99,7 @@ def _name_of(test: ast.expr) -> str | None:
     return test.id if isinstance(test, ast.Name) else None
 
 
-def constant(machine: Machine, value: ast.expr, frame: Frame) -> str | None:
+def constant(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> str | None:
     """What a name, or an attribute, or a literal stands for, if that is one constant."""
     if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
         return None
@@ -114,20 +113,21 @@ def text_of(value: Value) -> str | None:
     return repr(value.value) if known else None  # type: ignore[attr-defined]
 
 
-def put_up(world: World, name: str) -> None:
+def put_up(world: ConcurrentWorld, name: str) -> None:
     """``name`` is stored; who has found it down and stores something holds it from here."""
     flag = name + FLAG
-    is_down = flag in _found_down(world) or (flag in world.still_down and not _has_waited(world))
+    is_down = flag in _found_down(world) or (flag in world.still_down and not has_waited(world))
     if is_down and flag not in world.held and _is_up(world, name):
         world.held = (*world.held, flag)
         world.flag_tests.setdefault(name, set()).update(_states_found(world, name)[-1:])
 
 
-def _has_waited(world: World) -> bool:
+def has_waited(world: ConcurrentWorld) -> bool:
+    """Whether who is followed may have waited by now."""
     return world.deeds is not None and world.deeds.behind is not None
 
 
-def put_down(world: World, name: str) -> None:
+def put_down(world: ConcurrentWorld, name: str) -> None:
     """``name`` was stored; who has put down its flag holds it no more."""
     stored = world.reading.stored
     states = world.flag_tests.get(name)
@@ -139,7 +139,7 @@ def put_down(world: World, name: str) -> None:
         world.held = tuple(held for held in world.held if held != name + FLAG)
 
 
-def _is_up(world: World, name: str) -> bool:
+def _is_up(world: ConcurrentWorld, name: str) -> bool:
     """Whether the test finds it up now; one for ``None`` takes every other value for that."""
     stored = world.reading.stored
     states = _states_found(world, name)
@@ -153,7 +153,7 @@ def _is_up(world: World, name: str) -> bool:
     return FOUND_NONE in found or not isinstance(stored, Const) or bool(stored.value)
 
 
-def _states_found(world: World, name: str) -> list[str]:
+def _states_found(world: ConcurrentWorld, name: str) -> list[str]:
     """What tests on the path have found it to be, or not to be, of constants."""
     found = (world.reading.found.get(step, {}).get(name, '') for step in world.path)
     return [each for each in found if each.startswith((FOUND_THIS, FOUND_OTHER))]
@@ -173,7 +173,7 @@ def after_block(before: tuple[str, ...], now: tuple[str, ...]) -> tuple[str, ...
     return (*kept, *(held for held in now if held.endswith(FLAG) and held not in kept))
 
 
-def leave(world: World, frame: Frame, *, goes_on: bool) -> None:
+def leave(world: ConcurrentWorld, frame: Frame, *, goes_on: bool) -> None:
     """A function ends: a flag that it holds on some ways out only is not held for certain."""
     ways = [held for held, _, _ in frame.left]
     world.held = _by_all(world.held, ways)
@@ -185,7 +185,7 @@ def leave(world: World, frame: Frame, *, goes_on: bool) -> None:
     world.found_down = downs[0].intersection(*downs) if downs else frozenset()
 
 
-def _found_down(world: World) -> frozenset[str]:
+def _found_down(world: ConcurrentWorld) -> frozenset[str]:
     reading = world.reading
     known = (reading.down.get(step, ()) for step in reading.behind(world.path))
     return frozenset(flag for flags in known for flag in flags)
@@ -198,7 +198,9 @@ def _by_all(held: tuple[str, ...], ways: Iterable[tuple[str, ...]]) -> tuple[str
     )
 
 
-def note_return(world: World, frame: Frame, node: ast.Return, found: Iterable[str]) -> None:
+def note_return(
+    world: ConcurrentWorld, frame: Frame, node: ast.Return, found: Iterable[str]
+) -> None:
     """One way out of a function, and whether it turns a goal down; ``found`` was read for it."""
     refuses = _refuses(node.value)
     if refuses or (isinstance(node.value, ast.IfExp) and _may_refuse(node.value)):
@@ -214,35 +216,9 @@ def _may_refuse(value: ast.IfExp) -> bool:
     return _refuses(value.body) or _refuses(value.orelse)
 
 
-def hand_over(world: World, to: EntityState) -> None:
+def hand_over(world: ConcurrentWorld, to: EntityState) -> None:
     """What a callback makes runs after it, and holds what it holds."""
     if world.deeds is not None:
         held = tuple(lock for lock in world.held if lock.endswith(FLAG))
         to.held = held if to.held is None else tuple(lock for lock in to.held if lock in held)
         world.held = tuple(lock for lock in world.held if lock not in held)
-
-
-def call(machine: Machine, entity: EntityState, callback: Value, arguments: Call) -> Value:
-    """Call what an entity runs, holding what was handed over to it."""
-    world = machine.world
-    served = (entity.node, entity.place)
-    world.still_down = frozenset()
-    if entity.kind is EntityKind.ACTION_EXECUTE:
-        world.held = world.admitted.get(served, ())
-        world.still_down = world.open_to.get(served, frozenset())
-    else:
-        world.held = entity.held or ()
-    result = machine.run_if_coroutine(machine.call(callback, arguments), entity.place)
-    if callback in options_of(entity.goal_callback or NONE):
-        _note_admission(world)
-        world.admitted[served] = tuple(held for held in world.accepted if held.endswith(FLAG))
-        is_one_piece = not entity.defers and not _has_waited(world)
-        world.open_to[served] = world.found_down if is_one_piece else frozenset()
-    return result
-
-
-def _note_admission(world: World) -> None:
-    """What the goal callback has read, and turned goals down for."""
-    deeds, names = world.deeds, world.reading.refusing
-    if deeds is not None and names:
-        deeds.reads[:] = [replace(r, admits=r.name in names) for r in deeds.reads]

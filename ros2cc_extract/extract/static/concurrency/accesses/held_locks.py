@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState, World
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Const,
@@ -23,7 +24,7 @@ GIVEN = '__given_lock__'
 _RE_ENTRANT = {'lock': False, 'rlock': True, 'condition': True}
 
 
-def held_over(world: World, on: Value | None) -> tuple[str, ...]:
+def held_over(world: ConcurrentWorld, on: Value | None) -> tuple[str, ...]:
     """
     Name the locks that are held while ``on`` is waited for, outermost first.
 
@@ -40,7 +41,7 @@ def held_over(world: World, on: Value | None) -> tuple[str, ...]:
     )
 
 
-def is_counter(world: World, thing: Instance) -> bool:
+def is_counter(world: ConcurrentWorld, thing: Instance) -> bool:
     """
     Whether a semaphore begins with nothing to take: others must give first, so it is no lock.
 
@@ -61,7 +62,7 @@ def lock_of(thing: Value) -> Value:
     return options[0] if is_lock else thing
 
 
-def locks_named(name: str, world: World) -> Iterator[tuple[Instance, str]]:
+def locks_named(name: str, world: ConcurrentWorld) -> Iterator[tuple[Instance, str]]:
     """The lock of that name, with its kind."""
     hint, _, number = name.rpartition('#')
     for stored, place in ((name, 0), (hint, int(number) - 1 if number.isdecimal() else -1)):

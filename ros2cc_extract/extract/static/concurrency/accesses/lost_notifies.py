@@ -12,32 +12,38 @@ import ast
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import lock_of, locks_named
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.wake_operations import Guard, Waking
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
-from ros2cc_extract.extract.static.python.machine.wake_operations import Guard, Hold, Waking
-from ros2cc_extract.extract.static.python.machine.world import World, note_once
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Hold
+from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Act
-from ros2cc_extract.spec.model import EntityKind
 
 CONDITION_WAITS = frozenset({'Condition.wait', 'Condition.wait_for'})
 # They answer from what they are given, or for the whole program.
 _PLAIN = frozenset({'ok', 'len', 'bool', 'any', 'all', 'isinstance'})
 
 
-def holds_of(world: World) -> frozenset[Hold]:
+def holds_of(world: ConcurrentWorld) -> frozenset[Hold]:
     """The locks that are held, each with the number of that hold."""
     return frozenset((name, world.holds.get(name, 0)) for name in world.held)
 
 
-def begin_hold(world: World, name: str) -> None:
+def begin_hold(world: ConcurrentWorld, name: str) -> None:
     """A lock is taken, or taken again."""
     world.takes[name] += 1
     world.holds = {**world.holds, name: world.takes[name]}
 
 
 def note_test(
-    world: World, test: ast.expr, place: Place, found: frozenset[str], *, repeats: bool = False
+    world: ConcurrentWorld,
+    test: ast.expr,
+    place: Place,
+    found: frozenset[str],
+    *,
+    repeats: bool = False,
 ) -> Asked:
     """A branch, or a loop that ``repeats``, rests on what was ``found`` to be read for it."""
     is_open = (repeats and bool(found)) or _may_rest_on_more(test)
@@ -66,18 +72,18 @@ def _name_of(function: ast.expr) -> str:
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
 
 
-def note_begun(world: World, place: Place) -> None:
+def note_begun(world: ConcurrentWorld, place: Place) -> None:
     """What is made or started at ``place`` begins no sooner than here."""
     for hold in holds_of(world):
         world.begun.setdefault(hold, set()).add(place)
 
 
-def note_made(world: World, kind: EntityKind, place: Place) -> None:
+def note_made(world: ConcurrentWorld, kind: str, place: Place) -> None:
     """Who runs now makes an entity at ``place``, or the same one once more."""
     if world.deeds is None:
         return
     made = world.deeds.changes
-    once = Act(name=kind.value, source=place, chain=world.chain[1:])
+    once = Act(name=kind, source=place, chain=world.chain[1:])
     again = replace(once, repeats=True)
     if again in made:
         return
@@ -89,7 +95,7 @@ def note_made(world: World, kind: EntityKind, place: Place) -> None:
         made.append(again)
 
 
-def guard_of(world: World, condition: Instance) -> Guard:
+def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
     """What a wait for ``condition`` rests on; it gives the lock back meanwhile."""
     lock = lock_of(condition)
     name = next(

@@ -13,12 +13,12 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.accesses import collection_aliases
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.relevance import noted_on, unmangled, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds, Piece
-from ros2cc_extract.extract.static.python.machine.world import RECENT, EntityState, World
-from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Piece
+from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Instance,
@@ -34,7 +34,9 @@ _SENDS = 'publish'
 _DEPTH = 8
 
 
-def note_changed(machine: Machine, target: ast.expr, frame: Frame, how: str = '') -> None:
+def note_changed(
+    machine: ConcurrentMachine, target: ast.expr, frame: Frame, how: str = ''
+) -> None:
     """An attribute or item of an object is stored, or a collection in it changes in place."""
     if machine.world.deeds is None or not isinstance(target, (ast.Attribute, ast.Subscript)):
         return
@@ -44,7 +46,7 @@ def note_changed(machine: Machine, target: ast.expr, frame: Frame, how: str = ''
         _note(machine, whole, frame.place(target), ast.unparse(target) + how, again=again)
 
 
-def note_sent(machine: Machine, function: Value, node: ast.Call, frame: Frame) -> None:
+def note_sent(machine: ConcurrentMachine, function: Value, node: ast.Call, frame: Frame) -> None:
     """``publisher.publish(self.state)``: all of the object is read."""
     is_sent = isinstance(function, Native) and function.name.rpartition('.')[2] == _SENDS
     if machine.world.deeds is None or not is_sent or len(node.args) != 1:
@@ -54,47 +56,17 @@ def note_sent(machine: Machine, function: Value, node: ast.Call, frame: Frame) -
         _note(machine, whole, frame.place(node), '')
 
 
-def note_held(world: World, owner: Instance, attribute: str, value: Value, shown: str) -> None:
+def note_held(
+    world: ConcurrentWorld, owner: Instance, attribute: str, value: Value, shown: str
+) -> None:
     """An attribute holds an object for good, by which it is known under other names."""
     if isinstance(value, Mystery) and not collection_aliases.is_reassigned(owner, attribute):
         world.objects.setdefault(value, shown)
 
 
-def pieces_of(doer: EntityState | ActivityState, world: World) -> tuple[Access, ...]:
-    """What ``doer`` publishes and others change piece by piece, or the other way round."""
-    mine = (doer.deeds or Deeds()).pieces
-    if not mine:
-        return ()
-    doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
-    others = [each.deeds.pieces for each in doers if each is not doer and each.deeds is not None]
-    sent = {piece.access.name for pieces in others for piece in pieces if not piece.part}
-    changed = {name for pieces in others for name in _torn(pieces)}
-    told = _torn(mine) & sent
-    return tuple(
-        dict.fromkeys(
-            piece.access
-            for piece in mine
-            if piece.access.name in (told if piece.part else changed)
-        )
-    )
-
-
-def _torn(pieces: list[Piece]) -> set[str]:
-    """Names of objects that are changed in more than one piece by one run."""
-    changes = [piece for piece in pieces if piece.part]
-    return {
-        one.access.name
-        for number, one in enumerate(changes)
-        if one.again or any(_are_two(one, other) for other in changes[:number])
-    }
-
-
-def _are_two(one: Piece, other: Piece) -> bool:
-    is_one = one.access.name != other.access.name or one.part == other.part
-    return not is_one and not exclusive(one.path, other.path)
-
-
-def _note(machine: Machine, whole: str, place: Place, part: str, *, again: bool = False) -> None:
+def _note(
+    machine: ConcurrentMachine, whole: str, place: Place, part: str, *, again: bool = False
+) -> None:
     world, deeds = machine.world, machine.world.deeds
     assert deeds is not None
     access = Access(
@@ -110,7 +82,7 @@ def _note(machine: Machine, whole: str, place: Place, part: str, *, again: bool 
         deeds.pieces.append(piece)
 
 
-def _object(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
+def _object(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | None:
     """The attribute that holds the object of ``node``."""
     if isinstance(node, ast.Attribute):
         return _attribute(machine, node, frame)
@@ -122,7 +94,7 @@ def _object(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
     return None
 
 
-def _whole(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
+def _whole(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | None:
     """The attribute that holds the object of ``node``, or one of which it is a part."""
     for _ in range(_DEPTH):
         if isinstance(node, ast.Subscript):
@@ -142,7 +114,7 @@ def _whole(machine: Machine, node: ast.expr, frame: Frame) -> str | None:
     return None
 
 
-def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> str | None:
+def _attribute(machine: ConcurrentMachine, node: ast.Attribute, frame: Frame) -> str | None:
     """``Class.attribute`` of an object of the program, where another kind of object is in it."""
     for owner in options_of(_evaluated(machine, node.value, frame)):
         if isinstance(owner, Instance) and isinstance(owner.cls, Class):
@@ -155,14 +127,14 @@ def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> str | Non
     return None
 
 
-def _known(machine: Machine, node: ast.Name, frame: Frame) -> str | None:
+def _known(machine: ConcurrentMachine, node: ast.Name, frame: Frame) -> str | None:
     if not machine.world.objects or not isinstance(node.ctx, ast.Load):
         return None
     values = options_of(_evaluated(machine, node, frame))
     return next((machine.world.objects[v] for v in values if v in machine.world.objects), None)
 
 
-def _evaluated(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> Value:
     noted, machine.world.deeds = machine.world.deeds, None
     before = machine.world.changing
     try:

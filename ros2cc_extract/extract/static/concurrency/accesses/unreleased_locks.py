@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.values.values import Function
 from ros2cc_extract.places import Place
 
@@ -128,7 +128,7 @@ class _Walk:
         return held
 
 
-def locks_given_back(body: Sequence[ast.stmt], world: World) -> tuple[str, ...]:
+def locks_given_back(body: Sequence[ast.stmt], world: ConcurrentWorld) -> tuple[str, ...]:
     """
     The locks that statements give back, by name.
 
@@ -145,7 +145,7 @@ def locks_given_back(body: Sequence[ast.stmt], world: World) -> tuple[str, ...]:
     return tuple(name for name in dict.fromkeys(owners) if name in world.locks)
 
 
-def note_kept_locks(world: World) -> None:
+def note_kept_locks(world: ConcurrentWorld) -> None:
     """Tell of every followed function that keeps a lock on some way out."""
     if not world.locks:
         return
@@ -157,7 +157,7 @@ def note_kept_locks(world: World) -> None:
                     world.diagnostics.append(_kept(function, call, lock, way))
 
 
-def _taken_in(node: FunctionNode, world: World) -> Iterator[tuple[ast.Call, str, str]]:
+def _taken_in(node: FunctionNode, world: ConcurrentWorld) -> Iterator[tuple[ast.Call, str, str]]:
     """The locks that a function takes by a call, each once, with the end of the method's name."""
     told: set[tuple[str, str]] = set()
     for part in ast.walk(node):

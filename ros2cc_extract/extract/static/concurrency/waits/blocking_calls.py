@@ -7,19 +7,19 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ActivityState, ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before,
     sent_before_clear,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
+from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
-    CLOCKS,
-    called_name,
     timeout_of,
     unknown_wait,
 )
-from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     INITIAL,
     NO_ROW,
@@ -28,17 +28,7 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WaitRow,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
-from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import slept
-from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import is_ready as is_ready_for
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
-    ActivityState,
-    Deeds,
-    way_of,
-)
-from ros2cc_extract.extract.static.python.machine.waitable_objects import SETTABLE, is_of_loop
-from ros2cc_extract.extract.static.python.machine.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.wake_operations import (
     ClockRef,
     DataRef,
     EntityRef,
@@ -46,16 +36,13 @@ from ros2cc_extract.extract.static.python.machine.wake_operations import (
     SettableRef,
     TopicRef,
     Waking,
-    Word,
 )
-from ros2cc_extract.extract.static.python.machine.world import (
-    RECENT,
-    EntityState,
-    ExecutorState,
-    NodeState,
-    PlainState,
-    World,
-)
+from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer, way_of
+from ros2cc_extract.extract.static.python.machine.waitable_objects import SETTABLE, is_of_loop
+from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption, default_of
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -72,7 +59,7 @@ from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
-class Waits(Machine):
+class Waits(ConcurrentMachine):
     """Notes for the callback or activity that is being followed."""
 
     def note_endless(self, node: ast.While, place: Place) -> None:
@@ -92,7 +79,7 @@ class Waits(Machine):
         """A call that can hold its thread."""
         world, deeds = self.world, self.world.deeds
         row = WAITS.get(name, NO_ROW)
-        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
+        is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
             return
         if deeds is None or _is_main(world.activity):
@@ -116,7 +103,7 @@ class Waits(Machine):
     ) -> tuple[Blocking, Instance | None]:
         """The wait, with references to what it waits on, and the one object that this is."""
         world, row = self.world, WAITS.get(name, NO_ROW)
-        is_ready = row.unless_asked and is_ready_for(world, on, row.ended_by)
+        is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         thing, why = _one_object(on, place)
         block = Blocking(
             call=name,
@@ -164,13 +151,6 @@ class Waits(Machine):
         if block not in deeds.blocking[-RECENT:]:
             deeds.blocking.append(block)
 
-    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Somebody waits for time that ``clock`` moves."""
-        if self.world.deeds is not None:
-            reference = ClockRef('/clock')
-            reference.number = id(clock)
-            self.note_loop_on_data(name, reference, None, place)
-
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called, perhaps by the name of a wait."""
         waking = waking_of(call.text)
@@ -178,13 +158,15 @@ class Waits(Machine):
             places = self.world.lost_wakes.setdefault(waking, [])
             if call.place not in places:
                 places.append(call.place)
-        clock = CLOCKS.get(called_name(call))
-        if clock is not None:
-            self.note_blocking(clock, None, slept(call), call.place)
+        if self.note_clock_call(call):
             return
         why = unknown_wait(function, call, self.world.trees)
         if why is not None:
             self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
+
+    def note_clock_call(self, call: Call) -> bool:
+        """Whether the method of an unknown object is one that only clocks have, which wait."""
+        return False
 
     def _resource(
         self, name: str, thing: Instance | None, row: WaitRow, *, asked: bool
@@ -262,13 +244,13 @@ class Waits(Machine):
         if isinstance(value, Instance):
             state = value.state
             source = state.of if isinstance(state, PlainState) and state.of else value
-            if isinstance(source, Instance) and isinstance(source.state, EntityState):
-                return EntityRef.to_object(source.state, source.state.kind.value)
+            if isinstance(source, Instance) and isinstance(source.state, Doer):
+                return EntityRef.to_object(source.state, source.state.kind_name)
             if isinstance(state, PlainState) and state.kind == 'topic':
                 return _topic(state.key, value.place)
             if isinstance(state, PlainState) and state.kind in SETTABLE:
                 return SettableRef.to_object(value, value.hint or value.class_name)
-            if isinstance(value.state, (NodeState, ExecutorState)):
+            if isinstance(value.state, LibraryState) and value.state.is_unit_of_its_own:
                 return EntityRef.to_object(value, value.hint or value.class_name)
             return value.hint or value.class_name
         return None
@@ -326,34 +308,13 @@ class Waits(Machine):
             is_sign=is_sign,
         )
 
-    def note_nested_spin(
-        self,
-        how: str,
-        node: Instance | None,
-        executor: Value,
-        future: tuple[Value | None, Value | None],
-        place: Place,
-        change: str = '',
-    ) -> bool:
-        """Whether a spin stands in a callback; then it is noted there and is no set-up."""
-        if not self.world.in_callback:
-            return False
-        awaited, timeout = future
-        spun = executor if node is None else node
-        self.note_blocking(how, spun, timeout if awaited is None else None, place)
-        if awaited is not None:
-            self.note_blocking('spin for future', awaited, timeout, place)
-        if node is not None:
-            self.note_change(change, node, place)
-        return True
 
-
-def _is_in_a_loop_of_a_hold(world: World) -> bool:
+def _is_in_a_loop_of_a_hold(world: ConcurrentWorld) -> bool:
     loops = world.open_loops
     return any(loops > world.loops_at.get(lock, loops) for lock in world.held)
 
 
-def _only_unless_done(world: World, thing: Value, word: Word) -> bool:
+def _only_unless_done(world: ConcurrentWorld, thing: Value, word: Word) -> bool:
     """Whether no branch skips what is done to ``thing`` but where it has been done before."""
     more = world.path[len(world.callback_path) :]
     return all((thing, word) in world.skipped_if.get(step, ()) for step in more)
@@ -397,7 +358,7 @@ def _number(value: object) -> int | None:
 def _is_of_entity(thing: Instance) -> bool:
     """Whether an entity of a node ends it, as the client of a request does."""
     of = thing.state.of if isinstance(thing.state, PlainState) else thing
-    return isinstance(of, Instance) and isinstance(of.state, EntityState)
+    return isinstance(of, Instance) and isinstance(of.state, Doer)
 
 
 def touch(activity: ActivityState | None, thing: Value | None) -> None:
@@ -406,10 +367,10 @@ def touch(activity: ActivityState | None, thing: Value | None) -> None:
         return
     state = thing.state
     of = state.of if isinstance(state, PlainState) and state.of is not None else thing
-    if isinstance(of, Instance) and isinstance(of.state, EntityState):
-        activity.nodes.add(id(of.state.node))
-    elif isinstance(of, Instance) and isinstance(of.state, NodeState):
-        activity.nodes.add(id(of))
+    if isinstance(of, Instance) and isinstance(of.state, LibraryState):
+        owner = of.state.owner_of(of)
+        if owner is not None:
+            activity.nodes.add(id(owner))
     activity.things.add(id(thing))
 
 

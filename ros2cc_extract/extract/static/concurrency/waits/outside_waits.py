@@ -5,20 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
+from ros2cc_extract.extract.static.concurrency.state import (
+    ConcurrentWorld,
     OutsideWait,
     Over,
-    PlainState,
     SetUpWait,
-    World,
 )
+from ros2cc_extract.extract.static.concurrency.wake_operations import EntityRef
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import When
-from ros2cc_extract.spec.partners import SERVER_KINDS
 
 JOIN = 'Thread.join'
 RATE = 'Rate.sleep'
@@ -41,7 +40,9 @@ def _last(name: str) -> str:
     return name if name in _PLAIN else name.rpartition('.')[2]
 
 
-def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instance, ...]) -> None:
+def note(
+    world: ConcurrentWorld, name: str, on: Instance, place: Place, spun: tuple[Instance, ...]
+) -> None:
     """Remember a wait of the program's set-up."""
     if world.when is not When.START or world.after_spin:
         return
@@ -50,33 +51,33 @@ def note(world: World, name: str, on: Instance, place: Place, spun: tuple[Instan
         world.diagnostics.append(_awaited_by_asyncio(place))
     source = state.of if isinstance(state, PlainState) and state.of is not None else on
     client = source.state if isinstance(source, Instance) else None
-    if not isinstance(client, EntityState):
+    if not isinstance(client, Doer):
         is_plain = isinstance(state, PlainState) and state.kind in _PLAIN.get(_last(name), ())
         if is_plain and world.is_program:
             _remember(world, name, on, place, spun)
         return
     if name == RATE:
         _remember(world, name, client, place, ())
-    if client.kind not in SERVER_KINDS:
+    if not client.is_answered:
         return
     if name in _ANSWERS or name.endswith('spin_until_future_complete'):
         _remember(world, name, client, place, spun)
 
 
 def _remember(
-    world: World,
+    world: ConcurrentWorld,
     name: str,
-    on: EntityState | Instance,
+    on: Doer | Instance,
     place: Place,
     spun: tuple[Instance, ...],
 ) -> None:
     # Threads are followed where they are started; what a thread waits for has no place among them.
-    begun = None if world.in_thread or world.open_loops else len(world.spins)
+    begun = None if world.in_thread or world.open_loops else world.spins_begun
     wait = OutsideWait(name, on, place, world.in_thread, spun, begun=begun, path=world.path)
     world.outside.append(wait)
 
 
-def note_interruptible(world: World, name: str, on: Value | None) -> None:
+def note_interruptible(world: ConcurrentWorld, name: str, on: Value | None) -> None:
     """
     Remember an event on which the main program may wait for the signal that ends it.
 
@@ -89,16 +90,16 @@ def note_interruptible(world: World, name: str, on: Value | None) -> None:
         world.interruptible.add(id(on))
 
 
-def note_loop(world: World, names: set[str], place: Place) -> None:
+def note_loop(world: ConcurrentWorld, names: set[str], place: Place) -> None:
     """Remember that the set-up looks again and again whether data of ``names`` has changed."""
     is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
     if is_set_up and world.is_program and not world.in_callback and not world.retelling:
-        begun = None if world.open_loops else len(world.spins)
+        begun = None if world.open_loops else world.spins_begun
         wait = OutsideWait('a polling loop', None, place, in_thread=False, begun=begun)
         world.outside.append(replace(wait, names=frozenset(names)))
 
 
-def forget_awaits(world: World, told: int) -> None:
+def forget_awaits(world: ConcurrentWorld, told: int) -> None:
     """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
     late = [each for each in world.diagnostics[told:] if each.slug != _ASYNCIO_AWAIT]
     world.diagnostics[told:] = late
@@ -116,23 +117,23 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
     )
 
 
-def note_join(world: World, thread: Value, place: Place) -> None:
+def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     """The program, which no executor runs, waits for the end of ``thread``."""
     is_set_up = world.deeds is None or world.activity is not None
     if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
-        is_late = world.after_spin or bool(world.spins)
+        is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
         world.outside.append(replace(wait, path=world.path))
 
 
-def note_over(world: World, what: Value | None) -> None:
+def note_over(world: ConcurrentWorld, what: Value | None) -> None:
     """The program has shut ``what`` down, or waited for its end."""
     if what is None or isinstance(what, Instance):
-        world.over.append(Over(what, world.path, len(world.spins)))
+        world.over.append(Over(what, world.path, world.spins_begun))
 
 
 def note_in_set_up(
-    world: World,
+    world: ConcurrentWorld,
     block: Blocking,
     thing: Instance | None,
     place: Place,
@@ -152,7 +153,7 @@ def note_in_set_up(
     known = world.set_up.get(key)
     if known is not None and (known.by is world.activity or world.activity is not None):
         return
-    begun = None if world.in_thread or world.open_loops else len(world.spins)
+    begun = None if world.in_thread or world.open_loops else world.spins_begun
     outside = OutsideWait(
         block.call,
         thing,

@@ -11,6 +11,8 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import WAITS
@@ -22,15 +24,13 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     only_waits,
     spins,
 )
+from ros2cc_extract.extract.static.concurrency.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.python.language.plain_data_calls import reachable
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import DataRef, ResourceRef
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
@@ -65,7 +65,7 @@ class Mark:
     order: int
 
 
-def mark(machine: Machine) -> Mark | None:
+def mark(machine: ConcurrentMachine) -> Mark | None:
     """Before the loop; ``None`` where nothing is noted."""
     deeds = machine.world.deeds
     return (
@@ -75,7 +75,7 @@ def mark(machine: Machine) -> Mark | None:
     )
 
 
-def begin(machine: Machine, loop: ast.While, frame: Frame, told: Told | None) -> None:
+def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told | None) -> None:
     """
     A ``while`` loop begins; one that only waits for a future is a busy wait.
 
@@ -96,7 +96,7 @@ def begin(machine: Machine, loop: ast.While, frame: Frame, told: Told | None) ->
         machine.note_blocking('busy wait', machine.mystery(reason, place), None, place)
 
 
-def _note_by_name(machine: Machine, loop: ast.While, frame: Frame) -> bool:
+def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
     """Whether the test asks something by the name of such a method; what it asks is told."""
     is_known = False
     for part in ast.walk(loop.test):
@@ -113,20 +113,20 @@ def _note_by_name(machine: Machine, loop: ast.While, frame: Frame) -> bool:
 
 
 def _note_busy(
-    machine: Machine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
+    machine: ConcurrentMachine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
 ) -> None:
     own = call_of_loop(loop, 'busy wait', machine.world.activity)
     call = 'await' if _gives_back(machine, loop) else own
     machine.note_blocking(call, on, seconds, frame.place(loop))
 
 
-def _gives_back(machine: Machine, loop: ast.While) -> bool:
+def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
     """Whether a coroutine that an executor runs gives its thread back in each round."""
     frees = machine.world.in_callback and not machine.world.on_loop
     return frees and awaits_each_round(loop)
 
 
-def _note_things(machine: Machine, loop: ast.While, frame: Frame, told: Told) -> bool:
+def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told) -> bool:
     """Whether what happens to objects makes the test fail; the loop waits for that."""
     tests = list(_exit_tests(loop))
     place = frame.place(loop)
@@ -151,7 +151,9 @@ def _things(facts: Facts) -> list[Value]:
     return sorted(found, key=lambda thing: thing.serial if isinstance(thing, Heaped) else 0)
 
 
-def _ends_otherwise(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
+def _ends_otherwise(
+    machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame
+) -> bool:
     """Whether something may end the loop as well, beside what is asked of objects."""
     if isinstance(test, ast.BoolOp):
         return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
@@ -176,11 +178,11 @@ def _runs_out(test: ast.expr, loop: ast.While) -> bool:
     return not called.isdisjoint(_CLOCKS) or not names.isdisjoint(stored)
 
 
-def _tells(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
     return _asks_object(test) or _told_now(machine, test, frame) is not None
 
 
-def _told_now(machine: Machine, test: ast.expr, frame: Frame) -> Told | None:
+def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
     """What a test tells where it stands, without any note of what it reads."""
     world = machine.world
     noted, ready, world.deeds = world.deeds, world.ready, Deeds()
@@ -190,7 +192,7 @@ def _told_now(machine: Machine, test: ast.expr, frame: Frame) -> Told | None:
         world.deeds, world.ready = noted, ready
 
 
-def _told_by_exits(machine: Machine, loop: ast.While, frame: Frame) -> Told | None:
+def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
     """What makes a loop end whose test tells of it only after a round, or stands inside."""
     for test in _exit_tests(loop):
         told = _told_now(machine, test, frame)
@@ -199,7 +201,7 @@ def _told_by_exits(machine: Machine, loop: ast.While, frame: Frame) -> Told | No
     return None
 
 
-def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
+def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
     """After one round of ``loop``."""
     deeds = machine.world.deeds
     if before is None or deeds is None:
@@ -229,7 +231,9 @@ def note(machine: Machine, loop: ast.While, frame: Frame, before: Mark | None) -
     _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
 
 
-def _note_own_end(world: World, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame) -> None:
+def _note_own_end(
+    world: ConcurrentWorld, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+) -> None:
     """A thread that works until it has set itself what it tests waits for nobody."""
     place, lines = frame.place(loop), range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
     for number, block in enumerate(deeds.blocking[before.waits :], before.waits):
@@ -242,7 +246,7 @@ def _note_own_end(world: World, loop: ast.While, deeds: Deeds, before: Mark, fra
             deeds.blocking[number] = replace(block, seconds=block.seconds or own)
 
 
-def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:
+def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
     is_plain = is_idle(loop) and not _asks_object(loop.test) and not _leaves(loop)
     if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
@@ -252,19 +256,14 @@ def _note_set_up(machine: Machine, loop: ast.While, frame: Frame) -> None:
         note_loop(machine.world, names, frame.place(loop.test))
 
 
-def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
+def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """Code that no callback runs only spins or sleeps until something has changed."""
     if is_endless(loop) or not (only_waits(loop) or spins(loop)):
         return
     world = machine.world
     end = getattr(loop, 'end_lineno', None) or loop.lineno
     place = frame.place(loop)
-    spun = tuple(
-        node
-        for spin in world.spins.values()
-        if spin.place.file == place.file and loop.lineno <= spin.place.line <= end
-        for node in spin.nodes
-    )
+    spun = world.served_within(place.file, loop.lineno, end)
     told = _told_now(machine, loop.test, frame)
     things = _things(told.fails | told.breaks) if told is not None else []
     if things:
@@ -283,7 +282,7 @@ def _note_spinning(machine: Machine, loop: ast.While, frame: Frame) -> None:
         machine.note_loop_on_data(POLL, reference, reason if is_foreign else None, place, spun)
 
 
-def _leaves_to_others(world: World, loop: ast.While, names: set[str]) -> bool:
+def _leaves_to_others(world: ConcurrentWorld, loop: ast.While, names: set[str]) -> bool:
     """Whether neither the loop nor what it calls by name stores what its test looks at."""
     attributes = {name.rpartition('.')[2] for name in names}
     stores = (
@@ -296,7 +295,7 @@ def _leaves_to_others(world: World, loop: ast.While, names: set[str]) -> bool:
     return not _leaves(loop) and not any(stores)
 
 
-def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:
+def _holds(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
     """Whether it comes out so for certain, as long as nobody shuts rclpy down."""
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
         return all(_holds(machine, each, frame) for each in test.values)
@@ -305,7 +304,7 @@ def _holds(machine: Machine, test: ast.expr, frame: Frame) -> bool:
 
 
 def _note_asked(
-    machine: Machine, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+    machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
 ) -> None:
     """A condition is waited on only where the test of the loop has come out so."""
     for number in range(before.waits, len(deeds.blocking)):
@@ -315,7 +314,7 @@ def _note_asked(
 
 
 def _note(
-    machine: Machine,
+    machine: ConcurrentMachine,
     loop: ast.While,
     frame: Frame,
     tests: list[ast.expr],
@@ -366,7 +365,7 @@ def _counts(loop: ast.While) -> bool:
     )
 
 
-def _is_told(machine: Machine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
+def _is_told(machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
     """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
     inside = deeds.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(block.call)]
@@ -405,7 +404,7 @@ def _own_parts(loop: ast.While) -> Iterator[ast.AST]:
             waiting.extend(ast.iter_child_nodes(part))
 
 
-def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
+def _read(machine: ConcurrentMachine, tests: list[ast.expr], frame: Frame) -> set[str]:
     """Names of the shared data that the tests read."""
     world = machine.world
     noted, world.deeds = world.deeds, Deeds()
@@ -417,7 +416,7 @@ def _read(machine: Machine, tests: list[ast.expr], frame: Frame) -> set[str]:
         world.deeds = noted
 
 
-def _is_foreign(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
+def _is_foreign(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
     """Whether something else than shared data may turn out otherwise: a clock, a counter."""
     parts = [part for each in loop.body for part in walk(each)]
     assigned = {name for part in parts for name in _assigned(part)}
@@ -432,7 +431,7 @@ def _is_foreign(machine: Machine, test: ast.expr, loop: ast.While, frame: Frame)
     return False
 
 
-def _only_looks(machine: Machine, part: ast.expr, frame: Frame) -> bool:
+def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> bool:
     """A call of functions of the program that ask nothing else than what they read."""
     if not isinstance(part, ast.Call):
         return False

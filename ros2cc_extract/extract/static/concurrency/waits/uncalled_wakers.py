@@ -8,9 +8,9 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.relevance import CHANGING_METHODS, noted_on, walk
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.places import Place, Unknown
 
 _METHODS: dict[str, Word] = {
@@ -63,7 +63,7 @@ class _Operation:
 
 
 def uncalled_wakers(
-    world: World, name: str, words: frozenset[Word], made: Place | None
+    world: ConcurrentWorld, name: str, words: frozenset[Word], made: Place | None
 ) -> Unknown | None:
     """
     Why somebody who is not in sight may end a wait for what is stored under ``name``.
@@ -84,7 +84,7 @@ def uncalled_wakers(
     return None
 
 
-def _is_dead(world: World, function: str) -> bool:
+def _is_dead(world: ConcurrentWorld, function: str) -> bool:
     """Whether a whole program is in sight and no text of it has the name of the function."""
     if not function or not world.is_program:
         return False
@@ -92,7 +92,7 @@ def _is_dead(world: World, function: str) -> bool:
     return not any(function in text or 'getattr' in text for text in texts)
 
 
-def is_handed_on(world: World, function: str) -> bool:
+def is_handed_on(world: ConcurrentWorld, function: str) -> bool:
     """Whether a text of the program has the function as a value that it does not call."""
     return any(function in noted_on(tree, 'handed_on', _handed_on) for tree, _ in world.files)
 
@@ -116,7 +116,7 @@ def _mentioned(tree: ast.Module) -> frozenset[str]:
     return frozenset([*names, *(text for text in texts if isinstance(text, str)), *imported])
 
 
-def _lost(world: World, name: str, word: Word) -> list[Place]:
+def _lost(world: ConcurrentWorld, name: str, word: Word) -> list[Place]:
     """Where a wait for that name may be ended, and it was never known whose."""
     places = world.lost_wakes.get((name, word), ())
     known = {waking.place for each in world.wakings.values() for waking in each} if places else ()
@@ -132,7 +132,7 @@ def waking_of(call: ast.expr | str | None) -> tuple[str, Word] | None:
     return (function.value.attr, word) if word is not Word.WRITE else None
 
 
-def data_is_written_elsewhere(world: World, names: frozenset[str]) -> Unknown | None:
+def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> Unknown | None:
     """Why somebody who is not in sight may write the data of ``names`` (``Class.attribute``)."""
     for name in sorted(names):
         by, place = world.other_writes.get(name, (None, None))

@@ -25,12 +25,6 @@ _OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
 _FUTURES_FROM = frozenset(['asyncio', 'concurrent', 'multiprocessing'])
 
 
-CLOCKS = {'sleep_for': 'Clock.sleep_for', 'sleep_until': 'Clock.sleep_until'}
-"""Methods that nothing but a clock has; the clock of a node is not followed."""
-
-DURATION = Unknown('a duration that could not be followed')
-
-
 def called_name(call: Call) -> str:
     """The method that is called."""
     node = call.text

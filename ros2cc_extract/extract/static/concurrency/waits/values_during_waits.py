@@ -9,10 +9,9 @@ ends it for all (``units/waits.py``, ``wakings_of``).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.python.machine.store import Store
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     Heaped,
     Instance,
@@ -21,18 +20,15 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 
-if TYPE_CHECKING:
-    from ros2cc_extract.extract.static.python.machine.store import Store
 
-
-def note_kept(world: World, owner: Heaped, name: str, value: Value) -> None:
+def note_kept(world: ConcurrentWorld, owner: Heaped, name: str, value: Value) -> None:
     """``value`` is stored in an attribute."""
     for each in options_of(value):
         if is_waited_on(each):
             world.kept_in[each] = (owner, name)
 
 
-def note_met(world: World, thing: Instance | None) -> None:
+def note_met(world: ConcurrentWorld, thing: Instance | None) -> None:
     """The set-up waits for ``thing``: callbacks that run meanwhile find it where it is kept."""
     if thing is None or (home := world.kept_in.get(thing)) is None:
         return
@@ -42,7 +38,7 @@ def note_met(world: World, thing: Instance | None) -> None:
         known.setdefault((thing.cls, thing.place), thing)
 
 
-def show_to_callbacks(world: World, store: Store) -> None:
+def show_to_callbacks(world: ConcurrentWorld, store: Store) -> None:
     """Callbacks are followed now: they may find what was there while the set-up waited."""
     for (owner, name), met in world.met_meanwhile.items():
         held = owner.slots.get(name)

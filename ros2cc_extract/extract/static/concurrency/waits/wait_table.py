@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.libraries.standard import outside_calls
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
 
 INITIAL = '__initial__'

@@ -8,13 +8,9 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    RECENT,
-    End,
-    EntityState,
-    ExecutorState,
-)
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, ExecutorState
+from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
 from ros2cc_extract.places import Place, Unknown
 
@@ -29,7 +25,7 @@ OF_RATE = 'rclpy.create_rate'
 _NO_END = frozenset({'NotImplementedError', 'StopIteration', 'KeyboardInterrupt'})
 
 
-def note_use(machine: Machine, what: str, place: Place) -> None:
+def note_use(machine: RosMachine, what: str, place: Place) -> None:
     """The middleware is used; it fails where the callback has surely shut rclpy down before."""
     world = machine.world
     current = world.current
@@ -38,7 +34,7 @@ def note_use(machine: Machine, what: str, place: Place) -> None:
         world.ends.append(End(USED, current.node, current, at.unknown.at, f'{what} ({place})'))
 
 
-def note_published(machine: Machine, publisher: Value, place: Place) -> None:
+def note_published(machine: RosMachine, publisher: Value, place: Place) -> None:
     """A message goes out by a publisher, which nobody may destroy meanwhile."""
     if isinstance(publisher, Instance):
         latest = machine.world.ends[-RECENT:]
@@ -48,7 +44,7 @@ def note_published(machine: Machine, publisher: Value, place: Place) -> None:
             note_end(machine, PUBLISHED, publisher, place)
 
 
-def note_shutdown(machine: Machine, place: Place) -> None:
+def note_shutdown(machine: RosMachine, place: Place) -> None:
     """The callback that is followed shuts rclpy down."""
     current = machine.world.current
     if current is not None:
@@ -59,7 +55,7 @@ def note_shutdown(machine: Machine, place: Place) -> None:
 
 
 def note_end(
-    machine: Machine,
+    machine: RosMachine,
     kind: str,
     what: Instance | EntityState | None,
     place: Place,
@@ -75,7 +71,7 @@ def note_end(
         world.ends.append(End(kind, what, doer, place, text, behind=behind, locks=world.held))
 
 
-def note_raised(machine: Machine, error: ast.expr, place: Place) -> None:
+def note_raised(machine: RosMachine, error: ast.expr, place: Place) -> None:
     """A callback raises, and nothing in it catches that."""
     called = error.func if isinstance(error, ast.Call) else error
     name = called.attr if isinstance(called, ast.Attribute) else getattr(called, 'id', '')

@@ -12,19 +12,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.wake_operations import LoopRun, LoopTouch
 from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_in_executor
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     AWAITED,
     Library,
     LibraryClass,
 )
-from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP
-from ros2cc_extract.extract.static.python.machine.wake_operations import LoopRun, LoopTouch, Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -45,7 +46,7 @@ _FUTURE = 'asyncio.Future'
 
 
 @contextmanager
-def _by_loop(machine: Machine) -> Iterator[None]:
+def _by_loop(machine: ConcurrentMachine) -> Iterator[None]:
     """A loop does what is done inside, in its own thread."""
     before = machine.world.by_loop
     machine.world.by_loop = True
@@ -55,7 +56,7 @@ def _by_loop(machine: Machine) -> Iterator[None]:
         machine.world.by_loop = before
 
 
-def _note_touch(machine: Machine, thing: Value, how: str, call: Call) -> None:
+def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) -> None:
     """Something of a loop is touched; which thread does that is told after the run."""
     world = machine.world
     doer = world.activity or (world.current if world.deeds is not None else None)
@@ -66,7 +67,7 @@ def _note_touch(machine: Machine, thing: Value, how: str, call: Call) -> None:
         world.loop_touches.append(touch)
 
 
-def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
+def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
     world = machine.world
     before, world.on_loop = world.on_loop, world.in_callback
@@ -79,18 +80,18 @@ def _run_coroutine(machine: Machine, receiver: Value, call: Call) -> Value:
     return results[0] if results else NONE
 
 
-def _run_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     _note_run(machine, receiver)
     return _run_coroutine(machine, receiver, call)
 
 
-def _note_run(machine: Machine, loop: Value) -> None:
+def _note_run(machine: ConcurrentMachine, loop: Value) -> None:
     world = machine.world
     if not world.retelling and not world.in_callback:
         world.loop_runs.append(LoopRun(loop, world.thread))
 
 
-def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
+def _make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """The event loop runs it later: the callback that hands it over does none of it."""
     world = machine.world
     _note_touch(machine, receiver, 'create_task', call)
@@ -105,9 +106,9 @@ def _make_task(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('a task of asyncio', call.place, 'asyncio task')
 
 
-def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+def _asyncio_sleep(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     current = machine.world.current
-    if current is not None and current.node.state.on_asyncio:
+    if current is not None and current.is_on_loop:
         return NONE
     delay = call.argument(0, 'delay')
     if isinstance(delay, Const) and isinstance(delay.value, (int, float)) and delay.value <= 0:
@@ -117,13 +118,13 @@ def _asyncio_sleep(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _call_soon(machine: Machine, receiver: Value, call: Call) -> Value:
+def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """It wakes no loop that waits, and is for the thread of the loop alone."""
     _note_touch(machine, receiver, 'call_soon', call)
     return _call_soon_threadsafe(machine, receiver, call)
 
 
-def _call_soon_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
+def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """The loop calls it, which whoever hands it over need not wait for."""
     if call.args:
         with _by_loop(machine):
@@ -131,20 +132,20 @@ def _call_soon_threadsafe(machine: Machine, receiver: Value, call: Call) -> Valu
     return NONE
 
 
-def _is_running(machine: Machine, receiver: Value, call: Call) -> Value:
+def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Who asks has another way for a loop that runs."""
     machine.world.asked.add(_ASKED)
     return machine.mystery('whether a loop runs', call.place, 'is_running()')
 
 
-def _run_forever(machine: Machine, receiver: Value, call: Call) -> Value:
+def _run_forever(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     _note_run(machine, receiver)
     if machine.world.activity is not None:
         machine.world.activity.loops = True
     return NONE
 
 
-def _create_future(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_future(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return _made(_FUTURE, OF_LOOP, call)
 
 
@@ -157,7 +158,7 @@ def _made(name: str, kind: str, call: Call) -> Instance:
 def _touching(how: str, word: Word) -> Handler:
     """What ends a wait for something of a loop."""
 
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         _note_touch(machine, receiver, how, call)
         if word is Word.PUT:
             give_items(machine, receiver, call)
@@ -170,10 +171,10 @@ def _touching(how: str, word: Word) -> Handler:
 def _awaitable(name: str, word: Word | None = None) -> Handler:
     """A coroutine that waits for ``receiver`` once somebody awaits it, and then does ``word``."""
 
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         coroutine = _made('asyncio.coroutine', 'coroutine', call)
 
-        def awaited(machine: Machine, _: Value, inner: Call) -> Value:
+        def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
             if isinstance(receiver, Instance) and (name != _PUT or may_be_full(receiver)):
                 machine.note_blocking(name, receiver, None, inner.place)
                 machine.world.awaited_of_loops.append(receiver)
@@ -187,7 +188,7 @@ def _awaitable(name: str, word: Word | None = None) -> Handler:
     return handler
 
 
-def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A wait with a time-out ends in any case."""
     inner = call.argument(0, 'fut')
     if not isinstance(inner, Instance) or AWAITED not in inner.slots:
@@ -236,11 +237,11 @@ _LOOP_METHODS: dict[str, Handler] = {
 }
 
 
-def _event_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+def _event_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return Instance(Name(_LOOP), call.place)
 
 
-def _own_loop(machine: Machine, receiver: Value, call: Call) -> Value:
+def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     loop = Instance(Name(_LOOP), call.place)
     if machine.world.loop is not None:
         loop.slots[LOOP] = machine.world.loop

@@ -8,8 +8,8 @@ asks for the stream before, or elsewhere in the program, counts as its reader.
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Library, Value
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Blocking
@@ -29,7 +29,7 @@ def _is_pipe(value: Value | None) -> bool:
     return isinstance(value, Library) and value.name == _PIPE
 
 
-def note_read(world: World, child: Value) -> None:
+def note_read(world: ConcurrentWorld, child: Value) -> None:
     """Somebody asks for a stream of ``child``, or lets ``communicate`` read them."""
     if isinstance(child, Instance):
         readers = world.readers.setdefault(child.place, [])
@@ -37,7 +37,7 @@ def note_read(world: World, child: Value) -> None:
             readers.append(world.deeds)
 
 
-def note_wait(world: World, child: Value, streams: list[str], place: Place) -> None:
+def note_wait(world: ConcurrentWorld, child: Value, streams: list[str], place: Place) -> None:
     """The end of ``child`` is waited for without a time-out."""
     deeds = world.deeds
     if deeds is None or not streams or not isinstance(child, Instance):
@@ -46,7 +46,7 @@ def note_wait(world: World, child: Value, streams: list[str], place: Place) -> N
         deeds.unread.setdefault((place, world.chain[1:]), (child.place, streams[0]))
 
 
-def unread_at(world: World, block: Blocking, deeds: Deeds) -> str | None:
+def unread_at(world: ConcurrentWorld, block: Blocking, deeds: Deeds) -> str | None:
     """The stream that nobody reads while ``block`` lasts, of a child that is waited for."""
     child, stream = deeds.unread.get((block.source, block.chain), (None, None))
     if block.call != WAIT or child is None:

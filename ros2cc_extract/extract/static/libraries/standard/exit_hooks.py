@@ -6,11 +6,11 @@ Source: CPython 3.12, ``atexit`` (the last one registered is called first).
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Value
 
 
-def on_exit(machine: Machine, receiver: Value, call: Call) -> Value:
+def on_exit(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``atexit.register(function, *args, **kwargs)``."""
     function = call.argument(0, 'func')
     if function is None:
@@ -24,7 +24,7 @@ def on_exit(machine: Machine, receiver: Value, call: Call) -> Value:
     return function
 
 
-def run_exit_hooks(machine: Machine) -> None:
+def run_exit_hooks(machine: ConcurrentMachine) -> None:
     """Follow what was registered, behind all that ``main`` does."""
     hooks = machine.world.exit_hooks
     while hooks:

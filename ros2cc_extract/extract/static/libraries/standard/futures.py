@@ -8,7 +8,8 @@ leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threads
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.libraries.done_callbacks import (
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
     add_done_callback,
     begin_anew,
     cancel,
@@ -16,16 +17,19 @@ from ros2cc_extract.extract.static.libraries.done_callbacks import (
     may_be_done,
 )
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import WORKERS
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     AWAITED,
     Library,
     LibraryClass,
 )
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
+from ros2cc_extract.extract.static.python.machine.path_facts import (
+    Word,
+    answer,
+    cancelled,
+    running,
+)
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
@@ -49,7 +53,7 @@ _HANDED_OVER = '__handed_over__'
 _FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
 
 
-def submit(machine: Machine, receiver: Value, call: Call) -> Value:
+def submit(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``pool.submit(function, …)``, ``asyncio.to_thread(function, …)``."""
     future = machine.future(call.place, OF_POOL)
     if call.args:
@@ -63,7 +67,7 @@ def submit(machine: Machine, receiver: Value, call: Call) -> Value:
     return future
 
 
-def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
+def run_in_executor(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``loop.run_in_executor(pool, function, …)``."""
     future = machine.future(call.place, OF_POOL)
     if len(call.args) > 1:
@@ -73,7 +77,7 @@ def run_in_executor(machine: Machine, receiver: Value, call: Call) -> Value:
     return future
 
 
-def run_threadsafe(machine: Machine, receiver: Value, call: Call) -> Value:
+def run_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``asyncio.run_coroutine_threadsafe(coroutine, loop)``: the thread of the loop runs it."""
     future = machine.future(call.place, OF_POOL)
     coroutine = call.args[0] if call.args else NONE
@@ -101,21 +105,21 @@ def _one_thread(pool: Value) -> Value | None:
     return pool if workers == Const(1) else None
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     workers = call.argument(0, 'max_workers')
     if isinstance(receiver, Instance) and workers is not None:
         machine.store.write(receiver, WORKERS, workers)
     return NONE
 
 
-def _keep(machine: Machine, pool: Value, future: Value) -> None:
+def _keep(machine: ConcurrentMachine, pool: Value, future: Value) -> None:
     """Who waits for the end of a pool waits for all that was handed to it."""
     if isinstance(pool, Instance):
         kept = pool.slots.get(_HANDED_OVER, ())
         machine.store.write(pool, _HANDED_OVER, (*kept, future))
 
 
-def _map(machine: Machine, receiver: Value, call: Call) -> Value:
+def _map(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Its results wait for all calls, when somebody goes over them."""
     results = machine.future(call.place, OF_POOL)
     results.hint = 'map'
@@ -132,7 +136,7 @@ def _item(items: loops.Items) -> Value:
     return Mystery(items.others or Unknown('item that could not be followed'), 'item')
 
 
-def note_leaving(machine: Machine, pool: Value, place: Place) -> None:
+def note_leaving(machine: ConcurrentMachine, pool: Value, place: Place) -> None:
     """A pool ends: all that was handed to it must have come to its end."""
     kept = pool.slots.get(_HANDED_OVER, ()) if isinstance(pool, Instance) else ()
     for future in dict.fromkeys(option for each in kept for option in options_of(each)):
@@ -145,7 +149,7 @@ def is_pool(value: Value) -> bool:
     return isinstance(state, PlainState) and state.kind == 'executor'
 
 
-def _shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
+def _shutdown(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     wait = call.argument(0, 'wait')
     if not (isinstance(wait, Const) and not wait.value):
         note_leaving(machine, receiver, call.place)
@@ -155,7 +159,7 @@ def _shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
 def _for_all(name: str, position: int | None) -> Handler:
     """Waits for every future it is given, one after the other."""
 
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         given = call.args[0] if call.args else NONE
         timeout = call.argument(position, 'timeout')
         items = loops.items_in(machine, given, call.place)
@@ -175,20 +179,20 @@ def _for_all(name: str, position: int | None) -> Handler:
     return handler
 
 
-def _asked(machine: Machine, receiver: Value, call: Call) -> Value:
+def _asked(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.SET, call)
 
 
-def _cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
+def _cancelled(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return cancelled(receiver, call)
 
 
-def _running(machine: Machine, receiver: Value, call: Call) -> Value:
+def _running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return running(receiver, call)
 
 
 def _waits(name: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         machine.note_blocking(name, receiver, call.argument(0, 'timeout'), call.place)
         return machine.mystery(f'result of {name}', call.place, 'result()')
 

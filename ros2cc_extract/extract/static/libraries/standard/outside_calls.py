@@ -14,17 +14,17 @@ import ast
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
 from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     Library,
     LibraryClass,
     Property,
 )
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -112,7 +112,7 @@ _CLASSES: dict[str, dict[str, _Wait]] = {
 
 
 def _waiting(name: str, row: _Wait) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(row.position, _TIMEOUT)
         slots = receiver.slots if isinstance(receiver, Instance) else {}
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
@@ -135,7 +135,7 @@ def _streams(slots: Mapping[str, object]) -> list[str]:
     return [name for name in ('stdout', 'stderr') if f'{_PIPED}{name}' in slots]
 
 
-def _is_there(machine: Machine, name: str) -> bool:
+def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     """
     Whether something is read of which the program has asked whether it is there.
 
@@ -165,14 +165,14 @@ def _never_blocks(tree: ast.Module) -> bool:
     )
 
 
-def _fork(machine: Machine, receiver: Value, call: Call) -> Value:
+def _fork(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Parent and child go on with the same text, the child with whatever others have locked."""
     machine.world.forked = machine.world.forked or call.place
     return machine.mystery('which of two processes goes on', call.place, 'os.fork()')
 
 
 def _limit(position: int, *names: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         limit = call.argument(position, *names)
         if isinstance(receiver, Instance) and limit is not None:
             machine.store.write(receiver, _LIMIT, limit)
@@ -181,7 +181,7 @@ def _limit(position: int, *names: str) -> Handler:
     return handler
 
 
-def _blocks(machine: Machine, receiver: Value, call: Call) -> Value:
+def _blocks(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``setblocking(False)`` is a time-out of zero (``socket`` documentation)."""
     flag = call.argument(0, 'flag')
     if isinstance(receiver, Instance) and isinstance(flag, Const):
@@ -189,7 +189,7 @@ def _blocks(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _kind_of_socket(machine: Machine, receiver: Value, call: Call) -> Value:
+def _kind_of_socket(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Nobody answers the ``connect`` of a datagram socket (``socket`` documentation)."""
     kind = call.argument(1, 'type')
     if isinstance(receiver, Instance) and isinstance(kind, Name) and kind.name == _DATAGRAM:
@@ -197,7 +197,7 @@ def _kind_of_socket(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _child(machine: Machine, receiver: Value, call: Call) -> Value:
+def _child(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance):
         for name in child_pipes.piped(call):
             machine.store.write(receiver, f'{_PIPED}{name}', Const(value=True))
@@ -211,7 +211,7 @@ _INITS: dict[str, Handler] = {
 }
 
 
-def _stream(machine: Machine, instance: Instance, place: Place) -> Value:
+def _stream(machine: ConcurrentMachine, instance: Instance, place: Place) -> Value:
     child_pipes.note_read(machine.world, instance)
     return Instance(Name(_STREAM), instance.place)
 
@@ -237,7 +237,7 @@ def _class(name: str, methods: dict[str, _Wait]) -> LibraryClass:
     )
 
 
-def _wait_key(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_key(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``cv2.waitKey(0)`` waits for a person; with a delay, which is in milliseconds, it ends."""
     delay = call.argument(0, 'delay')
     if delay is None or (isinstance(delay, Const) and delay.value == 0):
@@ -252,7 +252,7 @@ READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab', _FRAMES}
 
 
 def _reads_camera(name: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         if not (isinstance(receiver, Instance) and _OF_FILE in receiver.slots):
             machine.note_blocking(name, None, None, call.place)
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
@@ -260,7 +260,7 @@ def _reads_camera(name: str) -> Handler:
     return handler
 
 
-def _open_capture(machine: Machine, receiver: Value, call: Call) -> Value:
+def _open_capture(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A number, a device, an address or a pipeline is a camera; other texts are files."""
     source = call.argument(0, 'filename')
     text = source.value if isinstance(source, Const) else None

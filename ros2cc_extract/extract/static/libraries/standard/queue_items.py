@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
@@ -53,7 +53,7 @@ class Contents:
         return min(self.taken.values(), default=0)
 
 
-def give_items(machine: Machine, queue: Value, call: Call) -> None:
+def give_items(machine: ConcurrentMachine, queue: Value, call: Call) -> None:
     """Something is put into ``queue``."""
     for item in (*call.args[:1], *call.keywords.values()):
         machine.give_away(item, _PUT, call.place)
@@ -64,7 +64,7 @@ def give_items(machine: Machine, queue: Value, call: Call) -> None:
                     contents.items.append(item)
 
 
-def taken_out(machine: Machine, queue: Value, call: Call) -> Value | None:
+def taken_out(machine: ConcurrentMachine, queue: Value, call: Call) -> Value | None:
     """One of the items, where there is any with which the program does something."""
     found: list[Value] = []
     for option in options_of(queue):
@@ -80,7 +80,7 @@ def taken_out(machine: Machine, queue: Value, call: Call) -> Value | None:
     return choice([*_joined(found), *others, *unknown[:1]])
 
 
-def take_back(world: World) -> None:
+def take_back(world: ConcurrentWorld) -> None:
     """When all was followed: who takes items has met them, and ends what he ends."""
     queues = list(world.queues.values())
     lost = {id(each.queue): 0 if id(each.queue) in world.given else each.met for each in queues}

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import answer
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -20,7 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 
 
-def init(machine: Machine, receiver: Value, call: Call) -> Value:
+def init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A queue has a size, or none."""
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'maxsize') or Const(0))
@@ -40,7 +39,7 @@ def _waits(call: Call, position: int) -> bool:
     return not (isinstance(block, Const) and not block.value)
 
 
-def _get(machine: Machine, receiver: Value, call: Call) -> Value:
+def _get(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if _waits(call, 0):
         machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
     machine.note_wake(receiver, Word.GET, call.place)
@@ -49,7 +48,7 @@ def _get(machine: Machine, receiver: Value, call: Call) -> Value:
     return item or machine.mystery('what was put into a queue', call.place, 'get()')
 
 
-def _move(machine: Machine, queue: Value, word: Word) -> None:
+def _move(machine: ConcurrentMachine, queue: Value, word: Word) -> None:
     """Where something was just put in there is something, where it was taken out there is room."""
     world = machine.world
     if (queue, Word.DONE) not in world.ready:  # else it was asked how many there are
@@ -57,7 +56,7 @@ def _move(machine: Machine, queue: Value, word: Word) -> None:
         world.ready |= {(queue, word)}
 
 
-def _put(machine: Machine, receiver: Value, call: Call) -> Value:
+def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, receiver, call)
@@ -73,7 +72,7 @@ def _is_sign(call: Call) -> bool:
 
 
 def _without_waiting(word: Word) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         if word is Word.PUT:
             give_items(machine, receiver, call)
         is_sign = word is Word.PUT and _is_sign(call)
@@ -86,20 +85,20 @@ def _without_waiting(word: Word) -> Handler:
     return handler
 
 
-def _join(machine: Machine, receiver: Value, call: Call) -> Value:
+def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     machine.note_blocking('Queue.join', receiver, None, call.place)
     return NONE
 
 
-def _is_empty(machine: Machine, receiver: Value, call: Call) -> Value:
+def _is_empty(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.PUT, call, if_true=False)
 
 
-def _is_full(machine: Machine, receiver: Value, call: Call) -> Value:
+def _is_full(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.GET, call, if_true=False)
 
 
-def _size(machine: Machine, receiver: Value, call: Call) -> Value:
+def _size(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Who has asked how much there is, be it in a test or for a loop, takes no more than that."""
     machine.world.ready |= {(receiver, word) for word in (Word.PUT, Word.GET, Word.DONE)}
     return machine.mystery('how full a queue is', call.place, 'queue')

@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.objects.loops import counted
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -31,13 +31,13 @@ from ros2cc_extract.spec.model import ActivityKind
 _HANDLER = '__handler__'
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, _HANDLER, call.argument(1, 'RequestHandlerClass') or NONE)
     return NONE
 
 
-def _serve(machine: Machine, receiver: Value, call: Call) -> Value:
+def _serve(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     given = receiver.slots.get(_HANDLER)
     options = options_of(given) if isinstance(given, Value) else ()
@@ -58,7 +58,7 @@ def _starts_threads(server: Instance) -> bool:
     return any('Threading' in name for name in (*names, server.class_name))
 
 
-def _methods(machine: Machine, cls: Class, server: Value, call: Call) -> Iterator[Value]:
+def _methods(machine: ConcurrentMachine, cls: Class, server: Value, call: Call) -> Iterator[Value]:
     """What answers requests, of one handler: it lives no longer than its request."""
     handler = machine.instantiate(cls, Call(call.place))
     if not isinstance(handler, Instance):

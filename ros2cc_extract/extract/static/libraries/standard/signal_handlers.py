@@ -11,9 +11,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
 from ros2cc_extract.extract.static.program.relevance import walk
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -28,7 +28,7 @@ from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind
 
 
-def on_signal(machine: Machine, receiver: Value, call: Call) -> Value:
+def on_signal(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``signal.signal(number, handler)``."""
     for option in options_of(call.argument(1, 'handler') or NONE):
         machine.world.signal_handlers.append(_beside(option, call.place))

@@ -7,19 +7,19 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_counter
 from ros2cc_extract.extract.static.concurrency.activities import begin
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ThreadState, thread_of
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_join, note_over
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     Library,
     LibraryClass,
     StateFactory,
 )
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import answer
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import PlainState, ThreadState, thread_of
+from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -41,7 +41,7 @@ def _thread_state(kind: ActivityKind) -> StateFactory:
     return lambda machine, instance: ThreadState(kind)
 
 
-def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _thread_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     state = thread_of(receiver)
     state.target = call.argument(1, 'target')
@@ -52,7 +52,7 @@ def _thread_init(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _timer_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _timer_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     state = thread_of(receiver)
     state.target = call.argument(1, 'function')
@@ -60,7 +60,9 @@ def _timer_init(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _target_call(machine: Machine, call: Call, args: Value | None, keywords: Value | None) -> Call:
+def _target_call(
+    machine: ConcurrentMachine, call: Call, args: Value | None, keywords: Value | None
+) -> Call:
     inner = Call(call.place)
     if args is not None and args != NONE:
         items, rest = machine.items_of(args, call.place)
@@ -74,7 +76,7 @@ def _target_call(machine: Machine, call: Call, args: Value | None, keywords: Val
     return inner
 
 
-def _start(machine: Machine, receiver: Value, call: Call) -> Value:
+def _start(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     state = thread_of(receiver)
     if state.started and not machine.world.again:
@@ -94,26 +96,26 @@ def _is_daemon(thread: Instance) -> bool | None:
     return bool(daemon.value) if isinstance(daemon, Const) else None
 
 
-def _set_daemon(machine: Machine, receiver: Value, call: Call) -> Value:
+def _set_daemon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, 'daemon', call.argument(0, 'daemonic') or NONE)
     return NONE
 
 
-def _start_new(machine: Machine, receiver: Value, call: Call) -> Value:
+def _start_new(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if call.args:
         inner = _target_call(machine, call, call.argument(1), call.argument(2))
         begin(machine, ActivityKind.THREAD, call.args[0], inner, daemon=True)
     return NONE
 
 
-def _semaphore_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _semaphore_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'value') or Const(1))
     return NONE
 
 
-def _condition_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _condition_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, GIVEN, call.argument(0, 'lock') or NONE)
     return NONE
@@ -131,7 +133,7 @@ def _plain(kind: str) -> LibraryClass:
 
 
 def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(timeout_index, timeout_name)
         machine.note_blocking(call_name, receiver, timeout, call.place)
         return machine.mystery(f'result of {call_name}', call.place)
@@ -139,7 +141,7 @@ def _blocking(call_name: str, timeout_index: int, timeout_name: str) -> Handler:
     return handler
 
 
-def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """It asks its predicate before it waits, and each time that it is notified."""
     world, found = machine.world, set[str]()
     predicate = call.argument(0, 'predicate')
@@ -155,14 +157,14 @@ def _wait_for(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _wakes(word: Word) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         machine.note_wake(receiver, word, call.place)
         return NONE
 
     return handler
 
 
-def _take_lock(machine: Machine, receiver: Value, call: Call) -> Value:
+def _take_lock(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A lock that the set-up takes is for others to give back, as a semaphore of nothing."""
     assert isinstance(receiver, Instance)
     if _is_set_up(machine):
@@ -173,7 +175,7 @@ def _take_lock(machine: Machine, receiver: Value, call: Call) -> Value:
     return _acquire(machine, receiver, call)
 
 
-def _give_lock(machine: Machine, receiver: Value, call: Call) -> Value:
+def _give_lock(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if _is_set_up(machine):
         machine.store.write(receiver, INITIAL, Const(1))
@@ -182,7 +184,7 @@ def _give_lock(machine: Machine, receiver: Value, call: Call) -> Value:
     return _release(machine, receiver, call)
 
 
-def _is_set_up(machine: Machine) -> bool:
+def _is_set_up(machine: ConcurrentMachine) -> bool:
     """Whether this happens once and before anything else of the program runs."""
     world = machine.world
     is_first = world.when is When.START and not world.after_spin and not world.in_thread
@@ -194,12 +196,12 @@ def _waits_for_it(call: Call) -> bool:
     return not (isinstance(blocking, Const) and not blocking.value)
 
 
-def _acquire(machine: Machine, receiver: Value, call: Call) -> Value:
+def _acquire(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     machine.note_acquire(receiver, call.place, may_fail=bool(call.args or call.keywords))
     return machine.mystery('result of acquire', call.place)
 
 
-def _take(machine: Machine, receiver: Value, call: Call) -> Value:
+def _take(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Who gives it back himself takes it as a lock, else it is a wait for others."""
     if _waits_for_it(call):
         timeout = call.argument(1, 'timeout')
@@ -207,12 +209,12 @@ def _take(machine: Machine, receiver: Value, call: Call) -> Value:
     return _acquire(machine, receiver, call)
 
 
-def _give(machine: Machine, receiver: Value, call: Call) -> Value:
+def _give(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     machine.note_wake(receiver, Word.RELEASE, call.place)
     return _release(machine, receiver, call)
 
 
-def _meet(machine: Machine, receiver: Value, call: Call) -> Value:
+def _meet(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Whoever comes to a barrier is waited for by the others."""
     assert isinstance(receiver, Instance)
     machine.note_wake(receiver, Word.ARRIVE, call.place)
@@ -221,14 +223,14 @@ def _meet(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('result of Barrier.wait', call.place)
 
 
-def _break_off(machine: Machine, receiver: Value, call: Call) -> Value:
+def _break_off(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Whoever waits at the barrier gets an error (``threading.py``, ``Barrier.abort``)."""
     why = Unknown('somebody breaks it off', call.place)
     machine.world.given.setdefault(id(receiver), why)
     return NONE
 
 
-def _barrier_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _barrier_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Its time-out is that of all who wait at it."""
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'parties') or NONE)
@@ -240,12 +242,12 @@ _PATIENCE = '__patience__'
 _INITS['barrier'] = _barrier_init
 
 
-def _release(machine: Machine, receiver: Value, call: Call) -> Value:
+def _release(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     machine.note_release(receiver)
     return NONE
 
 
-def _event_init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _event_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, _IS_SET, Const(False))
     return NONE
@@ -254,45 +256,45 @@ def _event_init(machine: Machine, receiver: Value, call: Call) -> Value:
 _INITS['event'] = _event_init
 
 
-def _set(machine: Machine, receiver: Value, call: Call) -> Value:
+def _set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.note_wake(receiver, Word.SET, call.place)
     _keep_flag(machine, receiver, Const(True))
     return NONE
 
 
-def _clear(machine: Machine, receiver: Value, call: Call) -> Value:
+def _clear(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     world = machine.world
     doer = world.activity or world.current
-    before = len(world.entities) + len(world.builtins)
+    before = world.things_made
     world.cleared.setdefault(id(receiver), {}).setdefault((doer, call.place), before)
     _keep_flag(machine, receiver, Const(False))
     note_cleared(world.deeds, receiver)
     return NONE
 
 
-def _keep_flag(machine: Machine, event: Instance, flag: Const) -> None:
+def _keep_flag(machine: ConcurrentMachine, event: Instance, flag: Const) -> None:
     """A thread may set or clear the event at any time after its start."""
     old = event.slots.get(_IS_SET, Const(False))
     machine.store.write(event, _IS_SET, choice([old, flag]) if machine.world.in_thread else flag)
 
 
-def _is_set(machine: Machine, receiver: Value, call: Call) -> Value:
+def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Known in the set-up alone, before anything else of the program runs."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
-    is_set_up = world.when is When.START and not world.spins and not world.in_thread
+    is_set_up = world.when is When.START and not world.spins_begun and not world.in_thread
     if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
         return flag
     return answer(receiver, Word.SET, call)
 
 
-def _is_alive(machine: Machine, receiver: Value, call: Call) -> Value:
+def _is_alive(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.END, call, if_true=False)
 
 
-def _sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+def _sleep(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     machine.note_blocking('time.sleep', None, call.argument(0, 'secs'), call.place)
     return NONE
 
@@ -321,7 +323,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
 }
 
 
-def _note_end(machine: Machine, thread: Value) -> None:
+def _note_end(machine: ConcurrentMachine, thread: Value) -> None:
     """The set-up has waited for the end of a thread, before anything spins."""
     world = machine.world
     if world.deeds is None and not world.after_spin:
@@ -330,11 +332,11 @@ def _note_end(machine: Machine, thread: Value) -> None:
             activity.ends_first = activity.ends_first or is_first
 
 
-def _join(machine: Machine, receiver: Value, call: Call) -> Value:
+def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """What the thread spun is spun no more where the program has waited for its end."""
     world = machine.world
     if not world.in_callback and not world.in_thread and not call.args and not call.keywords:
-        world.spins_over = len(world.spins)
+        world.spins_over = world.spins_begun
         _note_end(machine, receiver)
         note_join(world, receiver, call.place)
         note_over(world, receiver)
@@ -344,6 +346,7 @@ def _join(machine: Machine, receiver: Value, call: Call) -> Value:
 _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
+    is_beside=True,
     methods={'start': _start, 'join': _join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
 )
 
@@ -356,10 +359,12 @@ TABLE = Library(
             state=_thread_state(ActivityKind.TIMER),
             init=_timer_init,
             bases=('threading.Thread',),
+            is_beside=True,
         ),
         'multiprocessing.Process': LibraryClass(
             state=_thread_state(ActivityKind.PROCESS),
             init=_thread_init,
+            is_beside=True,
             methods={'start': _start, 'join': _JOIN_PROCESS, 'is_alive': _is_alive},
         ),
         'threading.Lock': _plain('lock'),

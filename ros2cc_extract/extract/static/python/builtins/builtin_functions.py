@@ -446,6 +446,8 @@ def _import_module(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('a module whose name is computed', call.place, 'import_module()')
 
 
+_CLOCKS = ('time', 'monotonic', 'perf_counter', 'process_time', 'thread_time')
+
 TABLE = Library(
     classes={
         'builtins.object': LibraryClass(init=_print),
@@ -461,4 +463,5 @@ TABLE = Library(
         'sys.platform': Const('linux'),
         'typing.TYPE_CHECKING': Const(False),
     },
+    plain=frozenset(f'time.{clock}{unit}' for clock in _CLOCKS for unit in ('', '_ns')),
 )

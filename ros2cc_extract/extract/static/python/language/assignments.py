@@ -8,13 +8,9 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    AccessKind,
-    ExecutorState,
-    GroupState,
-    PlainState,
-)
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.objects.escape import note_kept
@@ -174,8 +170,10 @@ def _hint(value: Value, name: str) -> None:
             value.hint = name
     elif isinstance(value, Choice):
         for option in value.options:
-            if isinstance(option, Instance) and isinstance(
-                option.state, (GroupState, ExecutorState)
+            if (
+                isinstance(option, Instance)
+                and isinstance(option.state, LibraryState)
+                and option.state.is_known_by_name
             ):
                 _hint(option, name)
 

@@ -11,10 +11,11 @@ from ros2cc_extract.extract.static.python.language import plain_data_calls
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_all
-from ros2cc_extract.extract.static.python.machine.world import Cut, PlainState, note_once
+from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import memoization, subclass_registry
 from ros2cc_extract.extract.static.python.objects.metaclasses import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.python.values import enumerations
@@ -341,7 +342,9 @@ class Calls(Machine):
         if isinstance(value, Coroutine):
             return self.run_function(value.function, value.call)
         if isinstance(value, Instance) and isinstance(value.state, PlainState):
-            return self.awaited(value, place)
+            given = self.awaited(value, place)
+            if given is not None:
+                return given
         return self.mystery('result of an await', place)
 
     def _turns_of(self, value: Value, place: Place) -> tuple[Value, ...] | None:

@@ -28,7 +28,7 @@ def if_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     told = path_facts.told_by(machine.world.tested)
 
     def arm(body: ast.expr, *, holds: bool) -> Value:
-        path_facts.assume(machine.world, told, holds=holds)
+        machine.world.assume(told, holds=holds)
         return machine.evaluate(body, frame)
 
     arms = (partial(arm, node.body, holds=True), partial(arm, node.orelse, holds=False))
@@ -44,7 +44,7 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
         before = machine.world.changing
         value = machine.evaluate(part, frame)
         values.append(value)
-        path_facts.assume(machine.world, path_facts.told_by(value), holds=not stops_on)
+        machine.world.assume(path_facts.told_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
         last = index == len(node.values) - 1
         for option in options_of(value):

@@ -147,7 +147,7 @@ def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Fra
 
 def _others_have_run(world: World) -> bool:
     """Whether callbacks may have run since the set-up has stored something: it has spun, too."""
-    return world.when is When.CALLBACK or (world.when is When.START and bool(world.spins))
+    return world.when is When.CALLBACK or (world.when is When.START and world.has_let_others_run)
 
 
 def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:

@@ -310,8 +310,8 @@ def _arm(
 
     def run() -> int:
         for told in fails:
-            path_facts.assume(machine.world, told, holds=False)
-        path_facts.assume(machine.world, holds, holds=True)
+            machine.world.assume(told, holds=False)
+        machine.world.assume(holds, holds=True)
         if is_one_of_two:
             skipped = holds.fails if holds is not None else fails[0].holds if fails else None
             machine.world.skipped_if[machine.world.path[-1]] = skipped or path_facts.NOTHING
@@ -360,7 +360,7 @@ def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int
             def once(item: Value) -> int:
                 begin(item)
                 machine.assign(node.target, step() if step is not None else item, frame)
-                path_facts.assume_picked(machine.world, values, item)
+                machine.world.assume_picked(values, item)
                 return _round(machine, node.body, frame)
 
             flow = loops.run_loop(machine, items, once, place)
@@ -397,7 +397,7 @@ def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
         _loop(machine, frame),
         machine.world.reading.in_loop(asked),
     ):
-        path_facts.assume(machine.world, told, holds=True)
+        machine.world.assume(told, holds=True)
         open_tests.note_rounds(node, frame)
         flow = _round(machine, node.body, frame)
         ends = [] if holds else [ready | (told.fails if told is not None else path_facts.NOTHING)]

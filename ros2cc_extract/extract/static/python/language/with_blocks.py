@@ -5,10 +5,56 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import ExecutorState, PlainState
-from ros2cc_extract.extract.static.python.values.values import NONE, Bound, Call, Instance, Value
+from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Coroutine,
+    Instance,
+    Value,
+    choice,
+)
 from ros2cc_extract.places import Place
+
+
+class Blocks(Machine):
+    """What a block begins with."""
+
+    def enter_context(self, value: Value, place: Place) -> Value:
+        """What ``with value as x`` binds to ``x``."""
+        if isinstance(value, Instance):
+            if is_block(value):
+                self.note_entered(value, place)
+                return value
+            method = self.attribute(value, '__enter__', place)
+            if isinstance(method, Bound):
+                entered = self.call(method, Call(place))
+                self.note_lock_method(value, '__enter__')
+                return entered
+            return value
+        return self._enter_generator(value, place)
+
+    def _enter_generator(self, value: Value, place: Place) -> Value:
+        """
+        A generator under ``contextmanager`` stops at its ``yield`` until the block is left.
+
+        Source: ``contextlib.py``. It is run to its end here, so its locks were given back.
+        """
+        if isinstance(value, Coroutine):
+            value = self.run_if_coroutine(value, place)
+        made, held = self.world.yielding or (None, ())
+        if value is not made or not isinstance(value, Sequence):
+            return value
+        self.world.held = tuple(dict.fromkeys((*self.world.held, *held)))
+        return choice(list(value.items)) if value.items else value
+
+
+def is_block(value: Instance) -> bool:
+    """Whether its library says what a ``with`` does."""
+    return isinstance(value.state, LibraryState) and value.state.is_block
 
 
 def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
@@ -27,7 +73,7 @@ def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> 
             entered_ones.append((value, entered, place))
         flow = machine.execute_block(node.body, frame)
         for value, entered, place in reversed(entered_ones):
-            machine.leave_context(entered, place)
+            machine.note_left_block(entered, place)
             _exit(machine, value, _end_of(node, place))
         return flow
     finally:
@@ -36,7 +82,7 @@ def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> 
 
 def _exit(machine: Machine, value: Value, place: Place) -> None:
     """What the ``__exit__`` of a class of the program does."""
-    if not isinstance(value, Instance) or isinstance(value.state, (PlainState, ExecutorState)):
+    if not isinstance(value, Instance) or is_block(value):
         return
     method = machine.attribute(value, '__exit__', place)
     if isinstance(method, Bound):

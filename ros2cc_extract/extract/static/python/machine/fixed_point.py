@@ -7,10 +7,12 @@ the callback is followed again; where that comes to no end, the unit says so.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeVar
 
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
-from ros2cc_extract.extract.static.python.machine.world import Cut, EntityState, World, note_once
+from ros2cc_extract.extract.static.python.machine.world import Cut, World, note_once
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -29,6 +31,7 @@ _ROUNDS = 10
 """A chain of as many states is followed to its end."""
 
 Tokens = frozenset[object]
+Followed = TypeVar('Followed', bound=Doer)
 
 
 def note_met(world: World, owner: Heaped, name: str, held: Value | None) -> None:
@@ -126,9 +129,9 @@ def _shown(value: Value) -> object:
     return _token(value)
 
 
-def next_round(world: World) -> list[EntityState]:
+def next_round(world: World, doers: Iterable[Followed]) -> list[Followed]:
     """The callbacks to follow once more."""
-    stale = [entity for entity in world.entities if has_news(world.met_by.get(id(entity), {}))]
+    stale = [entity for entity in doers if has_news(world.met_by.get(id(entity), {}))]
     found = []
     for entity in stale:
         world.rounds[id(entity)] += 1
@@ -136,6 +139,7 @@ def next_round(world: World) -> list[EntityState]:
             found.append(entity)
         elif _has_other_kinds(world.met_by.get(id(entity), {})):
             reason = 'objects that callbacks hand on to each other are not followed to an end'
-            classes = frozenset(cls for cls in entity.node.mro if isinstance(cls, Class))
+            order = entity.owner.mro if entity.owner is not None else ()
+            classes = frozenset(cls for cls in order if isinstance(cls, Class))
             note_once(world.cut, Cut(reason, entity.place, classes))
     return found

@@ -1,20 +1,27 @@
-"""The form of the library tables: which classes and functions have which effects."""
+"""
+The form of the library tables: which classes and functions have which effects.
+
+To follow programs of another library, write its table and hand a ``LibraryModel`` of it, beside
+those of Python itself, to the interpreter.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Any
 
-from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
 from ros2cc_extract.places import Place
 
 AWAITED = '__awaited__'
 """Slot of a coroutine of a library: what happens when it is awaited."""
 
-StateFactory = Callable[[Machine, Instance], Any]
-Property = Callable[[Machine, Instance, Place], Value]
+_KEPT = 4096
+
+StateFactory = Callable[[Any, Instance], Any]
+Property = Callable[[Any, Instance, Place], Value]
 
 
 @dataclass(frozen=True)
@@ -24,25 +31,32 @@ class LibraryClass:
 
     :param state: makes what an instance has beyond its attributes.
     :param init: what ``__init__`` does; the receiver is the instance.
+    :param is_beside: an object may be this besides what another base class makes of it.
     :param again: what holds for an instance that is made again, by who made it before.
     """
 
     state: StateFactory | None = None
     init: Handler | None = None
-    again: Callable[[Machine, Instance], None] | None = None
+    again: Callable[[Any, Instance], None] | None = None
     bases: tuple[str, ...] = ()
+    is_beside: bool = False
     methods: dict[str, Handler] = field(default_factory=dict)
     properties: dict[str, Property] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Library:
-    """A table of classes, functions and other names of them."""
+    """
+    A table of classes, functions and other names of them.
+
+    :param plain: functions without a row that give a number or a text, whichever.
+    """
 
     classes: dict[str, LibraryClass] = field(default_factory=dict)
     functions: dict[str, Handler] = field(default_factory=dict)
     aliases: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Value] = field(default_factory=dict)
+    plain: frozenset[str] = frozenset()
     added_methods: dict[str, dict[str, Handler]] = field(default_factory=dict)
 
 
@@ -53,7 +67,7 @@ def with_methods(row: LibraryClass, methods: dict[str, Handler]) -> LibraryClass
 
 def merged(tables: list[Library]) -> Library:
     """One table of all."""
-    whole = Library()
+    whole = Library(plain=frozenset().union(*(table.plain for table in tables)))
     for table in tables:
         whole.classes.update(table.classes)
         whole.functions.update(table.functions)
@@ -63,3 +77,46 @@ def merged(tables: list[Library]) -> Library:
         for name, methods in table.added_methods.items():
             whole.classes[name] = with_methods(whole.classes[name], methods)
     return whole
+
+
+class LibraryModel:
+    """
+    What is known of code that is not scanned: a class or function by whatever name.
+
+    :param harmless: how names begin of what does nothing with what it is given.
+    """
+
+    def __init__(self, tables: Sequence[Library], harmless: tuple[str, ...] = ()) -> None:
+        self.table = merged(list(tables))
+        self.harmless = harmless
+        self.canonical: Callable[[str], str] = lru_cache(_KEPT)(self._canonical)
+        """The one name under which a name stands in the tables."""
+        self.with_bases: Callable[[str], tuple[str, ...]] = lru_cache(_KEPT)(self._with_bases)
+        """A library class and its bases, as they stand in the tables, nearest first."""
+
+    def _canonical(self, name: str) -> str:
+        name = self.table.aliases.get(name, name)
+        if name in self.table.classes or name in self.table.functions:
+            return name
+        return self.other_name(name)
+
+    def other_name(self, name: str) -> str:
+        """The name in the tables of what stands in none under ``name``."""
+        return name
+
+    def _with_bases(self, name: str) -> tuple[str, ...]:
+        classes, found, waiting = self.table.classes, list[str](), [self.canonical(name)]
+        while waiting:
+            known = waiting.pop(0)
+            if known in classes:
+                found.append(known)
+                waiting.extend(classes[known].bases)
+        return tuple(found)
+
+    def rows(self, name: str) -> list[LibraryClass]:
+        """The rows of a library class and of its bases, nearest first."""
+        return [self.table.classes[base] for base in self.with_bases(name)]
+
+    def is_a(self, name: str, base: str) -> bool:
+        """Whether a library class is another one, or has it as a base."""
+        return self.canonical(base) in self.with_bases(name)

@@ -1,7 +1,9 @@
 """
 What the parts of the interpreter and the library tables may ask of each other.
 
-``interpreter.py`` puts the parts together; none of them imports another.
+``interpreter.py`` puts the parts together; none of them imports another. What only a machine has
+that notes what runs concurrently, or that models rclpy, stands in ``concurrency/machine.py`` and
+``libraries/rclpy/machine.py``.
 """
 
 from __future__ import annotations
@@ -14,11 +16,11 @@ from functools import partial
 
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, Frame
-from ros2cc_extract.extract.static.python.machine.observer import Observer
+from ros2cc_extract.extract.static.python.machine.library_table import LibraryModel
+from ros2cc_extract.extract.static.python.machine.observer import LibraryHooks, Observer
 from ros2cc_extract.extract.static.python.machine.path_facts import of_all
 from ros2cc_extract.extract.static.python.machine.store import Store, Writes
-from ros2cc_extract.extract.static.python.machine.wake_operations import ClockRef, DataRef, Word
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -44,11 +46,12 @@ ENTRIES = 10
 """So many of an order of classes are gone through, or kept, in a step."""
 
 
-class Machine(Observer, ABC):
+class Machine(Observer, LibraryHooks, ABC):
     """The state every part shares, and what each part offers to the others."""
 
     store: Store
     world: World
+    model: LibraryModel
     steps: int
     step_limit: int
     deadline: Deadline | None
@@ -136,10 +139,6 @@ class Machine(Observer, ABC):
         """What ``with value as x`` binds to ``x``."""
 
     @abstractmethod
-    def leave_context(self, value: Value, place: Place) -> None:
-        """A ``with`` over ``value`` ends."""
-
-    @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:
         """Names of globals that some function of the module rebinds or changes in place."""
 
@@ -170,38 +169,12 @@ class Machine(Observer, ABC):
         """Attribute ``name`` that a library class gives to ``receiver``."""
 
     @abstractmethod
-    def member_of_unknown_base(
-        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
-    ) -> Value | None:
-        """Attribute ``name`` where a base class is not in sight."""
-
-    @abstractmethod
-    def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
-        """What an operator gives that a library defines."""
-
-    @abstractmethod
-    def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
-        """Attribute ``name`` of a value that must be a node."""
-
-    @abstractmethod
     def submodule(self, module: Module, name: str, place: Place) -> Value | None:
         """A module of a scanned package."""
 
     @abstractmethod
-    def become_node(self, instance: Instance) -> Instance | None:
-        """Treat an instance of a class with an unknown base as the node it is used as."""
-
-    @abstractmethod
-    def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
-        """A new future of ``kind``."""
-
-    @abstractmethod
     def await_value(self, value: Value, place: Place) -> Value:
         """``await value``."""
-
-    @abstractmethod
-    def awaited(self, future: Instance, place: Place) -> Value:
-        """What awaiting a future gives."""
 
     @abstractmethod
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
@@ -222,80 +195,6 @@ class Machine(Observer, ABC):
     @abstractmethod
     def name_value(self, value: Value, name: str) -> None:
         """Remember the first name under which a group, an executor … is stored."""
-
-    @abstractmethod
-    def note_nested_spin(
-        self,
-        how: str,
-        node: Instance | None,
-        executor: Value,
-        future: tuple[Value | None, Value | None],
-        place: Place,
-        change: str = '',
-    ) -> bool:
-        """
-        Whether a spin stands in a callback; then it is noted there and is no set-up.
-
-        :param node: the node that moves by it; without one nothing does.
-        :param future: what it waits for, with the time-out.
-        :param change: how ``node`` moves, in words.
-        """
-
-    @abstractmethod
-    def note_change(self, what: str, node: Instance, place: Place) -> None:
-        """A callback changes which executor serves ``node``."""
-
-    @abstractmethod
-    def note_blocking(
-        self, name: str, on: Value | None, seconds: Value | None, place: Place
-    ) -> None:
-        """A call that can hold its thread."""
-
-    @abstractmethod
-    def note_outside_wait(
-        self,
-        name: str,
-        on: Value | None,
-        seconds: Value | None,
-        place: Place,
-        spun: tuple[Instance, ...] = (),
-    ) -> None:
-        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
-
-    @abstractmethod
-    def note_loop_on_data(
-        self,
-        name: str,
-        on: DataRef | ClockRef | Unknown,
-        seconds: Unknown | None,
-        place: Place,
-        spun: tuple[Instance, ...] = (),
-    ) -> None:
-        """A loop goes on until somebody else has written what its test reads."""
-
-    @abstractmethod
-    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Somebody waits for time that ``clock`` moves."""
-
-    @abstractmethod
-    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
-        """A lock is taken; with a time-out it may not be."""
-
-    @abstractmethod
-    def note_release(self, lock: Value) -> None:
-        """A lock is given back."""
-
-    @abstractmethod
-    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
-        """Something is done to ``thing`` that may end a wait for it."""
-
-    @abstractmethod
-    def give_away(self, value: Value, reason: str, place: Place) -> None:
-        """Code that is not followed has ``value`` now, and may end waits for it."""
-
-    @abstractmethod
-    def note_publish(self, publisher: Value, place: Place) -> None:
-        """A message is published."""
 
     def stop_program(self) -> None:
         """The program ends here on this branch (``sys.exit``)."""

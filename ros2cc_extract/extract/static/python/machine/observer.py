@@ -15,7 +15,15 @@ from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASK
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
-from ros2cc_extract.extract.static.python.values.values import Call, Module, Mystery, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Instance,
+    Library,
+    Module,
+    Mystery,
+    Native,
+    Value,
+)
 from ros2cc_extract.places import Place
 
 
@@ -80,6 +88,12 @@ class Observer:
         """The locks that a handler of exceptions gives back: they are held where it begins."""
         return ()
 
+    def note_entered(self, value: Instance, place: Place) -> None:
+        """A ``with`` over an object of a library begins."""
+
+    def note_left_block(self, value: Value, place: Place) -> None:
+        """A ``with`` over ``value`` ends."""
+
     def note_lock_method(self, owner: Value, name: str) -> None:
         """A method of ``owner`` has run that is called like one of a lock."""
 
@@ -104,3 +118,48 @@ class Observer:
 
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called."""
+
+    def give_away(self, value: Value, reason: str, place: Place) -> None:
+        """Code that is not followed has ``value`` now."""
+
+
+class LibraryHooks:
+    """What the tables of libraries cannot say; a bare interpreter has nothing to add to them."""
+
+    def other_member(
+        self, cls: Library, receiver: Value | None, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` of an object of a library class, where no table has it."""
+        return None
+
+    def member_of_unknown_base(
+        self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
+    ) -> Value | None:
+        """Attribute ``name`` where a base class is not in sight."""
+        return None
+
+    def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
+        """Attribute ``name`` of a value of which only its use tells what it is."""
+        return None
+
+    def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
+        """What an operator gives that a library defines."""
+        return None
+
+    def awaited(self, future: Instance, place: Place) -> Value | None:
+        """What awaiting a future gives."""
+        return None
+
+    def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
+        """Whether whoever is given ``function`` is taken to run it with these arguments."""
+        return False
+
+    def objects_made(self) -> int:
+        """How many objects of libraries there are of which it matters which one is meant."""
+        return 0
+
+    def doubt_objects(self, since: int, reason: str, place: Place) -> None:
+        """Those that were made since there were so many may be older ones."""
+
+    def doubt_calls(self, since: int, why: str, place: Place) -> None:
+        """The same of what code that is not scanned may have kept from an earlier call."""

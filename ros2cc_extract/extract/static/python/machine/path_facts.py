@@ -13,19 +13,31 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from enum import Enum
 from functools import reduce
 
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
-    Heaped,
     Mystery,
     Value,
     options_of,
 )
 from ros2cc_extract.places import Unknown
+
+
+class Word(Enum):
+    """What is done to an object that others wait on."""
+
+    SET = 'set'
+    PUT = 'put'
+    GET = 'get'
+    DONE = 'done'
+    RELEASE = 'release'
+    ARRIVE = 'arrive'
+    END = 'end'
+    WRITE = 'write'
+
 
 Facts = frozenset[tuple[Value, Word]]
 NOTHING: Facts = frozenset()
@@ -123,31 +135,10 @@ def compared(op: ast.cmpop, left: Value, right: Value, node: ast.expr) -> Answer
     return Answer(_unknown(left), node, told if is_same is right.value else told.negated())
 
 
-def assume(world: World, told: Told | None, *, holds: bool) -> None:
-    """From here on a test has come out so."""
-    if told is not None:
-        world.ready |= told.holds if holds else told.fails
-
-
-def assume_picked(world: World, collection: Value, item: Value) -> None:
-    """An item is taken out of a collection into which it was picked for what it answered."""
-    picked = world.picked.get(collection.serial, NOTHING) if isinstance(collection, Heaped) else ()
-    options = options_of(item)
-    world.ready |= {fact for fact in picked if fact[0] in options}
-
-
 def of_all(ends: Iterable[Facts]) -> Facts:
     """What has happened however the branches were left."""
     kept = list(ends)
     return frozenset.intersection(*kept) if kept else NOTHING
-
-
-def is_ready(world: World, value: Value | None, words: frozenset[Word]) -> bool:
-    """Whether a wait for ``value`` that ``words`` end does not wait any more."""
-    options = options_of(value) if value is not None else ()
-    things = [option for option in options if not isinstance(option, Const)]
-    known = {thing for thing, word in world.ready if word in words}
-    return bool(things) and all(thing in known for thing in things)
 
 
 def _of_each(values: Sequence[Value], *, stops_on: bool) -> Told:

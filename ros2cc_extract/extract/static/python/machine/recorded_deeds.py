@@ -1,14 +1,15 @@
-"""What callbacks and activities were seen to do, while they are followed."""
+"""Who is followed by itself, and what he was seen to do meanwhile."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.python.machine.wake_operations import Hold, Waking, Word
-from ros2cc_extract.extract.static.python.values.values import Call, Instance, Path, Value
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.extract.static.python.values.values import Instance, Path
+from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import Access, Act, Blocking
-from ros2cc_extract.spec.model import ActivityKind
+
+Hold = tuple[str, int]
+"""A lock, and which time it is that it was taken."""
 
 
 @dataclass(frozen=True)
@@ -67,51 +68,37 @@ def way_of(block: Blocking) -> object:
     return block.call, block.source, block.chain
 
 
-@dataclass(eq=False)
-class ActivityState:
+class Doer:
     """
-    Code that runs on a thread which no executor has.
+    Code that is followed by itself, as it runs beside others: a callback, a thread.
 
-    :param place: where it is started.
-    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
-    :param starts: who starts it.
-    :param endless: its loop that nothing ends, the end of rclpy included.
-    :param again: where it starts itself anew in each run, whatever branches are taken.
-    :param is_daemon: the same; ``None`` where that is not known.
-    :param spins: how many spins the set-up has called before its start.
-    :param ends_first: the set-up waits for its end before it spins again.
-    :param serves: it spins an executor; for ever where it ``is_executor``.
-    :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
-    :param turns: equal for those that have one thread between them.
-    :param pool: whose threads run it.
-    :param site: equal for one start that is met again.
-    :param wakes: what it does to end waits, as it was seen in the set-up.
-    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
+    What the interpreter and the notes of waits ask of it says whoever models it.
     """
 
-    kind: ActivityKind
+    deeds: Deeds | None
     place: Place
-    target: Value | None = None
-    call: Call | None = None
-    runners: list[Value] = field(default_factory=list)
-    starts: list[Waking] = field(default_factory=list)
-    deeds: Deeds = field(default_factory=Deeds)
-    path: Path = ()
-    count: int | Unknown = 1
-    daemon: bool = False
-    is_daemon: bool | None = False
-    loops: bool = False
-    endless: Place | None = None
-    again: Place | None = None
-    spins: int = 0
-    ends_first: bool = False
-    serves: bool = False
-    is_executor: bool = False
-    nodes: set[int] = field(default_factory=set)
-    things: set[int] = field(default_factory=set)
-    site: object = None
-    wakes: list[tuple[Value, Word, Place]] = field(default_factory=list)
-    thread: int = 0
-    on_loop: bool = False
-    turns: object = None
-    pool: Instance | None = None
+
+    @property
+    def owner(self) -> Instance | None:
+        """The library object that it belongs to."""
+        return None
+
+    @property
+    def kind_name(self) -> str:
+        """What a specification calls its kind."""
+        return ''
+
+    @property
+    def has_own_text(self) -> bool:
+        """Whether what was made for one value is kept apart from what was made for another."""
+        return False
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether it takes answers that somebody else must give."""
+        return False
+
+    @property
+    def is_on_loop(self) -> bool:
+        """Whether a loop of asyncio runs it, and no thread is held by what it awaits."""
+        return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 
 OF_LOOP = 'loop future'

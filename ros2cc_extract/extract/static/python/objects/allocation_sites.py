@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState, NodeState, World
+from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -32,13 +34,13 @@ _AFTER_AN_OPEN_TEST = -1
 def made_before(machine: Machine, cls: Class | Library, call: Call) -> Instance | None:
     """The node that this call would make again, as far as this branch knows of it."""
     world = machine.world
-    if not world.nodes or (world.when is When.START and world.is_program):
+    if not world.made_in_callbacks or (world.when is When.START and world.is_program):
         return None
     known = world.made_in_callbacks.get(_site(cls, call))
     if known is None or _MADE not in known.slots:
         return None
     is_open = bool(world.path) and world.path[-1][1] >= _AFTER_AN_OPEN_TEST
-    is_made_by_itself = world.current is not None and world.current.node is known
+    is_made_by_itself = world.current is not None and world.current.owner is known
     return known if is_open or is_made_by_itself else None
 
 
@@ -70,7 +72,7 @@ def made_while_missing(
 
 def remember(machine: Machine, instance: Instance, call: Call) -> None:
     """Keep ``instance`` for ``made_before``, if it is a node."""
-    if isinstance(instance.state, NodeState):
+    if isinstance(instance.state, LibraryState) and instance.state.is_made_once:
         machine.world.made_in_callbacks[_site(instance.cls, call)] = instance
         machine.store.write(instance, _MADE, NONE)
 

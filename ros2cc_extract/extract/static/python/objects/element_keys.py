@@ -14,11 +14,9 @@ from ros2cc_extract.extract.static.program.relevance import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from, constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
 from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
-from ros2cc_extract.spec.model import EntityKind, When
 
-_MERGED = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
@@ -44,9 +42,7 @@ def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
 
 def _is_one_by_one(doer: object) -> bool:
     """Whether functions of one text that were given different values are kept apart there."""
-    if not isinstance(doer, EntityState) or doer.kind in _MERGED:
-        return False
-    return doer.when is not When.CALLBACK
+    return isinstance(doer, Doer) and doer.has_own_text
 
 
 def _held(name: str, frame: Frame) -> Value | None:

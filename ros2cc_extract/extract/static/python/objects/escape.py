@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.python.machine.world import PlainState, ThreadState, World
+from ros2cc_extract.extract.static.concurrency.state import ThreadState
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import Instance, Native, Value, options_of
 from ros2cc_extract.places import Place

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import NodeState
 from ros2cc_extract.extract.static.python.objects import memoization, reanalysis
 from ros2cc_extract.extract.static.python.objects.allocation_sites import made_before, remember
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import fill_fields, is_dataclass
@@ -64,9 +64,9 @@ class Instances(Machine):
     def _made_otherwise(self, cls: Class, new: Function, call: Call) -> Value:
         """``__new__`` gives something that could not be followed: perhaps what was made before."""
         instance = self.allocate(cls, call)
-        if isinstance(instance.state, NodeState):
+        if isinstance(instance.state, LibraryState):
             reason = f'what __new__ of {cls.name} gives could not be followed'
-            instance.state.more.append((reason, new.place))
+            instance.state.doubt(reason, new.place)
         return self._begun(cls, call, instance)
 
     def allocate(self, cls: Class, call: Call) -> Instance:

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
-from ros2cc_extract.extract.static.python.machine.world import EntityState
 from ros2cc_extract.extract.static.python.values.assumed_defaults import (
     assumption,
     items_by_default,
@@ -136,7 +136,7 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
     """Everything made inside is made ``count`` times as often."""
     before = machine.world.count
     if machine.world.open_loops == 0:
-        machine.world.before_loop = machine.world.main_spins
+        machine.world.begin_outermost_loop()
     machine.world.open_loops += isinstance(count, Unknown)
     if isinstance(count, Unknown) or isinstance(before, Unknown):
         machine.world.count = before if isinstance(before, Unknown) else count
@@ -264,7 +264,11 @@ _CALLABLE = (Class, Function, Bound, Partial)
 
 
 def _is_entity(value: Value) -> bool:
-    return isinstance(value, Instance) and isinstance(value.state, EntityState)
+    return (
+        isinstance(value, Instance)
+        and isinstance(value.state, LibraryState)
+        and value.state.is_one_of_many
+    )
 
 
 def _is_own_object(value: Value) -> bool:

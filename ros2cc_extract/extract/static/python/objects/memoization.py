@@ -10,7 +10,7 @@ import ast
 from collections.abc import Callable
 
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import NodeState, World
+from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     Call,
@@ -24,7 +24,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     present,
     source_text,
 )
-from ros2cc_extract.places import Place
 
 _KEPT = '__kept__'
 
@@ -73,12 +72,12 @@ def _recall(machine: Machine, results: _Results, call: Call, run: Run) -> Value:
     if held is not ABSENT:
         # Made on one branch or on another, it is one object.
         return present(held) if isinstance(held, Choice) else _known(held)
-    others, nodes = len(results.slots), len(machine.world.nodes)
+    others, made = len(results.slots), machine.objects_made()
     result = run(call)
     machine.store.write(results, key, result)
     if others and _is_unsure(call):
         reason = 'what is kept for other arguments may be the same; these could not be followed'
-        _note(machine.world, nodes, reason, call.place)
+        machine.doubt_objects(made, reason, call.place)
     return result
 
 
@@ -111,15 +110,9 @@ def doubted(machine: Machine, made: Class | Function, call: Call, run: Run) -> V
     why = machine.world.doubted.get(made)
     if why is None:
         return run(call)
-    nodes = len(machine.world.nodes)
+    before = machine.objects_made()
     result = run(call)
     machine.world.doubted_calls[made] += 1
     if machine.world.doubted_calls[made] > 1:
-        _note(machine.world, nodes, f'{why} and may give the node of an earlier call', call.place)
+        machine.doubt_calls(before, why, call.place)
     return result
-
-
-def _note(world: World, first: int, reason: str, place: Place) -> None:
-    for node in world.nodes[first:]:
-        assert isinstance(node.state, NodeState)
-        node.state.more.append((reason, place))

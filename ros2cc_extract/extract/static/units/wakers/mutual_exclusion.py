@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     EntityState,
     ExecutorState,
     GroupState,
 )
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import GroupType
 

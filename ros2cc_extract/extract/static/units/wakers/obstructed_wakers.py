@@ -10,13 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
-    ActivityState,
-    Deeds,
-    way_of,
-)
-from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef, Waking, Word
-from ros2cc_extract.extract.static.python.machine.world import EntityState
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import may_not_overlap
 from ros2cc_extract.spec.model import EntityKind
 

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.wake_operations import (
     DataRef,
     ResourceRef,
     Waking,
-    Word,
 )
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.units.wakers.initial_permits import Doer
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
@@ -33,7 +34,7 @@ def may_find_it_done(raw: Blocking, wakings: Iterable[Waking], doer: Doer) -> bo
     return raw.call == 'Queue.join' and not any(by is doer for by in puts)
 
 
-def taken_by_itself(raw: Blocking, world: World, doers: Sequence[Doer]) -> Place | None:
+def taken_by_itself(raw: Blocking, world: RosWorld, doers: Sequence[Doer]) -> Place | None:
     """
     Where a thread takes out of the queue, or is done, for sure.
 
@@ -63,7 +64,7 @@ def _is_begun(thread: ActivityState) -> bool:
 
 
 def _goes_on(
-    thread: ActivityState, queue: ResourceRef, world: World, doers: Sequence[Doer]
+    thread: ActivityState, queue: ResourceRef, world: RosWorld, doers: Sequence[Doer]
 ) -> bool:
     others = [block for block in thread.deeds.blocking if not _takes(block, queue)]
     for block in others:
@@ -86,7 +87,7 @@ def _ends_by_itself(block: Blocking) -> bool:
     return isinstance(block.seconds, float | int) or row.always == (TIME,)
 
 
-def _is_ended_by_callbacks(loop: Blocking, world: World, doers: Sequence[Doer]) -> bool:
+def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer]) -> bool:
     """Who ends the work of the thread while callbacks run leaves them without it."""
     on = loop.resource if loop.resource is not None else loop.on
     if isinstance(on, DataRef):

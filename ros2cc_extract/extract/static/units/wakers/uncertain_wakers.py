@@ -12,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import Notifier, is_heard
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     CANCEL,
     DESTROY,
@@ -21,9 +23,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     SHUTDOWN,
     executor_of,
 )
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.python.machine.world import End, EntityState, World
+from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP
@@ -49,7 +49,7 @@ _DOES = {
 
 
 def why_gone(
-    world: World, wakers: Sequence[object], is_harmless: Callable[[End], bool], name: Names
+    world: RosWorld, wakers: Sequence[object], is_harmless: Callable[[End], bool], name: Names
 ) -> Unknown | None:
     """
     Why none of ``wakers`` may be called any more.
@@ -66,7 +66,7 @@ def why_gone(
 
 
 def _why_one_is_gone(
-    world: World, waker: object, is_harmless: Callable[[End], bool], name: Names
+    world: RosWorld, waker: object, is_harmless: Callable[[End], bool], name: Names
 ) -> Unknown | None:
     if isinstance(waker, ActivityState):
         return _why_thread_ends(world, waker, is_harmless, name)
@@ -84,7 +84,7 @@ def _why_one_is_gone(
 
 
 def _why_thread_ends(
-    world: World, thread: ActivityState, is_harmless: Callable[[End], bool], name: Names
+    world: RosWorld, thread: ActivityState, is_harmless: Callable[[End], bool], name: Names
 ) -> Unknown | None:
     """An error that nothing catches ends a thread whose loop others wait for."""
     calls = {block.call for block in thread.deeds.blocking}
@@ -106,13 +106,13 @@ def _is_of(end: End, waker: EntityState) -> bool:
     return end.kind in (DESTROY_NODE, REMOVE_NODE) and end.what is waker.node
 
 
-def _ends_all(end: End, world: World) -> bool:
+def _ends_all(end: End, world: RosWorld) -> bool:
     """Whether its doer shuts rclpy down as well."""
     return any(other.doer is end.doer and other.kind == SHUTDOWN for other in world.ends)
 
 
 def why_unspun(
-    world: World, wakers: Sequence[object], doer: object, name: Names
+    world: RosWorld, wakers: Sequence[object], doer: object, name: Names
 ) -> Unknown | None:
     """
     Why the thread that would run all of ``wakers`` may have ended while another thread waits.
@@ -148,7 +148,7 @@ def _rises(end: End, executor: Instance) -> bool:
 
 
 def why_lost(
-    world: World,
+    world: RosWorld,
     reference: ResourceRef,
     mine: Sequence[Waking],
     doer: Doer,
@@ -171,7 +171,7 @@ def why_lost(
 
 
 def _when_lost(
-    world: World,
+    world: RosWorld,
     reference: ResourceRef,
     mine: Sequence[Waking],
     doer: Doer,
@@ -256,7 +256,7 @@ def _comes_once(waking: Waking, doer: Doer) -> bool:
     return by.count == 1 or all(start.by is doer for start in by.starts)
 
 
-def _comes_again(world: World, doer: Doer) -> bool:
+def _comes_again(world: RosWorld, doer: Doer) -> bool:
     """Whether it surely runs more than once, as long as the program does."""
     if isinstance(doer, ActivityState):
         return doer.loops

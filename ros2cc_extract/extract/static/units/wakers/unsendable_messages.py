@@ -11,14 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-from ros2cc_extract.extract.static.concurrency.waits.cleared_events import heard_on, published_by
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import (
-    ActivityState,
-    Deeds,
-    way_of,
-)
-from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.python.machine.world import EntityState, World
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
+from ros2cc_extract.extract.static.units.wakers.lost_events import heard_on, published_by
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_out
 from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import EntityKind
@@ -29,7 +26,7 @@ _OF_A_RUN = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 
 
 def unsent_before_end(
-    raw: Blocking, sent: Collection[str], wakers: Sequence[object], doer: Doer, world: World
+    raw: Blocking, sent: Collection[str], wakers: Sequence[object], doer: Doer, world: RosWorld
 ) -> str | None:
     """
     The topics whose messages end a wait, where nobody in sight can publish one meanwhile.

@@ -10,23 +10,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import PUBLISHED, executor_of
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import ResourceRef
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     End,
     EntityState,
     GroupState,
-    PlainState,
-    World,
+    RosWorld,
 )
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
 from ros2cc_extract.spec.model import ActivityKind, GroupType
 
 _Doer = EntityState | ActivityState
 
 
-def published_meanwhile(end: End, publisher: Instance, world: World) -> Iterator[Diagnostic]:
+def published_meanwhile(end: End, publisher: Instance, world: RosWorld) -> Iterator[Diagnostic]:
     """Tell of the first who may still publish when ``end`` destroys ``publisher``."""
     for use in world.ends:
         is_of_it = use.kind == PUBLISHED and use.what is publisher

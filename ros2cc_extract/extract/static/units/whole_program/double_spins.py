@@ -15,13 +15,13 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     EntityState,
     ExecutorState,
     GroupState,
     InsideSpin,
+    RosWorld,
     Spin,
-    World,
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
@@ -31,7 +31,7 @@ from ros2cc_extract.spec.model import GroupType
 _EVENTS = 'EventsExecutor'
 
 
-def are_concurrent(world: World, first: Spin, second: Spin) -> bool:
+def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
     """Whether ``first`` goes on while ``second``, of the same executor, is begun after it."""
     if first.executor is not second.executor or exclusive(first.path, second.path):
         return False
@@ -46,13 +46,13 @@ def are_concurrent(world: World, first: Spin, second: Spin) -> bool:
     return first.for_ever or first.repeated
 
 
-def note_spun_twice(world: World) -> None:
+def note_spun_twice(world: RosWorld) -> None:
     """Tell of executors that are spun twice at a time, when all was followed."""
     found = (*_by_threads(world), *_by_callbacks(world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _by_threads(world: World) -> Iterator[Diagnostic]:
+def _by_threads(world: RosWorld) -> Iterator[Diagnostic]:
     for first, second in combinations(world.spins.values(), 2):
         if are_concurrent(world, first, second) and _is_ordinary(first.executor):
             is_same = _asks_the_same((first.how, first.timeout), (second.how, second.timeout))
@@ -62,7 +62,7 @@ def _by_threads(world: World) -> Iterator[Diagnostic]:
             yield _spun_twice(second.executor, second.how, second.place, other, is_same)
 
 
-def _by_callbacks(world: World) -> Iterator[Diagnostic]:
+def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:
     inside = [each for each in world.inside_spins if _is_of_another(each)]
     for each in inside:
         for spin in world.spins.values():

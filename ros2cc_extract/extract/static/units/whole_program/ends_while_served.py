@@ -17,6 +17,8 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import EntityRef
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     DESTROY,
     DESTROY_NODE,
@@ -28,10 +30,9 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     USED,
     executor_of,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import EntityRef
-from ros2cc_extract.extract.static.python.machine.world import End, EntityState, Spin, World
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Const,
@@ -48,13 +49,13 @@ _SINGLE = 'SingleThreadedExecutor'
 _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 
 
-def note_ends(world: World) -> None:
+def note_ends(world: RosWorld) -> None:
     """Tell of what nobody serves any more, when all was followed."""
     found = (diagnostic for end in world.ends for diagnostic in _told(end, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _told(end: End, world: World) -> Iterator[Diagnostic]:
+def _told(end: End, world: RosWorld) -> Iterator[Diagnostic]:
     doer = end.doer
     if isinstance(doer, EntityState):
         if end.kind == USED:
@@ -71,11 +72,11 @@ def _told(end: End, world: World) -> Iterator[Diagnostic]:
         yield from published_meanwhile(end, end.what, world)
 
 
-def _spins_of(executor: Instance | None, world: World) -> list[Spin]:
+def _spins_of(executor: Instance | None, world: RosWorld) -> list[Spin]:
     return [spin for spin in world.spins.values() if spin.executor is executor]
 
 
-def _waits_for_itself(end: End, doer: EntityState, world: World) -> bool:
+def _waits_for_itself(end: End, doer: EntityState, world: RosWorld) -> bool:
     executor = executor_of(doer.node)
     if executor is None or executor.state.kind != _SINGLE or not _spins_of(executor, world):
         return False
@@ -84,7 +85,7 @@ def _waits_for_itself(end: End, doer: EntityState, world: World) -> bool:
     return bool(executor.state.is_global)
 
 
-def _leaves_nothing(end: End, doer: EntityState, world: World) -> bool:
+def _leaves_nothing(end: End, doer: EntityState, world: RosWorld) -> bool:
     """Whether the node ends in its own callback, and its executor, spun for ever, had no other."""
     executor = executor_of(doer.node)
     spins = _spins_of(executor, world)
@@ -95,7 +96,7 @@ def _leaves_nothing(end: End, doer: EntityState, world: World) -> bool:
     return all(spin.for_ever for spin in spins) and is_alone and not _goes(doer, world)
 
 
-def _goes(doer: EntityState, world: World) -> bool:
+def _goes(doer: EntityState, world: RosWorld) -> bool:
     """Whether the callback ends the program as well, or adds its node somewhere."""
     deeds = doer.deeds or Deeds()
     if any(act.name == 'add_node' for act in deeds.changes):
@@ -115,7 +116,7 @@ def _called(part: ast.AST) -> str:
     return function.id if isinstance(function, ast.Name) else ''
 
 
-def _destroyed(end: End, entity: EntityState, world: World) -> Iterator[Diagnostic]:
+def _destroyed(end: End, entity: EntityState, world: RosWorld) -> Iterator[Diagnostic]:
     waits = [block for block in _waits_on(entity, end, world) if block.seconds is None]
     if waits:
         yield _awaited(end, entity, waits[0])
@@ -139,7 +140,7 @@ def _is_main(doer: object) -> bool:
     return isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN
 
 
-def _is_done_again(end: End, world: World) -> bool:
+def _is_done_again(end: End, world: RosWorld) -> bool:
     """
     Whether entities come and go there while the program runs.
 
@@ -156,7 +157,7 @@ def _comes_again(entity: EntityState) -> bool:
     return not is_of_set_up and entity.when is not When.CONFIGURE
 
 
-def _waits_on(entity: EntityState, end: End, world: World) -> Iterator[Blocking]:
+def _waits_on(entity: EntityState, end: End, world: RosWorld) -> Iterator[Blocking]:
     """Calls of others that wait for the answer which ``entity`` takes."""
     doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
     for doer in doers:

@@ -11,16 +11,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.wake_operations import LoopTouch
-from ros2cc_extract.extract.static.python.machine.world import EntityState, ExecutorState, World
+from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.wake_operations import LoopTouch
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
+    EntityState,
+    ExecutorState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.python.values.values import Instance, options_of
 from ros2cc_extract.spec.model import ActivityKind
 
 _OF_THE_LOOP = frozenset({'call_soon', 'create_task'})
 
 
-def note_foreign_loops(world: World) -> None:
+def note_foreign_loops(world: RosWorld) -> None:
     """Tell of what another thread than that of the loop does to what belongs to it."""
     of_loops = {run.thread for run in world.loop_runs}
     of_loops |= {each.thread for each in world.activities if each.on_loop}
@@ -32,7 +36,7 @@ def note_foreign_loops(world: World) -> None:
             world.diagnostics.append(_foreign(touch))
 
 
-def _threads_of(doer: object, world: World) -> Iterator[int]:
+def _threads_of(doer: object, world: RosWorld) -> Iterator[int]:
     """Which threads may do it; nothing where that is not known. Those of a pool have no number."""
     if isinstance(doer, ActivityState):
         yield 0 if doer.kind is ActivityKind.MAIN else doer.thread
@@ -47,7 +51,7 @@ def _threads_of(doer: object, world: World) -> Iterator[int]:
             yield -1 if has_pool else spin.thread
 
 
-def _is_awaited(touch: LoopTouch, world: World) -> bool:
+def _is_awaited(touch: LoopTouch, world: RosWorld) -> bool:
     """Whether a coroutine waits for it; of a loop, whether a thread is known to run it."""
     if touch.how in _OF_THE_LOOP:
         return any(

@@ -11,22 +11,17 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.state import ActivityState, OutsideWait, Over
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState, way_of
-from ros2cc_extract.extract.static.python.machine.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.wake_operations import (
     EntityRef,
     ResourceRef,
     Waking,
-    Word,
 )
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
-    OutsideWait,
-    Over,
-    Spin,
-    World,
-)
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld, Spin
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import way_of
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
@@ -36,7 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
 
 
-def is_over(spin: Spin, number: int, wait: OutsideWait, world: World) -> bool:
+def is_over(spin: Spin, number: int, wait: OutsideWait, world: RosWorld) -> bool:
     """Whether ``spin``, the one of that number, has ended for sure before the wait."""
     return any(_ends(over, spin, number, world) for over in _certain(wait))
 
@@ -45,7 +40,7 @@ def _certain(wait: OutsideWait) -> list[Over]:
     return [over for over in wait.over if wait.path[: len(over.path)] == over.path]
 
 
-def _ends(over: Over, spin: Spin, number: int, world: World) -> bool:
+def _ends(over: Over, spin: Spin, number: int, world: RosWorld) -> bool:
     if number >= over.spins:
         return False
     if over.what is None or over.what is spin.executor:
@@ -55,7 +50,7 @@ def _ends(over: Over, spin: Spin, number: int, world: World) -> bool:
 
 
 def never_joined(
-    wait: OutsideWait, world: World, spun: Sequence[Instance]
+    wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
 ) -> Iterator[Diagnostic]:
     """
     The waits of a joined thread that nobody ends who is still there.
@@ -78,7 +73,9 @@ def never_joined(
                     return
 
 
-def has_told_of_it(block: Blocking, state: ActivityState, wait: OutsideWait, world: World) -> bool:
+def has_told_of_it(
+    block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld
+) -> bool:
     """
     Whether the thread was behind the wait ``block`` by then, for good.
 
@@ -97,7 +94,7 @@ def has_told_of_it(block: Blocking, state: ActivityState, wait: OutsideWait, wor
     return any(wakings and all(map(comes_later, wakings)) for wakings in ends)
 
 
-def _awaited_before(wait: OutsideWait, world: World) -> Iterator[Instance]:
+def _awaited_before(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
     """What the program has waited for on its way to ``wait`` whatever branches it took."""
     for each in world.outside[: world.outside.index(wait)]:
         is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
@@ -107,7 +104,7 @@ def _awaited_before(wait: OutsideWait, world: World) -> Iterator[Instance]:
             yield thing
 
 
-def comes_back(block: Blocking, state: ActivityState, world: World) -> bool:
+def comes_back(block: Blocking, state: ActivityState, world: RosWorld) -> bool:
     """
     Whether the thread stands in the wait again when it has been woken.
 
@@ -127,7 +124,7 @@ def why_for_ever(
     block: Blocking,
     state: ActivityState,
     wait: OutsideWait,
-    world: World,
+    world: RosWorld,
     spun: Sequence[Instance],
 ) -> str | None:
     """Why nobody ends the wait ``block`` of the thread; ``None`` where somebody may."""
@@ -151,7 +148,7 @@ def why_for_ever(
     return _NOT_SPUN if served else 'and the thread that would end that has ended'
 
 
-def _why_asleep(block: Blocking, wait: OutsideWait, world: World) -> str | None:
+def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | None:
     """A rate wakes by a timer of its node, and where rclpy is shut down, which a signal does."""
     on = block.on
     timer = next(

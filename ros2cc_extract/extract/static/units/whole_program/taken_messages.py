@@ -14,11 +14,12 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
-from ros2cc_extract.extract.static.libraries.rclpy.message_waits import CALL, MessageWait
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.libraries.rclpy.message_waits import CALL
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     GroupState,
+    MessageWait,
+    RosWorld,
     Spin,
-    World,
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Instance
@@ -26,13 +27,13 @@ from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import s
 from ros2cc_extract.spec.model import GroupType
 
 
-def note_taken(world: World) -> None:
+def note_taken(world: RosWorld) -> None:
     """Tell of waits whose message the executor of the node may take, when all was followed."""
     found = (_told(wait) for wait in world.message_waits if _is_taken(wait, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _is_taken(wait: MessageWait, world: World) -> bool:
+def _is_taken(wait: MessageWait, world: RosWorld) -> bool:
     if wait.by is None:
         return any(_goes_on(wait, world))
     executor, own = executor_of(wait.node), executor_of(wait.by.node)
@@ -47,11 +48,11 @@ def _is_taken(wait: MessageWait, world: World) -> bool:
     return is_known and is_pool and not is_shut and state.unresolved is None
 
 
-def _of(executor: Instance, world: World) -> Iterator[Spin]:
+def _of(executor: Instance, world: RosWorld) -> Iterator[Spin]:
     return (spin for spin in world.spins.values() if spin.executor is executor)
 
 
-def _goes_on(wait: MessageWait, world: World) -> Iterator[bool]:
+def _goes_on(wait: MessageWait, world: RosWorld) -> Iterator[bool]:
     """Whether other threads spin the node while this one waits."""
     ended = _spins_before_its_end(wait, world)
     spins = list(world.spins.values())
@@ -62,7 +63,7 @@ def _goes_on(wait: MessageWait, world: World) -> Iterator[bool]:
         yield is_other and any(node is wait.node for node in nodes)
 
 
-def _spins_before_its_end(wait: MessageWait, world: World) -> int | None:
+def _spins_before_its_end(wait: MessageWait, world: RosWorld) -> int | None:
     """How many spins have begun when the program has joined the thread that waits, if it does."""
     runners = [r for each in world.activities if each.thread == wait.thread for r in each.runners]
     joins = (over.spins for over in world.over if over.what in runners and not over.path)

@@ -13,11 +13,11 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.state import ActivityState, OutsideWait
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import ActivityState
-from ros2cc_extract.extract.static.python.machine.world import EntityState, OutsideWait, World
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
     comes_back,
@@ -31,7 +31,7 @@ _ENDING_AT_ONCE = frozenset({'_exit', 'abort', 'kill', 'killpg', 'execv'})
 Serving = Callable[[OutsideWait], Sequence[Instance]]
 
 
-def kept_at_exit(world: World, spun_beside: Serving) -> Iterator[Diagnostic]:
+def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
     """
     Tell of each thread that waits for ever when the program has spun, once.
 
@@ -58,7 +58,7 @@ def kept_at_exit(world: World, spun_beside: Serving) -> Iterator[Diagnostic]:
                 break
 
 
-def _ends_at_once(world: World) -> bool:
+def _ends_at_once(world: RosWorld) -> bool:
     """Whether a text of the program ends the process without waiting for anybody."""
     return any(noted_on(tree, 'ends_at_once', _mentions_exit) for tree, _ in world.files)
 
@@ -68,7 +68,7 @@ def _mentions_exit(tree: ast.Module) -> bool:
     return any(part.attr in _ENDING_AT_ONCE for part in attributes)
 
 
-def _is_waited_for(state: ActivityState, world: World) -> bool:
+def _is_waited_for(state: ActivityState, world: RosWorld) -> bool:
     """Whether it is a thread that is no daemon, and that the program does not join itself."""
     if state.serves or state.on_loop or state.is_daemon is not False:
         return False
@@ -79,7 +79,7 @@ def _is_waited_for(state: ActivityState, world: World) -> bool:
     return not is_joined and (is_pool or is_thread)
 
 
-def _is_chain(state: ActivityState, world: World) -> bool:
+def _is_chain(state: ActivityState, world: RosWorld) -> bool:
     """
     Whether it is a timer thread that arms itself for ever, rclpy or no rclpy.
 
@@ -90,7 +90,7 @@ def _is_chain(state: ActivityState, world: World) -> bool:
     return is_timer and not state.deeds.publishes and not _inherits(state, world)
 
 
-def _inherits(state: ActivityState, world: World) -> bool:
+def _inherits(state: ActivityState, world: RosWorld) -> bool:
     """Whether it may be a daemon as the thread that starts it is one."""
     for start in state.starts:
         if isinstance(start.by, ActivityState) and start.by.is_daemon is not False:
@@ -104,7 +104,7 @@ def _inherits(state: ActivityState, world: World) -> bool:
 
 
 def _stuck_block(
-    state: ActivityState, wait: OutsideWait, world: World, spun: Sequence[Instance]
+    state: ActivityState, wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
 ) -> Blocking | None:
     waits = (b for b in state.deeds.blocking if b.escapes is None and comes_back(b, state, world))
     stuck = (b for b in waits if why_for_ever(b, state, wait, world, spun) is not None)

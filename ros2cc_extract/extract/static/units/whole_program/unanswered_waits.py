@@ -11,27 +11,28 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.state import OutsideWait
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     EntityState,
     NodeState,
-    OutsideWait,
+    RosWorld,
     Spin,
-    World,
 )
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import is_over, never_joined
 from ros2cc_extract.extract.static.units.whole_program.threads_at_exit import kept_at_exit
 from ros2cc_extract.spec.partners import SERVER_KINDS
 
 
-def note_unanswered(world: World) -> None:
+def note_unanswered(world: RosWorld) -> None:
     """Tell of waits whose answer nobody can take, or nobody can give, when all was followed."""
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
@@ -43,12 +44,14 @@ def note_unanswered(world: World) -> None:
     world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(spun_beside(wait, world))))
 
 
-def _told(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
+def _told(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     if isinstance(wait.client, Instance):
         yield from _unended(wait, wait.client, world)
         return
     if wait.client is None:
         yield from _unwritten(wait, world)
+        return
+    if not isinstance(wait.client, EntityState):
         return
     for node, what in _needed(wait, wait.client, world):
         if not any(node is spun for spun in (*wait.spun, *spun_beside(wait, world))):
@@ -61,7 +64,7 @@ def _may_be_spun_elsewhere(node: Instance) -> bool:
     return not isinstance(state, NodeState) or state.ghost is not None or bool(state.more)
 
 
-def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagnostic]:
+def _unended(wait: OutsideWait, thing: Instance, world: RosWorld) -> Iterator[Diagnostic]:
     """Nobody makes a future done, or only callbacks that nobody serves meanwhile end the wait."""
     spun = (*wait.spun, *spun_beside(wait, world))
     if wait.call == JOIN:
@@ -83,7 +86,7 @@ def _unended(wait: OutsideWait, thing: Instance, world: World) -> Iterator[Diagn
     yield _waits_for_ever(wait, name, has_node=bool(nodes), is_meant=is_meant)
 
 
-def _wakings_of(thing: Instance, world: World) -> Sequence[Waking]:
+def _wakings_of(thing: Instance, world: RosWorld) -> Sequence[Waking]:
     """What is done to it, or where nothing is, to others of its place, as for callbacks."""
     known = world.wakings.get(id(thing))
     if known is not None:
@@ -107,7 +110,7 @@ def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: b
     )
 
 
-def _unwritten(wait: OutsideWait, world: World) -> Iterator[Diagnostic]:
+def _unwritten(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     """Only callbacks write what a loop looks at, and nobody serves them meanwhile."""
     if any(_writes(state.deeds, wait.names) for state in world.activities):
         return
@@ -124,7 +127,7 @@ def _writes(deeds: Deeds | None, names: frozenset[str]) -> bool:
 
 
 def _needed(
-    wait: OutsideWait, client: EntityState, world: World
+    wait: OutsideWait, client: EntityState, world: RosWorld
 ) -> Iterator[tuple[Instance, str]]:
     """The nodes that must be spun, with what each is needed for."""
     if wait.call == RATE:
@@ -141,13 +144,15 @@ def _is_same(one: Value | None, other: Value | None) -> bool:
     return isinstance(one, Const) and isinstance(other, Const) and one.value == other.value
 
 
-def spun_beside(wait: OutsideWait, world: World) -> Iterator[Instance]:
+def spun_beside(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
     """The nodes that other threads spin."""
     for _, nodes in spins_beside(wait, world):
         yield from nodes
 
 
-def spins_beside(wait: OutsideWait, world: World) -> Iterator[tuple[Spin, tuple[Instance, ...]]]:
+def spins_beside(
+    wait: OutsideWait, world: RosWorld
+) -> Iterator[tuple[Spin, tuple[Instance, ...]]]:
     """The spins of other threads, with their nodes; which thread is which is not told apart."""
     for number, spin in enumerate(world.spins.values()):
         is_later = wait.begun is not None and number >= wait.begun

@@ -8,6 +8,8 @@ and ``action/client.py``.
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node, groupless
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
@@ -17,8 +19,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     remember_entity,
 )
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -36,7 +36,7 @@ CLIENT = 'rclpy.action.client.ActionClient'
 _SERVER_CALLBACKS = ('goal_callback', 'cancel_callback', 'handle_accepted_callback')
 
 
-def _init_server(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init_server(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = _node(machine, call)
     if node is None:
@@ -59,7 +59,7 @@ def _init_server(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _init_client(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init_client(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = _node(machine, call)
     if node is None:
@@ -76,7 +76,7 @@ def _init_client(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _is_made_again(
-    machine: Machine,
+    machine: RosMachine,
     receiver: Instance,
     node: Instance,
     kind: EntityKind,
@@ -90,17 +90,17 @@ def _is_made_again(
     return known is not None
 
 
-def _node(machine: Machine, call: Call) -> Instance | None:
+def _node(machine: RosMachine, call: Call) -> Instance | None:
     options = options_of(call.argument(0, 'node') or NONE)
     return next((node for node in (as_node(machine, o) for o in options) if node), None)
 
 
-def _send_goal(machine: Machine, receiver: Value, call: Call) -> Value:
+def _send_goal(machine: RosMachine, receiver: Value, call: Call) -> Value:
     machine.note_blocking('send_goal', receiver, None, call.place)
     return machine.mystery('result of send_goal', call.place, 'send_goal')
 
 
-def _send_goal_async(machine: Machine, receiver: Value, call: Call) -> Value:
+def _send_goal_async(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """The feedback callback runs in the client's waitable, hence in its group."""
     assert isinstance(receiver, Instance)
     feedback = call.argument(1, 'feedback_callback')
@@ -114,13 +114,13 @@ def _send_goal_async(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'goal', receiver)
 
 
-def _wait_for_server(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_for_server(machine: RosMachine, receiver: Value, call: Call) -> Value:
     timeout = call.argument(0, 'timeout_sec')
     machine.note_blocking('wait_for_server', receiver, timeout, call.place)
     return machine.mystery('result of wait_for_server', call.place, 'wait_for_server')
 
 
-def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
         mark_destroyed(machine, receiver.state, call.place)
     return NONE
@@ -134,7 +134,7 @@ _CLIENT_METHODS: dict[str, Handler] = {
 }
 
 
-def _late_callback(machine: Machine, receiver: Value, call: Call) -> Value:
+def _late_callback(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState) and call.args:
         receiver.state.extra_callbacks += (call.args[0],)
     return NONE

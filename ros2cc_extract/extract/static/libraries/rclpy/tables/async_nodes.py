@@ -8,6 +8,13 @@ has that loop; the unit says that its executor is not known. Source: rclpy 10.0.
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
+    ExecutorState,
+    GroupState,
+    NodeState,
+    Spin,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import BASE, add_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import new_group
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
@@ -16,13 +23,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     init_node,
 )
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    ExecutorState,
-    GroupState,
-    NodeState,
-    Spin,
-)
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Handler, Instance, Value
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.places import Place, Unknown
@@ -40,7 +40,7 @@ _POSITIONAL = {
 }
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init(machine: RosMachine, receiver: Value, call: Call) -> Value:
     init_node(machine, receiver, call)
     if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
         receiver.state.on_asyncio = True
@@ -50,7 +50,7 @@ def _init(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _serve(machine: Machine, node: Instance, place: Place) -> None:
+def _serve(machine: RosMachine, node: Instance, place: Place) -> None:
     world = machine.world
     executor = Instance(Name(BASE), place)
     executor.state = ExecutorState('AsyncNode', unknown=Unknown(_WHY, place), spun=True)
@@ -67,7 +67,7 @@ def _creator(name: str) -> Handler:
     """As that of a node, in no group: what would be its position may mean something else."""
     original, positions = NODE_METHODS[name], _POSITIONAL[name]
 
-    def create(machine: Machine, receiver: Value, call: Call) -> Value:
+    def create(machine: RosMachine, receiver: Value, call: Call) -> Value:
         group = receiver.slots.get(_GROUP) if isinstance(receiver, Instance) else None
         keywords = dict(call.keywords)
         if isinstance(group, Instance):
@@ -81,11 +81,11 @@ def _creator(name: str) -> Handler:
     return create
 
 
-def _call(machine: Machine, receiver: Value, call: Call) -> Value:
+def _call(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'asyncio', receiver)
 
 
-def _wait(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.mystery('a coroutine of asyncio', call.place, 'wait_for_service(…)')
 
 

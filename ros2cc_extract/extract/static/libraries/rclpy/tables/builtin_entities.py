@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import items_of, start_sim_time
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState, PlainState
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
@@ -49,7 +50,7 @@ _LIFECYCLE_SERVICES = (
 _DEFAULT_EVENTS = ('incompatible_qos', 'incompatible_type')
 
 
-def add_builtins_of_node(machine: Machine, node: Instance, call: Call) -> None:
+def add_builtins_of_node(machine: RosMachine, node: Instance, call: Call) -> None:
     """What ``Node.__init__`` makes, as far as the scan lists it; ``call`` is of that."""
     given = items_of(call.argument(None, 'parameter_overrides'))
     clock = start_sim_time(machine, node, given, call.place)
@@ -66,14 +67,14 @@ def add_builtins_of_node(machine: Machine, node: Instance, call: Call) -> None:
     _add_lifecycle_services(machine, node, call)
 
 
-def list_clock(machine: Machine, clock: EntityState | None) -> None:
+def list_clock(machine: RosMachine, clock: EntityState | None) -> None:
     """List what a node that uses simulated time has made for it."""
     if clock is not None and machine.world.lists_builtin:
         machine.world.builtins.append(clock)
         _add_events(machine, clock.node, clock.group, clock.place, 'Subscription')
 
 
-def _services(machine: Machine, call: Call) -> Iterator[tuple[str, str]]:
+def _services(machine: RosMachine, call: Call) -> Iterator[tuple[str, str]]:
     if option_of_node(machine, 'start_parameter_services', call, default=True):
         yield from ((name, f'{_PARAMETER}._{name}_callback') for name in _PARAMETER_SERVICES)
     if option_of_node(machine, 'enable_logger_service', call, default=False):
@@ -81,7 +82,7 @@ def _services(machine: Machine, call: Call) -> Iterator[tuple[str, str]]:
     yield 'get_type_description', _TYPE_DESCRIPTION
 
 
-def _add_lifecycle_services(machine: Machine, node: Instance, call: Call) -> None:
+def _add_lifecycle_services(machine: RosMachine, node: Instance, call: Call) -> None:
     if not node.state.lifecycle:
         return
     if not option_of_node(machine, 'enable_communication_interface', call, default=True):
@@ -100,7 +101,7 @@ def _own_name(node: Instance, service: str, before: str) -> Value:
     return Mystery(Unknown('name of the node', node.place), f'~/{service}')
 
 
-def option_of_node(machine: Machine, name: str, call: Call, *, default: bool) -> bool:
+def option_of_node(machine: RosMachine, name: str, call: Call, *, default: bool) -> bool:
     """An option of the node; one that could not be followed is taken to be the default."""
     given = call.argument(None, name)
     truth = machine.truth(given) if given is not None else None
@@ -108,7 +109,7 @@ def option_of_node(machine: Machine, name: str, call: Call, *, default: bool) ->
 
 
 def add_events_of(
-    machine: Machine, node: Instance, group: Instance, place: Place, of: EntityState | None
+    machine: RosMachine, node: Instance, group: Instance, place: Place, of: EntityState | None
 ) -> None:
     """The handlers that rclpy adds to a subscription, or to a publisher where ``of`` is none."""
     if machine.world.lists_builtin:
@@ -116,7 +117,7 @@ def add_events_of(
         _add_events(machine, node, group, place, kind, of)
 
 
-def without_default_events(machine: Machine, before: int, events: Instance) -> None:
+def without_default_events(machine: RosMachine, before: int, events: Instance) -> None:
     """Take back what was added since ``before`` where ``events`` has functions of its own."""
     state = events.state
     if not isinstance(state, PlainState) or state.of is None:
@@ -137,7 +138,7 @@ def _event_of(entity: EntityState) -> str | None:
 
 
 def _add_events(
-    machine: Machine,
+    machine: RosMachine,
     node: Instance,
     group: Instance,
     place: Place,
@@ -152,7 +153,7 @@ def _add_events(
 
 
 def _add(
-    machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
+    machine: RosMachine, node: Instance, kind: EntityKind, group: Instance, place: Place
 ) -> EntityState:
     world = machine.world
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)

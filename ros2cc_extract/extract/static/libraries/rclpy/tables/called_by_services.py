@@ -9,6 +9,8 @@ caller, the latest first), ``parameter_service.py`` (two services of the default
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     list_clock,
     option_of_node,
@@ -23,8 +25,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     init_node,
 )
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import NodeState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -54,7 +54,7 @@ BUILDING = frozenset({'on_configure', 'on_activate'})
 _CHANGED, _DECLARED = ('pre', 'on', 'post'), ('on', 'post')
 
 
-def init_life_cycle_node(machine: Machine, receiver: Value, call: Call) -> Value:
+def init_life_cycle_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``LifecycleNode.__init__``: as that of a node, and one more service."""
     init_node(machine, receiver, call)
     is_served = option_of_node(machine, 'enable_communication_interface', call, default=True)
@@ -63,7 +63,7 @@ def init_life_cycle_node(machine: Machine, receiver: Value, call: Call) -> Value
     return NONE
 
 
-def _add_transitions(machine: Machine, node: Instance, call: Call) -> None:
+def _add_transitions(machine: RosMachine, node: Instance, call: Call) -> None:
     """One entity for each transition that the program has written; one service runs them all."""
     group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
     for name in TRANSITIONS:
@@ -76,7 +76,7 @@ def _add_transitions(machine: Machine, node: Instance, call: Call) -> None:
 def _trigger(name: str) -> Handler:
     """A transition that the program asks for itself runs where it asks."""
 
-    def trigger(machine: Machine, receiver: Value, call: Call) -> Value:
+    def trigger(machine: RosMachine, receiver: Value, call: Call) -> Value:
         method = machine.attribute(receiver, name, call.place)
         if isinstance(method, Bound):
             before = Mystery(Unknown('state of the node at run time', call.place), 'state')
@@ -89,7 +89,7 @@ def _trigger(name: str) -> Handler:
 def _add_parameter_callback(stage: str) -> Handler:
     """A function that is called when parameters are set, by a service or by the program."""
 
-    def add(machine: Machine, receiver: Value, call: Call) -> Value:
+    def add(machine: RosMachine, receiver: Value, call: Call) -> Value:
         callback = call.argument(0, 'callback')
         if not isinstance(receiver, Instance) or callback is None:
             return NONE
@@ -106,7 +106,7 @@ def _add_parameter_callback(stage: str) -> Handler:
     return add
 
 
-def _is_served(machine: Machine, node: Instance, callback: Value) -> bool:
+def _is_served(machine: RosMachine, node: Instance, callback: Value) -> bool:
     return any(
         entity.kind is EntityKind.PARAMETER_SERVICE and entity.callback == callback
         for entity in machine.world.by_node.get(id(node), ())
@@ -114,7 +114,7 @@ def _is_served(machine: Machine, node: Instance, callback: Value) -> bool:
 
 
 def _remove_parameter_callback(stage: str) -> Handler:
-    def remove(machine: Machine, receiver: Value, call: Call) -> Value:
+    def remove(machine: RosMachine, receiver: Value, call: Call) -> Value:
         callback = call.argument(0, 'callback')
         if isinstance(receiver, Instance) and not machine.world.path:
             known = receiver.state.parameter_callbacks.get(stage, [])
@@ -128,7 +128,7 @@ def _setting(name: str, stages: tuple[str, ...]) -> Handler:
     """A method of the node that sets parameters, and runs the callbacks of these stages."""
     original = NODE_METHODS.get(name)
 
-    def set_parameters(machine: Machine, receiver: Value, call: Call) -> Value:
+    def set_parameters(machine: RosMachine, receiver: Value, call: Call) -> Value:
         if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
             given = items_of(call.argument(0, 'parameter_list'))
             list_clock(machine, start_sim_time(machine, receiver, given, call.place))
@@ -141,7 +141,7 @@ def _setting(name: str, stages: tuple[str, ...]) -> Handler:
 
 
 def _run_parameter_callbacks(
-    machine: Machine, state: NodeState, stages: tuple[str, ...], place: Place
+    machine: RosMachine, state: NodeState, stages: tuple[str, ...], place: Place
 ) -> None:
     for stage in stages:
         for callback in tuple(state.parameter_callbacks.get(stage, ())):

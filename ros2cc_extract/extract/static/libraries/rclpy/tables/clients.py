@@ -3,13 +3,6 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
-from ros2cc_extract.extract.static.libraries.done_callbacks import (
-    add_done_callback,
-    begin_anew,
-    cancel,
-    complete,
-    init_future,
-)
 from ros2cc_extract.extract.static.libraries.rclpy import message_waits
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     CANCEL,
@@ -17,22 +10,30 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     note_published,
     note_use,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import note_sleep
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     node_executor_property,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, mark_destroyed
-from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import answer, cancelled, running
-from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import (
-    Cut,
-    EntityState,
-    PlainState,
-    note_once,
+from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
+    add_done_callback,
+    begin_anew,
+    cancel,
+    complete,
+    init_future,
 )
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.path_facts import (
+    Word,
+    answer,
+    cancelled,
+    running,
+)
+from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
+from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -48,7 +49,7 @@ from ros2cc_extract.spec.model import When
 
 
 def _blocking(name: str, position: int | None) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: RosMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(position, 'timeout_sec')
         machine.note_blocking(name, receiver, timeout, call.place)
         return machine.mystery(f'result of {name}', call.place, name)
@@ -56,11 +57,11 @@ def _blocking(name: str, position: int | None) -> Handler:
     return handler
 
 
-def _call_async(machine: Machine, receiver: Value, call: Call) -> Value:
+def _call_async(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'client', receiver)
 
 
-def _goal_of_unknown(machine: Machine, receiver: Value, call: Call) -> Value:
+def _goal_of_unknown(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Its feedback callback runs in the group of a client that is not known."""
     if call.argument(1, 'feedback_callback') is not None:
         reason = 'feedback callback of an action client that could not be followed'
@@ -75,7 +76,7 @@ UNKNOWN_CLIENT: dict[str, Handler] = {
 """Methods by which a value that could not be followed is known to be a client."""
 
 
-def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
+def _cancel(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     world, entity = machine.world, receiver.state
     if not isinstance(entity, EntityState):
@@ -94,34 +95,34 @@ def _cancel(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _reset(machine: Machine, receiver: Value, call: Call) -> Value:
+def _reset(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
         receiver.state.restarted = True
         note_begun(machine.world, receiver.state.place)
     return NONE
 
 
-def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and isinstance(receiver.state, EntityState):
         mark_destroyed(machine, receiver.state, call.place)
     return NONE
 
 
-def _publish(machine: Machine, receiver: Value, call: Call) -> Value:
+def _publish(machine: RosMachine, receiver: Value, call: Call) -> Value:
     machine.note_publish(receiver, call.place)
     note_use(machine, 'a message is published', call.place)
     note_published(machine, receiver, call.place)
     return NONE
 
 
-def _future_result(machine: Machine, receiver: Value, call: Call) -> Value:
+def _future_result(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if receiver.state.kind == OF_POOL:
         machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
     return result_of(machine, receiver, call.place)
 
 
-def _future_exception(machine: Machine, receiver: Value, call: Call) -> Value:
+def _future_exception(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if receiver.state.kind == OF_POOL:
         timeout = call.argument(0, 'timeout')
@@ -129,19 +130,19 @@ def _future_exception(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.mystery('exception of a future', call.place, 'exception()')
 
 
-def _future_done(machine: Machine, receiver: Value, call: Call) -> Value:
+def _future_done(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.SET, call)
 
 
-def _future_cancelled(machine: Machine, receiver: Value, call: Call) -> Value:
+def _future_cancelled(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return cancelled(receiver, call)
 
 
-def _future_running(machine: Machine, receiver: Value, call: Call) -> Value:
+def _future_running(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return running(receiver, call)
 
 
-def result_of(machine: Machine, future: Instance, place: Place) -> Value:
+def result_of(machine: RosMachine, future: Instance, place: Place) -> Value:
     """What a future gives: a goal handle for a goal that was sent, else a mystery."""
     if future.state.kind != 'goal':
         return machine.mystery(f'result of a {future.state.kind} future', place, 'result()')
@@ -151,14 +152,14 @@ def result_of(machine: Machine, future: Instance, place: Place) -> Value:
 
 
 def _goal_future(kind: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: RosMachine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         return machine.future(call.place, kind, receiver.state.of)
 
     return handler
 
 
-def _get_result(machine: Machine, receiver: Value, call: Call) -> Value:
+def _get_result(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Blocks until the goal has ended (``action/client.py``, ``get_result``)."""
     machine.note_blocking('get_result', receiver, None, call.place)
     return machine.mystery('result of a goal', call.place, 'get_result()')
@@ -187,7 +188,7 @@ def future_class(kind: str) -> LibraryClass:
 _ENTITY: dict[str, Handler] = {'destroy': _destroy}
 
 
-def _sleep_by_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+def _sleep_by_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """A timer of the node wakes it; where the time is simulated, that waits for its clock."""
     state = receiver.state if isinstance(receiver, Instance) else None
     if isinstance(state, EntityState):
@@ -195,14 +196,14 @@ def _sleep_by_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     return _blocking('Rate.sleep', None)(machine, receiver, call)
 
 
-def _destroy_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Whoever sleeps by it wakes; its timer stays (``timer.py``, ``Rate.destroy``)."""
     state = receiver.state if isinstance(receiver, Instance) else None
     machine.world.given.setdefault(id(state), Unknown('somebody destroys the rate', call.place))
     return NONE
 
 
-def _wait_for_message(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_for_message(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """It takes the message itself, in the thread that waits (``taken_messages.py``)."""
     topic = Instance(Name('rclpy.topic'), call.place)
     topic.state = PlainState('topic', call.argument(2, 'topic'), place=call.place)

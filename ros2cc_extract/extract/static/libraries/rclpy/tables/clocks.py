@@ -11,17 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import CLOCKS
-from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import THE_CLOCK
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import CLOCKS, THE_CLOCK
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
-    NodeState,
-    PlainState,
-    World,
-)
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -41,7 +36,7 @@ TOPIC = '/clock'
 
 
 def start_sim_time(
-    machine: Machine, node: Instance, parameters: Iterable[Value], place: Place
+    machine: RosMachine, node: Instance, parameters: Iterable[Value], place: Place
 ) -> EntityState | None:
     """The subscription of a node that is told to use simulated time."""
     state = node.state
@@ -73,7 +68,7 @@ def _is_sim_time(value: Value) -> bool:
     )
 
 
-def note_sleep(machine: Machine, name: str, node: Value | None, place: Place) -> None:
+def note_sleep(machine: RosMachine, name: str, node: Value | None, place: Place) -> None:
     """Somebody waits for the simulated time of ``node``, if that has any."""
     clock = node.state.sim_clock if isinstance(node, Instance) else None
     if isinstance(clock, EntityState):
@@ -81,7 +76,7 @@ def note_sleep(machine: Machine, name: str, node: Value | None, place: Place) ->
         machine.note_clock(name, clock, place)
 
 
-def _serve(world: World, clock: EntityState) -> None:
+def _serve(world: RosWorld, clock: EntityState) -> None:
     """What rclpy has made matters from here on: somebody waits for it."""
     known = world.by_node.setdefault(id(clock.node), [])
     if clock not in known and clock not in world.builtins:
@@ -89,7 +84,7 @@ def _serve(world: World, clock: EntityState) -> None:
         known.append(clock)
 
 
-def clock_of(machine: Machine, receiver: Value, call: Call) -> Value:
+def clock_of(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``get_clock()``; that of a node without simulated time is not followed."""
     state = receiver.state if isinstance(receiver, Instance) else None
     if not isinstance(state, NodeState) or state.sim_clock is None:
@@ -100,7 +95,7 @@ def clock_of(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _sleep(name: str) -> Handler:
-    def sleep(machine: Machine, receiver: Value, call: Call) -> Value:
+    def sleep(machine: RosMachine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         note_sleep(machine, CLOCKS[name], receiver.state.of, call.place)
         return machine.mystery(f'result of {name}', call.place)
@@ -108,11 +103,11 @@ def _sleep(name: str) -> Handler:
     return sleep
 
 
-def _now(machine: Machine, receiver: Value, call: Call) -> Value:
+def _now(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.mystery(THE_CLOCK, call.place, f'{THE_CLOCK}.now')
 
 
-def _create_jump_callback(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_jump_callback(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Its functions run inside the subscription that moves the clock."""
     assert isinstance(receiver, Instance)
     node = receiver.state.of

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import DURATION
-from ros2cc_extract.extract.static.python.machine.world import PlainState
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Mystery, Value
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.places import Unknown
+
+CLOCKS = {'sleep_for': 'Clock.sleep_for', 'sleep_until': 'Clock.sleep_until'}
+"""Methods that nothing but a clock has; the clock of a node is not followed."""
+
+DURATION = Unknown('a duration that could not be followed')
 
 THE_CLOCK = 'the clock'
 """What stands for the clock of a node, and for its time."""

@@ -9,6 +9,12 @@ its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__i
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
+    EntityState,
+    ExecutorState,
+    GroupState,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     SINGLE,
     add_node,
@@ -17,14 +23,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of, new_group
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_callback, add_entity
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
-    ExecutorState,
-    GroupState,
-    PlainState,
-)
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -46,7 +46,7 @@ _LONGEST = 2**63
 """rclpy counts a duration in signed 64 bit nanoseconds."""
 
 
-def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
+def _listen(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node = as_node(machine, call.argument(1, 'node'))
     if node is None:
         return NONE
@@ -69,7 +69,7 @@ def _fill(buffer: Value | None, listener: Value) -> None:
         buffer.state.of = listener
 
 
-def _spin_thread(machine: Machine, node: Instance, call: Call) -> None:
+def _spin_thread(machine: RosMachine, node: Instance, call: Call) -> None:
     executor = Instance(Name(SINGLE), call.place)
     executor.state = ExecutorState('SingleThreadedExecutor')
     executor.slots['__nodes__'] = ()
@@ -83,7 +83,7 @@ def _spin_thread(machine: Machine, node: Instance, call: Call) -> None:
     world.in_thread, world.thread = before
 
 
-def _subscribe(machine: Machine, receiver: Value, call: Call) -> Value:
+def _subscribe(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``Subscriber(node, type, topic, …)``; further arguments go to ``create_subscription``."""
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
@@ -97,24 +97,24 @@ def _subscribe(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _subscription(machine: Machine, receiver: Instance, place: Place) -> Value:
+def _subscription(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     """``Subscriber.sub``: what ``create_subscription`` gave it."""
     made = Instance(Name('rclpy.subscription.Subscription'), receiver.place)
     made.state = receiver.state
     return made
 
 
-def _filter_state(machine: Machine, instance: Instance) -> PlainState:
+def _filter_state(machine: RosMachine, instance: Instance) -> PlainState:
     return PlainState('filter', place=instance.place)
 
 
-def _synchronize(machine: Machine, receiver: Value, call: Call) -> Value:
+def _synchronize(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     receiver.state = PlainState('filter', of=call.argument(0, 'fs', 'f'), place=call.place)
     return NONE
 
 
-def _register(machine: Machine, receiver: Value, call: Call) -> Value:
+def _register(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Every input's subscription runs the user's function when its message is the last."""
     callback = call.argument(0, 'cb')
     for entity in _inputs(receiver):
@@ -135,7 +135,7 @@ def _inputs(value: Value) -> list[EntityState]:
     return []
 
 
-def _update(machine: Machine, receiver: Value, call: Call) -> Value:
+def _update(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node = as_node(machine, call.argument(0, 'node'))
     if node is None:
         return NONE
@@ -148,11 +148,11 @@ def _update(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _duration(machine: Machine, instance: Instance) -> PlainState:
+def _duration(machine: RosMachine, instance: Instance) -> PlainState:
     return PlainState('duration', Const(0.0), place=instance.place)
 
 
-def _set_duration(machine: Machine, receiver: Value, call: Call) -> Value:
+def _set_duration(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     parts = [call.argument(None, 'seconds'), call.argument(None, 'nanoseconds')]
     given = [part.value if isinstance(part, Const) else part for part in parts if part is not None]
@@ -168,7 +168,7 @@ def _set_duration(machine: Machine, receiver: Value, call: Call) -> Value:
 def _look_up(name: str, position: int) -> Handler:
     """A method of the transform buffer; ``position`` is that of its timeout."""
 
-    def look_up(machine: Machine, receiver: Value, call: Call) -> Value:
+    def look_up(machine: RosMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(position, 'timeout')
         state = timeout.state if isinstance(timeout, Instance) else None
         seconds = state.key if isinstance(state, PlainState) else timeout

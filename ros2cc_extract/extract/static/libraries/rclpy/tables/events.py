@@ -7,6 +7,8 @@ the group of its publisher or subscription), ``parameter_event_handler.py`` (one
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     without_default_events,
 )
@@ -18,9 +20,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     add_callback,
     add_entity,
 )
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import EntityState, PlainState
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -36,7 +37,7 @@ _HANDLER = 'rclpy.ParameterEventHandler'
 _NO_CALLBACKS = frozenset({'use_default_callbacks'})
 
 
-def _keep_callbacks(machine: Machine, receiver: Value, call: Call) -> Value:
+def _keep_callbacks(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``SubscriptionEventCallbacks(deadline=…)``: keep what is given by keyword."""
     assert isinstance(receiver, Instance)
     given: dict[Value, Value] = {
@@ -50,7 +51,7 @@ def _keep_callbacks(machine: Machine, receiver: Value, call: Call) -> Value:
 def with_events(original: Handler, key_index: int) -> Handler:
     """A create call whose ``event_callbacks`` make entities of their own."""
 
-    def create(machine: Machine, receiver: Value, call: Call) -> Value:
+    def create(machine: RosMachine, receiver: Value, call: Call) -> Value:
         before = len(machine.world.builtins)
         made = original(machine, receiver, call)
         events = call.argument(None, 'event_callbacks')
@@ -63,7 +64,7 @@ def with_events(original: Handler, key_index: int) -> Handler:
 
 
 def _add_events(
-    machine: Machine, node: Instance, events: Instance, call: Call, key: Value | None
+    machine: RosMachine, node: Instance, events: Instance, call: Call, key: Value | None
 ) -> None:
     given = events.state.of if isinstance(events.state, PlainState) else None
     if not isinstance(given, Mapping):
@@ -75,7 +76,7 @@ def _add_events(
             entity.callback, entity.key = callback, key
 
 
-def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
+def _listen(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
     if node is not None:
@@ -88,7 +89,7 @@ def _listen(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _handle(index: int) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: RosMachine, receiver: Value, call: Call) -> Value:
         callback = call.argument(index, 'callback')
         state = receiver.state if isinstance(receiver, Instance) else None
         if isinstance(state, EntityState) and callback is not None:

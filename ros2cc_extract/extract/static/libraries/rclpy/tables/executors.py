@@ -14,16 +14,14 @@ from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
+from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
     note_end,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, ghost_node
-from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.wake_operations import Waking, Word
-from ros2cc_extract.extract.static.python.machine.world import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import (
     EntityState,
     ExecutorState,
     GroupState,
@@ -31,6 +29,9 @@ from ros2cc_extract.extract.static.python.machine.world import (
     NodeState,
     Spin,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, ghost_node
+from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
@@ -80,7 +81,7 @@ _SPIN_OVERRIDES = frozenset(
 )
 
 
-def _make(machine: Machine, instance: Instance) -> ExecutorState:
+def _make(machine: RosMachine, instance: Instance) -> ExecutorState:
     names = {cls.name for cls in instance.mro if isinstance(cls, Name)}
     state = ExecutorState(kind=instance.class_name)
     if MULTI in names:
@@ -110,7 +111,7 @@ def _describe_custom(cls: Class, names: set[str], state: ExecutorState) -> None:
         state.assumed = f'{cls.name} schedules as its base {base.rpartition(".")[2]}'
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     state = receiver.state
     names = {cls.name for cls in receiver.mro if isinstance(cls, Name)}
@@ -143,7 +144,7 @@ def _set_threads(state: ExecutorState, value: Value | None, place: Place) -> Non
     state.threads_unresolved = Unknown(f'thread count {text}{reason}', place)
 
 
-def as_executor(machine: Machine, value: Value, place: Place) -> Instance:
+def as_executor(machine: RosMachine, value: Value, place: Place) -> Instance:
     """The executor that ``value`` is; an unresolved one where that cannot be followed."""
     if isinstance(value, Instance) and isinstance(value.state, ExecutorState):
         return value
@@ -160,7 +161,7 @@ def as_executor(machine: Machine, value: Value, place: Place) -> Instance:
     return known
 
 
-def as_node(machine: Machine, value: Value | None) -> Instance | None:
+def as_node(machine: RosMachine, value: Value | None) -> Instance | None:
     """The node that ``value`` is or may be; a ghost for a mystery; ``None`` for anything else."""
     if isinstance(value, Choice):
         nodes = [as_node(machine, option) for option in options_of(value) if option != NONE]
@@ -172,7 +173,7 @@ def as_node(machine: Machine, value: Value | None) -> Instance | None:
     return ghost_node(machine, value) if isinstance(value, Mystery) else None
 
 
-def _node_behind(machine: Machine, value: Instance) -> Instance | None:
+def _node_behind(machine: RosMachine, value: Instance) -> Instance | None:
     """The node to which an object of another class hands its attributes on."""
     method = machine.attribute(value, 'create_publisher', value.place)
     behind = method.receiver if isinstance(method, Native) else None
@@ -189,7 +190,7 @@ def nodes_of(executor: Instance) -> tuple[Instance, ...]:
     return tuple(found)
 
 
-def add_node(machine: Machine, executor: Instance, node: Instance) -> None:
+def add_node(machine: RosMachine, executor: Instance, node: Instance) -> None:
     """Add ``node``, which leaves any other executor it is in."""
     old = node.slots.get('__executor__')
     for other in options_of(old) if isinstance(old, Value) else ():
@@ -202,7 +203,7 @@ def add_node(machine: Machine, executor: Instance, node: Instance) -> None:
     machine.store.write(node, '__owner__', executor)
 
 
-def remove_node(machine: Machine, executor: Instance, node: Instance) -> None:
+def remove_node(machine: RosMachine, executor: Instance, node: Instance) -> None:
     """Take ``node`` out of ``executor``."""
     entries = tuple(
         choice([o for o in (e.options if hasattr(e, 'options') else (e,)) if o is not node])
@@ -214,7 +215,7 @@ def remove_node(machine: Machine, executor: Instance, node: Instance) -> None:
         machine.store.remove(node, '__executor__')
 
 
-def global_executor(machine: Machine) -> Instance:
+def global_executor(machine: RosMachine) -> Instance:
     """The executor of ``rclpy.spin``: single-threaded, made on first use."""
     world = machine.world
     if world.global_executor is None:
@@ -226,7 +227,7 @@ def global_executor(machine: Machine) -> Instance:
 
 
 def record_spin(
-    machine: Machine,
+    machine: RosMachine,
     executor: Instance,
     how: str,
     place: Place,
@@ -279,7 +280,7 @@ def note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> Non
 
 
 def note_inside(
-    machine: Machine, executor: Instance, how: str, timeout: Value | None, place: Place
+    machine: RosMachine, executor: Instance, how: str, timeout: Value | None, place: Place
 ) -> None:
     """A callback spins ``executor``."""
     world = machine.world
@@ -290,7 +291,7 @@ def note_inside(
 
 
 def _method_spin(how: str, ever: bool) -> Handler:
-    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
+    def spin(machine: RosMachine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         future = future_of(call, 0, how)
         if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
@@ -304,7 +305,7 @@ def _method_spin(how: str, ever: bool) -> Handler:
     return spin
 
 
-def _add(machine: Machine, receiver: Value, call: Call) -> Value:
+def _add(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
 
     def act(value: Value) -> Value:
@@ -317,7 +318,7 @@ def _add(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.each(call.argument(0, 'node') or NONE, act, call.place)
 
 
-def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
+def _remove(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node = call.argument(0, 'node')
     if (
         isinstance(receiver, Instance)
@@ -332,7 +333,7 @@ def _remove(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _note_served_so_far(machine: Machine, executor: Instance, node: Instance) -> None:
+def _note_served_so_far(machine: RosMachine, executor: Instance, node: Instance) -> None:
     """A thread that spins on has served the node until it is taken out."""
     for spin in machine.world.spins.values():
         is_served = spin.executor is executor and spin.in_thread and spin.for_ever
@@ -340,7 +341,7 @@ def _note_served_so_far(machine: Machine, executor: Instance, node: Instance) ->
             spin.nodes = (*spin.nodes, node)
 
 
-def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_task(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """A task has no entity and no group (rclpy-semantics: work outside every group)."""
     assert isinstance(receiver, Instance)
     nodes = nodes_of(receiver)
@@ -353,7 +354,7 @@ def _create_task(machine: Machine, receiver: Value, call: Call) -> Value:
     return future
 
 
-def _note_its_end(machine: Machine, future: Value, place: Place) -> None:
+def _note_its_end(machine: RosMachine, future: Value, place: Place) -> None:
     """The future of a task is done when the task has ended, whoever asks for it."""
     world = machine.world
     world.kept.append(future)
@@ -364,7 +365,7 @@ def _note_its_end(machine: Machine, future: Value, place: Place) -> None:
 
 
 def add_task(
-    machine: Machine,
+    machine: RosMachine,
     node: Instance | None,
     callback: Value | None,
     place: Place,
@@ -393,7 +394,7 @@ def add_task(
         if is_same and _code_of(known.callback) == _code_of(run):
             _run_too(known, run)
             flag_locks.hand_over(world, known)
-            note_made(world, kind, place)
+            note_made(world, kind.value, place)
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
     entity.callback, entity.key = run, key
@@ -432,7 +433,7 @@ def _object_of(receiver: Value) -> object:
     return id(receiver)
 
 
-def groupless(machine: Machine) -> Instance:
+def groupless(machine: RosMachine) -> Instance:
     """The group that stands for work in no group at all."""
     world = machine.world
     if world.groupless is None:
@@ -443,11 +444,11 @@ def groupless(machine: Machine) -> Instance:
     return world.groupless
 
 
-def _get_nodes(machine: Machine, receiver: Value, call: Call) -> Value:
+def _get_nodes(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.mystery('nodes of the executor at run time', call.place)
 
 
-def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
+def _node_executor(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     found = receiver.slots.get('__executor__')
     if found is None and machine.world.in_callback:
         found = receiver.slots.get('__owner__')  # a callback runs while it is spun
@@ -460,7 +461,7 @@ def _node_executor(machine: Machine, receiver: Instance, place: Place) -> Value:
     return made
 
 
-def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
+def _node_task(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = receiver.slots.get('node')
     owner = node if isinstance(node, Instance) else None
@@ -468,7 +469,7 @@ def _node_task(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.future(call.place, 'task')
 
 
-def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
+def _shut_down(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Spins that go on in other threads end."""
     world = machine.world
     if isinstance(receiver, Instance):

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import GroupState, NodeState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import GroupState, NodeState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -68,7 +68,7 @@ def _why_custom_unresolved(instance: Instance, names: set[str]) -> Unknown | Non
     return None
 
 
-def new_group(machine: Machine, state: GroupState, place: Place, hint: str | None) -> Instance:
+def new_group(machine: RosMachine, state: GroupState, place: Place, hint: str | None) -> Instance:
     """A group that no constructor call in the scanned text makes."""
     group = Instance(Name(REENTRANT if state.type is GroupType.REENTRANT else EXCLUSIVE), place)
     group.state = state
@@ -77,7 +77,7 @@ def new_group(machine: Machine, state: GroupState, place: Place, hint: str | Non
     return group
 
 
-def group_of(machine: Machine, node: Instance, value: Value | None, place: Place) -> Instance:
+def group_of(machine: RosMachine, node: Instance, value: Value | None, place: Place) -> Instance:
     """The group that ``callback_group=value`` means for an entity of ``node``."""
     default = _default_meant(machine, node, place)
     if value is None or value == NONE:
@@ -91,7 +91,7 @@ def group_of(machine: Machine, node: Instance, value: Value | None, place: Place
     return known or _unknown_group(machine, value, place)
 
 
-def _default_meant(machine: Machine, node: Instance, place: Place) -> Value:
+def _default_meant(machine: RosMachine, node: Instance, place: Place) -> Value:
     """What the ``create_…`` methods get by the property, which a class may override."""
     if any(isinstance(cls, Class) and _PROPERTY in cls.slots for cls in node.mro):
         return machine.attribute(node, _PROPERTY, place)
@@ -126,7 +126,7 @@ def _known_group(default: Value, value: Value) -> Instance | None:
     return None
 
 
-def _unknown_group(machine: Machine, value: Value, place: Place) -> Instance:
+def _unknown_group(machine: RosMachine, value: Value, place: Place) -> Instance:
     """A group of its own for each value that could not be followed, never the default one."""
     known = machine.world.unknown_groups.get(_mystery_key(value))
     if known is not None:
@@ -173,13 +173,13 @@ def _at(value: Value) -> Place | None:
     return value.place if isinstance(value, Instance) else None
 
 
-def _make(machine: Machine, instance: Instance) -> GroupState:
+def _make(machine: RosMachine, instance: Instance) -> GroupState:
     state = group_type(instance)
     state.count = machine.world.count
     return state
 
 
-def _init(machine: Machine, receiver: Value, call: Call) -> Value:
+def _init(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return NONE
 
 

@@ -17,6 +17,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     OF_RATE,
     note_end,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, GroupState, NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
     add_events_of,
@@ -30,14 +32,9 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import (
     new_group,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.shutdown import context_of_node
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS, Machine
-from ros2cc_extract.extract.static.python.machine.world import (
-    EntityState,
-    GroupState,
-    NodeState,
-    PlainState,
-)
+from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS
 from ros2cc_extract.extract.static.python.objects.allocation_sites import (
     made_before,
     made_while_missing,
@@ -100,7 +97,7 @@ CREATE_CALLS = {
 }
 
 
-def make_node(machine: Machine, instance: Instance) -> NodeState:
+def make_node(machine: RosMachine, instance: Instance) -> NodeState:
     """The state of a new node, with its default group."""
     group = new_group(machine, GroupState(default=True), instance.place, None)
     state = NodeState(default_group=group, count=machine.world.count)
@@ -112,7 +109,7 @@ def make_node(machine: Machine, instance: Instance) -> NodeState:
     return state
 
 
-def ghost_node(machine: Machine, value: Mystery) -> Instance:
+def ghost_node(machine: RosMachine, value: Mystery) -> Instance:
     """The node that a value which cannot be followed must be; one for each such value."""
     value = machine.world.same_unknowns.get(value.unknown, value)
     key = f'{value.text}|{value.unknown.at}|{value.unknown.reason}'
@@ -129,7 +126,7 @@ def ghost_node(machine: Machine, value: Mystery) -> Instance:
 
 
 def add_entity(
-    machine: Machine, node: Instance, kind: EntityKind, group: Instance, place: Place
+    machine: RosMachine, node: Instance, kind: EntityKind, group: Instance, place: Place
 ) -> EntityState:
     """Record an entity of ``node`` made here and now."""
     world = machine.world
@@ -143,11 +140,11 @@ def add_entity(
     world.by_node.setdefault(id(node), []).append(entity)
     if kind is EntityKind.SUBSCRIPTION:
         add_events_of(machine, node, group, place, entity)
-    note_made(world, kind, place)
+    note_made(world, kind.value, place)
     return entity
 
 
-def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
+def init_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if isinstance(receiver.state, NodeState):
         _note_begun_again(machine, receiver, call)
@@ -161,7 +158,7 @@ def init_node(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _note_begun_again(machine: Machine, node: Instance, call: Call) -> None:
+def _note_begun_again(machine: RosMachine, node: Instance, call: Call) -> None:
     """
     A singleton whose ``__init__`` runs each time its class is called begins its node anew.
 
@@ -176,7 +173,7 @@ def _note_begun_again(machine: Machine, node: Instance, call: Call) -> None:
 
 
 def _creator(row: CreateCall) -> Handler:
-    def create(machine: Machine, receiver: Value, call: Call) -> Value:
+    def create(machine: RosMachine, receiver: Value, call: Call) -> Value:
         assert isinstance(receiver, Instance)
         group = group_of(
             machine, receiver, call.argument(row.group_position, 'callback_group'), call.place
@@ -206,7 +203,7 @@ def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> 
     return (id(node), kind, place, text)
 
 
-def remember_entity(machine: Machine, made: Instance) -> None:
+def remember_entity(machine: RosMachine, made: Instance) -> None:
     """Keep an entity for ``entity_made_before``."""
     entity = made.state
     site = _site(entity.node, entity.kind, entity.key, entity.place)
@@ -214,7 +211,7 @@ def remember_entity(machine: Machine, made: Instance) -> None:
 
 
 def entity_made_before(
-    machine: Machine,
+    machine: RosMachine,
     node: Instance,
     kind: EntityKind,
     key: Value | None,
@@ -233,11 +230,11 @@ def entity_made_before(
         and not made_while_missing(world, known.state, key, callback)
     ):
         return None
-    note_made(world, kind, place)
+    note_made(world, kind.value, place)
     return known
 
 
-def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """A timer in a private reentrant group of the node (``node.py``, ``_rate_group``)."""
     assert isinstance(receiver, Instance)
     state = receiver.state
@@ -260,7 +257,7 @@ def _create_rate(machine: Machine, receiver: Value, call: Call) -> Value:
     return made
 
 
-def _create_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance):
         given = call.argument(None, 'callback_group')
         group = group_of(machine, receiver, given, call.place)
@@ -270,7 +267,7 @@ def _create_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
     return made
 
 
-def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
+def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     cls = Name(NODE)
     known = made_before(machine, cls, call)
     if known is not None:
@@ -285,21 +282,21 @@ def _create_node(machine: Machine, receiver: Value, call: Call) -> Value:
     return node
 
 
-def _destroy(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy(machine: RosMachine, receiver: Value, call: Call) -> Value:
     target = call.args[0] if call.args else None
     if isinstance(target, Instance) and isinstance(target.state, EntityState):
         mark_destroyed(machine, target.state, call.place)
     return Const(True)
 
 
-def _destroy_publisher(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value:
     for target in options_of(call.args[0]) if call.args else ():
         if isinstance(target, Instance) and isinstance(target.state, PlainState):
             note_end(machine, DESTROY_PUBLISHER, target, call.place)
     return Const(True)
 
 
-def _destroy_node(machine: Machine, receiver: Value, call: Call) -> Value:
+def _destroy_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance):
         note_end(machine, DESTROY_NODE, receiver, call.place)
     return NONE
@@ -313,14 +310,14 @@ def add_callback(entity: EntityState, callback: Value) -> None:
         entity.extra_callbacks += (callback,)
 
 
-def mark_destroyed(machine: Machine, entity: EntityState, place: Place) -> None:
+def mark_destroyed(machine: RosMachine, entity: EntityState, place: Place) -> None:
     """Note that the program destroys ``entity`` while its node is alive."""
     note_end(machine, DESTROY, entity, place)
     if not machine.world.after_spin and not machine.world.shutting_down:
         entity.destroyed = True
 
 
-def _parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
     name = call.argument(0, 'name')
     default = call.argument(1, 'value')
     text = f'parameter {name.value!r}' if isinstance(name, Const) else 'a parameter'
@@ -352,7 +349,7 @@ def _usable(default: Value | None) -> Value | None:
     return default if default != NONE else None
 
 
-def _declare_all(machine: Machine, receiver: Value, call: Call) -> Value:
+def _declare_all(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``declare_parameters(namespace, [(name, default, …), …])``."""
     space, rows = call.argument(0, 'namespace'), call.argument(1, 'parameters')
     items, rest = machine.items_of(rows or NONE, call.place)
@@ -366,13 +363,13 @@ def _declare_all(machine: Machine, receiver: Value, call: Call) -> Value:
     return Sequence(tuple(made), 'list', rest)
 
 
-def _get_all(machine: Machine, receiver: Value, call: Call) -> Value:
+def _get_all(machine: RosMachine, receiver: Value, call: Call) -> Value:
     items, rest = machine.items_of(call.argument(0, 'names') or NONE, call.place)
     made = [_parameter(machine, receiver, Call(call.place, [name])) for name in items]
     return Sequence(tuple(made), 'list', rest)
 
 
-def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
+def _keep_parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``Parameter(name, type, value)``."""
     assert isinstance(receiver, Instance)
     value = call.argument(2, 'value') or machine.mystery('value of a parameter', call.place)
@@ -380,7 +377,7 @@ def _keep_parameter(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
+def _parameter_or(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``get_parameter_or(name, alternative)``; the alternative is a parameter itself."""
     other = call.argument(1, 'alternative_value')
     state = other.state if isinstance(other, Instance) else None
@@ -389,13 +386,13 @@ def _parameter_or(machine: Machine, receiver: Value, call: Call) -> Value:
     return _parameter(machine, receiver, Call(call.place, args))
 
 
-def _parameter_value(machine: Machine, receiver: Instance, place: Place) -> Value:
+def _parameter_value(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     state = receiver.state
     value = state.key if isinstance(state, PlainState) else None
     return value or machine.mystery('value of a parameter', place)
 
 
-def _message(machine: Machine, receiver: Instance, place: Place) -> Value:
+def _message(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     made = Instance(Name('rclpy.parameter.ParameterValue'), place)
     made.state = receiver.state
     return made
@@ -405,23 +402,23 @@ class _ValueMethods(dict[str, Handler]):
     """``get_parameter_value()`` and its fields all stand for the value."""
 
 
-def _get_parameter_value(machine: Machine, receiver: Value, call: Call) -> Value:
+def _get_parameter_value(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     return _message(machine, receiver, call.place)
 
 
-def _default_group(machine: Machine, receiver: Instance, place: Place) -> Value:
+def _default_group(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     return default_group_of(receiver)
 
 
 def _unfollowed(reason: str) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+    def handler(machine: RosMachine, receiver: Value, call: Call) -> Value:
         return machine.mystery(reason, call.place, reason)
 
     return handler
 
 
-def _name_of(machine: Machine, receiver: Value, call: Call) -> Value:
+def _name_of(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``get_name()``: the name in the source, unless the node is renamed when it is started."""
     state = receiver.state if isinstance(receiver, Instance) else None
     name = state.name if isinstance(state, NodeState) else None

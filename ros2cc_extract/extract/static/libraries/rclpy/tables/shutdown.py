@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
 from ros2cc_extract.extract.static.libraries.rclpy.end_operations import note_shutdown
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import PlainState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -27,7 +27,7 @@ CONTEXT = 'rclpy.context.Context'
 _HOOKS = '__on_shutdown__'
 
 
-def default_context(machine: Machine) -> Instance:
+def default_context(machine: RosMachine) -> Instance:
     """The context of every node that is given no other."""
     world = machine.world
     if world.context is None:
@@ -36,12 +36,12 @@ def default_context(machine: Machine) -> Instance:
     return world.context
 
 
-def context_of_node(machine: Machine, receiver: Instance, place: Place) -> Value:
+def context_of_node(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     """``node.context``; a node that is given one of its own is rare, and keeps it elsewhere."""
     return default_context(machine)
 
 
-def _on_shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
+def _on_shutdown(machine: RosMachine, receiver: Value, call: Call) -> Value:
     callback = call.argument(0, 'callback')
     if isinstance(receiver, Instance) and isinstance(callback, (Bound, Function)):
         hooks = receiver.slots.get(_HOOKS, ())
@@ -50,7 +50,7 @@ def _on_shutdown(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _shut_down(machine: Machine, receiver: Value, call: Call) -> Value:
+def _shut_down(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Spins that go on in other threads end; what waits for the end runs here."""
     world = machine.world
     if world.in_callback or world.in_thread:

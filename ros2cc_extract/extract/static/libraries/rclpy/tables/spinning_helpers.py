@@ -9,13 +9,14 @@ event), ``nav2_simple_commander/robot_navigator.py`` (a node of its own, which i
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, add_entity, init_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.spins import spin_in_passing
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import NodeState, PlainState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -46,7 +47,7 @@ _PADDING_S = 2.0
 """What a buffer client waits beyond the time-out it was given, unless told otherwise."""
 
 
-def _make_buffer_client(machine: Machine, receiver: Value, call: Call) -> Value:
+def _make_buffer_client(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
     if node is not None:
@@ -58,7 +59,7 @@ def _make_buffer_client(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _make_parameter_client(machine: Machine, receiver: Value, call: Call) -> Value:
+def _make_parameter_client(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """It makes six clients, all in one group; one of them stands for all."""
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
@@ -74,7 +75,7 @@ def _make_parameter_client(machine: Machine, receiver: Value, call: Call) -> Val
     return NONE
 
 
-def _ask_for_parameters(machine: Machine, receiver: Value, call: Call) -> Value:
+def _ask_for_parameters(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Each method sends a request; a callback that is given is one of the future."""
     future = machine.future(call.place, 'client', receiver)
     callback = call.argument(None, 'callback')
@@ -84,14 +85,14 @@ def _ask_for_parameters(machine: Machine, receiver: Value, call: Call) -> Value:
     return future
 
 
-def _wait_for_parameter_services(machine: Machine, receiver: Value, call: Call) -> Value:
+def _wait_for_parameter_services(machine: RosMachine, receiver: Value, call: Call) -> Value:
     timeout = call.argument(0, 'timeout_sec')
     machine.note_blocking('wait_for_service', receiver, timeout, call.place)
     return machine.mystery('whether services are there', call.place, 'wait_for_services()')
 
 
 def _ask(name: str, position: int) -> Handler:
-    def ask(machine: Machine, receiver: Value, call: Call) -> Value:
+    def ask(machine: RosMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(position, 'timeout')
         state = timeout.state if isinstance(timeout, Instance) else None
         given = state.key if isinstance(state, PlainState) else timeout
@@ -109,17 +110,17 @@ def _padded(given: Value | None, call: Call) -> Value:
     return Mystery(Unknown('a duration that could not be followed', call.place))
 
 
-def _make_navigator(machine: Machine, receiver: Value, call: Call) -> Value:
+def _make_navigator(machine: RosMachine, receiver: Value, call: Call) -> Value:
     name = call.argument(0, 'node_name') or Const('basic_navigator')
     return init_node(machine, receiver, Call(call.place, [name]))
 
 
-def _spin_navigator(machine: Machine, receiver: Value, call: Call) -> Value:
+def _spin_navigator(machine: RosMachine, receiver: Value, call: Call) -> Value:
     spin_in_passing(machine, receiver, 'spin_until_future_complete', call.place)
     return machine.mystery('answer of the navigation', call.place)
 
 
-def _make_moveit(machine: Machine, receiver: Value, call: Call) -> Value:
+def _make_moveit(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
     if node is not None and isinstance(node.state, NodeState):
@@ -129,7 +130,7 @@ def _make_moveit(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _spin_moveit(machine: Machine, receiver: Value, call: Call) -> Value:
+def _spin_moveit(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node = receiver.slots.get('_node') if isinstance(receiver, Instance) else None
     if isinstance(node, Instance):
         spin_in_passing(machine, node, 'spin_once', call.place)

@@ -11,6 +11,8 @@ from typing import TypeGuard
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import is_handed_on
+from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.state import ExecutorState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     Awaited,
     add_node,
@@ -25,8 +27,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     remove_node,
 )
 from ros2cc_extract.extract.static.python.machine.library_table import Library
-from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import ExecutorState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -43,7 +43,7 @@ from ros2cc_extract.spec.moves import ADDED, ANY_EXECUTOR
 def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
     """``rclpy.spin`` and its kin: add the node, spin, take the node out again."""
 
-    def spin(machine: Machine, receiver: Value, call: Call) -> Value:
+    def spin(machine: RosMachine, receiver: Value, call: Call) -> Value:
         given = call.argument(0, 'node') or NONE
         executor = call.argument(position, 'executor')
         place = call.place
@@ -63,7 +63,7 @@ def _module_spin(how: str, position: int | None, ever: bool) -> Handler:
 
 
 def _nested(
-    machine: Machine, node: Instance, given: Value, how: str
+    machine: RosMachine, node: Instance, given: Value, how: str
 ) -> tuple[str, Instance | None, str]:
     """
     What a callback does that spins ``node``: how that is called, who moves, and how.
@@ -88,7 +88,7 @@ def _is_executor(value: Value) -> TypeGuard[Instance]:
 
 
 def _spin_node(
-    machine: Machine,
+    machine: RosMachine,
     node_value: Value,
     given: Value,
     how: str,
@@ -120,13 +120,13 @@ def _spin_node(
         remove_node(machine, executor, node)
 
 
-def spin_in_passing(machine: Machine, node: Value, how: str, place: Place) -> None:
+def spin_in_passing(machine: RosMachine, node: Value, how: str, place: Place) -> None:
     """A library spins ``node`` by the global executor until something has come."""
     _spin_node(machine, node, NONE, how, place, False, (None, None))
 
 
 def _warn_of_theft(
-    machine: Machine, node: Instance, executor: Instance, how: str, place: Place
+    machine: RosMachine, node: Instance, executor: Instance, how: str, place: Place
 ) -> None:
     old = node.slots.get('__executor__')
     for other in options_of(old) if isinstance(old, Value) else ():
@@ -153,7 +153,7 @@ def _warn_of_theft(
         )
 
 
-def _is_spun_then(machine: Machine, executor: Instance) -> bool:
+def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:
     """
     Whether a thread spins ``executor`` when code runs that nobody in sight calls.
 
@@ -175,7 +175,7 @@ def _afterwards(executor: Instance, how: str) -> str:
     return '; after that it is in none until somebody adds it again'
 
 
-def _instead(machine: Machine, other: Instance, name: str, how: str) -> str:
+def _instead(machine: RosMachine, other: Instance, name: str, how: str) -> str:
     """What a thread spins already is not to be spun by a second one."""
     spins = machine.world.spins.values()
     if not any(spin.executor is other and spin.in_thread for spin in spins):

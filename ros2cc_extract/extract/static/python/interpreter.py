@@ -1,9 +1,13 @@
-"""The abstract machine put together: it follows a program's set-up and never runs it."""
+"""
+The abstract interpreter of Python, put together: it follows a program and never runs it.
+
+It knows the language and its built-in types. What a library does stands in a table of it, see
+``library_table.py``; whoever wants to know more of what is followed than its state overrides the
+hooks of ``observer.py``.
+"""
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.notes import Notes
-from ros2cc_extract.extract.static.libraries.library_calls import Libraries
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.python.language.assignments import Assignments
 from ros2cc_extract.extract.static.python.language.attributes import Attributes
@@ -11,10 +15,13 @@ from ros2cc_extract.extract.static.python.language.calls import Calls
 from ros2cc_extract.extract.static.python.language.comprehensions import Comprehensions
 from ros2cc_extract.extract.static.python.language.expressions import Expressions
 from ros2cc_extract.extract.static.python.language.statements import Statements
+from ros2cc_extract.extract.static.python.language.with_blocks import Blocks
+from ros2cc_extract.extract.static.python.machine.library_table import LibraryModel
 from ros2cc_extract.extract.static.python.machine.store import Store
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects.imports import Imports
 from ros2cc_extract.extract.static.python.objects.instances import Instances
+from ros2cc_extract.extract.static.python.objects.library_calls import LibraryCalls
 
 RUN_LIMIT = 800_000
 """Statements and expressions of a whole run: some seconds."""
@@ -26,17 +33,24 @@ class Interpreter(
     Expressions,
     Attributes,
     Calls,
+    Blocks,
     Instances,
     Comprehensions,
-    Libraries,
+    LibraryCalls,
     Imports,
-    Notes,
 ):
-    """One run of one program."""
+    """
+    One run of one program.
 
-    def __init__(self, project: Project) -> None:
+    :param project: the files that its imports may name.
+    :param model: what is known of the libraries that it uses.
+    :param world: what the run leaves behind.
+    """
+
+    def __init__(self, project: Project, model: LibraryModel, world: World) -> None:
         self.store = Store()
-        self.world = World(lists_builtin=project.lists_builtin)
+        self.world = world
+        self.model = model
         self.steps = self.step_limit = 0
         self.steps_left = RUN_LIMIT
         self.stack = []

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import Enum
 
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Hold
 from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.places import Place
 
@@ -32,23 +33,6 @@ class SettableRef(EntityRef):
         reference = SettableRef(text)
         reference.number = id(thing)
         return reference
-
-
-class Word(Enum):
-    """What is done to an object that others wait on."""
-
-    SET = 'set'
-    PUT = 'put'
-    GET = 'get'
-    DONE = 'done'
-    RELEASE = 'release'
-    ARRIVE = 'arrive'
-    END = 'end'
-    WRITE = 'write'
-
-
-Hold = tuple[str, int]
-"""A lock, and which time it is that it was taken."""
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import add_task
+from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.fixed_point import is_same_text, note_found
-from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
-from ros2cc_extract.extract.static.python.machine.wake_operations import Word
-from ros2cc_extract.extract.static.python.machine.world import EntityState, PlainState, World
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     NONE,
@@ -33,7 +33,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.places import Place
-from ros2cc_extract.spec.model import ActivityKind, EntityKind
+from ros2cc_extract.spec.model import ActivityKind
 
 _OWN = 'future'
 """Kind of a future of rclpy that the program makes itself."""
@@ -78,24 +78,24 @@ class _Left:
     around: tuple[object, ...]
 
 
-def init_future(machine: Machine, receiver: Value, call: Call) -> Value:
+def init_future(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``Future(executor=…)``."""
     if isinstance(receiver, Instance):
         machine.store.write(receiver, _EXECUTOR, call.argument(None, 'executor') or NONE)
     return NONE
 
 
-def begin_anew(machine: Machine, receiver: Instance) -> None:
+def begin_anew(machine: ConcurrentMachine, receiver: Instance) -> None:
     """A callback that is followed again makes its future again, and nobody has completed that."""
     machine.store.write(receiver, _IS_DONE, _PENDING)
 
 
-def may_be_done(machine: Machine, future: Instance) -> None:
+def may_be_done(machine: ConcurrentMachine, future: Instance) -> None:
     """What completes it runs beside whoever has got it."""
     machine.store.write(future, _IS_DONE, _EITHER)
 
 
-def add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
+def add_done_callback(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Run it at once where the future is done, else keep it for who completes the future."""
     assert isinstance(receiver, Instance)
     callback = call.argument(0, 'callback') or call.argument(0, 'fn')
@@ -112,7 +112,7 @@ def add_done_callback(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE if is_done == _PENDING else machine.branch([run, lambda: NONE], call.place)
 
 
-def _note_later(machine: Machine, future: Instance, callback: Value, call: Call) -> None:
+def _note_later(machine: ConcurrentMachine, future: Instance, callback: Value, call: Call) -> None:
     """Who is not in sight may complete it: an executor by a task, a thread of a pool itself."""
     state = future.state
     if state.kind == OF_POOL and future.mro[-1] == _BY_HAND:
@@ -124,21 +124,10 @@ def _note_later(machine: Machine, future: Instance, callback: Value, call: Call)
         around = _around(machine.world)
         machine.world.left_callbacks.append(_Left(future, callback, call.place, around))
     else:
-        _add_task(machine, future, callback, call.place)
+        machine.add_task(future, callback, call.place)
 
 
-def _add_task(machine: Machine, future: Instance, callback: Value, place: Place) -> None:
-    """An executor runs it when it has taken the answer."""
-    state = future.state
-    source = state.of.state if isinstance(state.of, Instance) else None
-    node = source.node if isinstance(source, EntityState) else None
-    key = source.key if isinstance(source, EntityState) else None
-    task = add_task(machine, node, callback, place, EntityKind.DONE_CALLBACK, key)
-    if task is not None:
-        task.argument = future
-
-
-def add_left(machine: Machine) -> None:
+def add_left(machine: ConcurrentMachine) -> None:
     """Make tasks of those that nobody in sight runs: whoever does so has a thread of his own."""
     world = machine.world
     before = _around(world)
@@ -148,20 +137,20 @@ def add_left(machine: Machine) -> None:
             _set_around(world, each.around)
             doer = world.activity or world.current
             world.deeds = doer.deeds if doer is not None else None
-            _add_task(machine, each.future, each.callback, each.place)
+            machine.add_task(each.future, each.callback, each.place)
     _set_around(world, before)
 
 
-def _around(world: World) -> tuple[object, ...]:
+def _around(world: ConcurrentWorld) -> tuple[object, ...]:
     return tuple(getattr(world, name) for name in _AROUND)
 
 
-def _set_around(world: World, around: tuple[object, ...]) -> None:
+def _set_around(world: ConcurrentWorld, around: tuple[object, ...]) -> None:
     for name, value in zip(_AROUND, around, strict=True):
         setattr(world, name, value)
 
 
-def complete(machine: Machine, receiver: Value, call: Call) -> Value:
+def complete(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``set_result``, ``set_exception``."""
     machine.note_wake(receiver, Word.SET, call.place)
     if isinstance(receiver, Instance) and not _has_executor(receiver):
@@ -171,7 +160,7 @@ def complete(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def cancel(machine: Machine, receiver: Value, call: Call) -> Value:
+def cancel(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """
     ``cancel``, of a future that is not done.
 
@@ -183,7 +172,7 @@ def cancel(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
-def _run_all(machine: Machine, future: Instance, place: Place, *, is_sure: bool) -> None:
+def _run_all(machine: ConcurrentMachine, future: Instance, place: Place, *, is_sure: bool) -> None:
     world = machine.world
     held = future.slots.get(_CALLBACKS, ABSENT)
     callbacks = options_of(held)
@@ -200,7 +189,7 @@ def _run_all(machine: Machine, future: Instance, place: Place, *, is_sure: bool)
             machine.branch([run, lambda: NONE], place)
 
 
-def _run(machine: Machine, future: Instance, callback: Value, place: Place) -> Value:
+def _run(machine: ConcurrentMachine, future: Instance, callback: Value, place: Place) -> Value:
     """In this thread; the future is done by then."""
     world = machine.world
     ready = world.ready

@@ -1,0 +1,66 @@
+"""What a machine offers to the tables of libraries that notes what runs concurrently."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.wake_operations import ClockRef, DataRef
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.values.values import Instance, Value
+from ros2cc_extract.places import Place, Unknown
+
+
+class ConcurrentMachine(Machine, ABC):
+    """Notes of waits, of what ends them, and of locks."""
+
+    world: ConcurrentWorld
+
+    @abstractmethod
+    def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
+        """A new future of ``kind``."""
+
+    @abstractmethod
+    def note_blocking(
+        self, name: str, on: Value | None, seconds: Value | None, place: Place
+    ) -> None:
+        """A call that can hold its thread."""
+
+    @abstractmethod
+    def note_outside_wait(
+        self,
+        name: str,
+        on: Value | None,
+        seconds: Value | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
+
+    @abstractmethod
+    def note_loop_on_data(
+        self,
+        name: str,
+        on: DataRef | ClockRef | Unknown,
+        seconds: Unknown | None,
+        place: Place,
+        spun: tuple[Instance, ...] = (),
+    ) -> None:
+        """A loop goes on until somebody else has written what its test reads."""
+
+    @abstractmethod
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A lock is taken; with a time-out it may not be."""
+
+    @abstractmethod
+    def note_release(self, lock: Value) -> None:
+        """A lock is given back."""
+
+    @abstractmethod
+    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
+        """Something is done to ``thing`` that may end a wait for it."""
+
+    @abstractmethod
+    def add_task(self, future: Instance, callback: Value, place: Place) -> None:
+        """Whoever takes the answer that ``future`` stands for runs ``callback`` then."""

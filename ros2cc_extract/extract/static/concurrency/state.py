@@ -1,0 +1,269 @@
+"""
+What runs concurrently, and what a run leaves behind of it: threads, locks, waits, accesses.
+
+Who runs as a callback is for the model of a library to say; here each is a ``Doer``.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any
+
+from ros2cc_extract.extract.static.concurrency.wake_operations import LoopRun, LoopTouch, Waking
+from ros2cc_extract.extract.static.python.machine.library_state import BESIDE, LibraryState
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.values.values import Call, Heaped, Instance, Path, Value
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.model import ActivityKind
+
+
+@dataclass(eq=False)
+class ActivityState(Doer):
+    """
+    Code that runs on a thread which no executor has.
+
+    :param place: where it is started.
+    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
+    :param starts: who starts it.
+    :param endless: its loop that nothing ends, the end of rclpy included.
+    :param again: where it starts itself anew in each run, whatever branches are taken.
+    :param is_daemon: the same; ``None`` where that is not known.
+    :param spins: how many spins the set-up has called before its start.
+    :param ends_first: the set-up waits for its end before it spins again.
+    :param serves: it spins an executor; for ever where it ``is_executor``.
+    :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
+    :param turns: equal for those that have one thread between them.
+    :param pool: whose threads run it.
+    :param site: equal for one start that is met again.
+    :param wakes: what it does to end waits, as it was seen in the set-up.
+    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
+    """
+
+    kind: ActivityKind
+    place: Place
+    target: Value | None = None
+    call: Call | None = None
+    runners: list[Value] = field(default_factory=list)
+    starts: list[Waking] = field(default_factory=list)
+    deeds: Deeds = field(default_factory=Deeds)
+    path: Path = ()
+    count: int | Unknown = 1
+    daemon: bool = False
+    is_daemon: bool | None = False
+    loops: bool = False
+    endless: Place | None = None
+    again: Place | None = None
+    spins: int = 0
+    ends_first: bool = False
+    serves: bool = False
+    is_executor: bool = False
+    nodes: set[int] = field(default_factory=set)
+    things: set[int] = field(default_factory=set)
+    site: object = None
+    wakes: list[tuple[Value, Word, Place]] = field(default_factory=list)
+    thread: int = 0
+    on_loop: bool = False
+    turns: object = None
+    pool: Instance | None = None
+
+
+@dataclass(eq=False)
+class ThreadState(LibraryState):
+    """A ``threading.Thread`` or timer: what it runs when started."""
+
+    is_beside = True
+
+    kind: ActivityKind
+    target: Value | None = None
+    call: Call | None = None
+    started: bool = False
+
+
+def thread_of(instance: Instance) -> ThreadState:
+    """What an instance of a class of threads is as such."""
+    state = instance.slots.get(BESIDE, instance.state)
+    assert isinstance(state, ThreadState)
+    return state
+
+
+@dataclass(frozen=True, eq=False)
+class Over:
+    """
+    The program has ended something that goes on beside it.
+
+    :param what: an executor that is shut down, a thread that has been waited for; ``None`` where
+        rclpy is shut down.
+    :param spins: how many spins there were.
+    """
+
+    what: Instance | None
+    path: Path
+    spins: int
+
+
+@dataclass(frozen=True, eq=False)
+class OutsideWait:
+    """
+    Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
+
+    :param client: ``None`` where it looks at data again and again, of ``names``.
+    :param spun: the nodes that it spins meanwhile.
+    :param is_late: something has been spun before.
+    :param over: what is over by then, ``path`` the undecided branches it stands in.
+    :param begun: how many spins there were by then; ``None`` where their order is not known.
+    """
+
+    call: str
+    client: Doer | Instance | None
+    place: Place
+    in_thread: bool
+    spun: tuple[Instance, ...] = ()
+    is_late: bool = False
+    over: tuple[Over, ...] = ()
+    path: Path = ()
+    begun: int | None = None
+    names: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class SetUpWait:
+    """
+    A wait of code that no callback runs, as ``outside`` tells it too.
+
+    :param block: with references to what it waits on.
+    :param uncalled: the function, which nobody in sight calls, that leads there.
+    :param by: the thread that waits; one that only spins has no waits of its own.
+    :param is_late: the spin is over.
+    """
+
+    block: Blocking
+    outside: OutsideWait
+    uncalled: str | None = None
+    by: ActivityState | None = None
+    is_late: bool = False
+
+
+@dataclass
+class ConcurrentWorld(World):
+    """
+    One run, with what it does concurrently.
+
+    :param activity: the thread or the part of the main program that is followed.
+    :param spins_over: how many of the spins have ended for sure.
+    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them.
+    :param wakings: what is done to an object that others may wait on, by its identity.
+    :param asked: marks of questions that the function has asked.
+    :param made_at: identities of the objects that others may wait on, by the place they come from.
+    :param other_writes: data that is written by what nobody in sight calls, with its name, or
+        after the spin has ended, with ``None``.
+    :param cleared: events that somebody clears: who and where, and how many entities there were.
+    :param by_loop: a loop of asyncio does what is followed, in its own thread.
+    :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
+        ``awaited_of_loops`` the queues and events that some coroutine awaits.
+    :param lost_wakes: what ends waits for an attribute of that name of what is not known.
+    :param given: objects that were handed to code which is not followed, with the reason.
+    :param kept_in: the attribute that an object others may wait on was stored in last, and
+        ``met_meanwhile`` what such attributes held while the set-up waited for it.
+    :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
+        ``completed`` the identities of those futures that somebody completes.
+    :param activities: all of them, in the order of their start.
+    :param told: how many of them were followed for what they do.
+    :param loop: where the loop of asyncio begins that runs the set-up.
+    :param forked: where the program splits off a child that runs its own text.
+    :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
+    :param retelling: one is followed for what it does; what it makes is known already.
+    :param readers: who reads the pipes of a child process, by the place where that is made.
+    :param queues: what is put into queues, see ``queue_items.py``.
+    :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
+    :param objects: the attribute that holds an object of unknown kind for good, by the object.
+    :param locks: the locks that were taken, by the name they are stored under.
+    :param main_spins: how many spins the set-up has called in its own thread, behind which no
+        callback runs, and how many it had ``before_loop``, the outermost of those loops.
+    :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
+    :param takes: how often each of them was taken; ``holds`` the number of the present hold,
+        and ``begun`` where something was made or started in one.
+    :param accepted: what the last function held wherever it did not turn down a goal.
+    :param flag_tests: of a state that stands for a flag, what has been found of it by those who
+        then put it up, see ``flag_locks.py``.
+    :param found_down: flags that the last function found down wherever it turned no goal down.
+    :param still_down: those that were down when the goal was accepted which is executed.
+    :param outside: what code waits for that is no callback.
+    :param set_up: its waits as the specification tells them, each once.
+    :param over: what it has ended.
+    """
+
+    activity: ActivityState | None = None
+    in_thread: bool = False
+    wakings: dict[int, list[Waking]] = field(default_factory=dict)
+    asked: set[int] = field(default_factory=set)
+    main_spins: int = 0
+    before_loop: int = 0
+    made_at: dict[object, list[int]] = field(default_factory=dict)
+    other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
+    cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
+    by_loop: bool = False
+    loop_runs: list[LoopRun] = field(default_factory=list)
+    loop_touches: list[LoopTouch] = field(default_factory=list)
+    awaited_of_loops: list[Value] = field(default_factory=list)
+    lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
+    given: dict[int, Unknown] = field(default_factory=dict)
+    activities: list[ActivityState] = field(default_factory=list)
+    told: int = 0
+    retelling: bool = False
+    accepted: tuple[str, ...] = ()
+    flag_tests: dict[str, set[str]] = field(default_factory=dict)
+    found_down: frozenset[str] = frozenset()
+    still_down: frozenset[str] = frozenset()
+    readers: dict[Place, list[Deeds | None]] = field(default_factory=dict)
+    queues: dict[int, Any] = field(default_factory=dict)
+    homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
+    objects: dict[Value, str] = field(default_factory=dict)
+    locks: dict[str, list[Instance]] = field(default_factory=dict)
+    takes: Counter[str] = field(default_factory=Counter)
+    loops_at: dict[str, int] = field(default_factory=dict)
+    holds: dict[str, int] = field(default_factory=dict)
+    begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
+    outside: list[OutsideWait] = field(default_factory=list)
+    set_up: dict[object, SetUpWait] = field(default_factory=dict)
+    over: list[Over] = field(default_factory=list)
+    after_spin: bool = False
+    on_loop: bool = False
+    forked: Place | None = None
+    loop: Place | None = None
+    spins_over: int = 0
+    thread: int = 0
+    threads: int = 0
+    exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
+    signal_handlers: list[ActivityState] = field(default_factory=list)
+    interruptible: set[int] = field(default_factory=set)
+    kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
+    met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
+    left_callbacks: list[Any] = field(default_factory=list)
+    completed: set[int] = field(default_factory=set)
+
+    @property
+    def spins_begun(self) -> int:
+        """How often the program has let callbacks run, in whatever thread."""
+        return 0
+
+    @property
+    def things_made(self) -> int:
+        """How much there is that may run as a callback."""
+        return 0
+
+    @property
+    def spun_in_loop(self) -> bool:
+        """Whether what is followed stands in a loop that has spun, and may again."""
+        return self.open_loops > 0 and self.main_spins > self.before_loop
+
+    def begin_outermost_loop(self) -> None:
+        """Keep how many spins there were: those of its rounds may come again."""
+        self.before_loop = self.main_spins
+
+    def served_within(self, file: str, first: int, last: int) -> tuple[Instance, ...]:
+        """Whose callbacks the lines of a file let run."""
+        return ()

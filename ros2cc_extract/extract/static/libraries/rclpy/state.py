@@ -1,0 +1,328 @@
+"""What a program makes of rclpy in one run: its nodes, entities, groups, executors and spins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ros2cc_extract.extract.static.concurrency.state import (
+    ActivityState,
+    ConcurrentWorld,
+    OutsideWait,
+)
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
+from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
+from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
+from ros2cc_extract.spec.partners import SERVER_KINDS
+
+_MERGED = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
+
+
+@dataclass(eq=False)
+class GroupState(LibraryState):
+    """
+    A callback group.
+
+    :param node: the node whose default group it is.
+    :param unresolved: why it could not be followed, or why its type is not certain.
+    """
+
+    is_known_by_name = True
+
+    type: GroupType = GroupType.EXCLUSIVE
+    node: Instance | None = None
+    default: bool = False
+    groupless: bool = False
+    unresolved: Unknown | None = None
+    library: str | None = None
+    custom: str | None = None
+    count: int | Unknown = 1
+
+
+@dataclass(eq=False)
+class NodeState(LibraryState):
+    """
+    A ROS node.
+
+    :param name: value of the name argument; ``None`` when none was seen.
+    :param ghost: why it is not known which node it is; set for a node handed in from outside.
+    :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
+    :param more: why it may have entities that we do not see.
+    :param begun: the call of ``Node.__init__``.
+    :param nested: a spin inside a callback that serves it, and where.
+    :param loop: the loop of asyncio whose thread spins it.
+    :param sim_clock: the subscription that moves its clock, where it uses simulated time.
+    """
+
+    is_made_once = True
+    is_unit_of_its_own = True
+
+    default_group: Instance
+    name: Value | None = None
+    ghost: Unknown | None = None
+    lifecycle: bool = False
+    on_asyncio: bool = False
+    rate_group: Instance | None = None
+    has_parameter_services: bool = True
+    parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
+    more: list[tuple[str, Place | None]] = field(default_factory=list)
+    spun: bool = False
+    begun: Place | None = None
+    nested: tuple[str, Place] | None = None
+    sim_clock: EntityState | None = None
+    loop: Place | None = None
+    count: int | Unknown = 1
+
+    def owner_of(self, thing: Instance) -> Instance | None:
+        """The node itself."""
+        return thing
+
+    def note_passed(self, function: str, place: Place) -> None:
+        """Who has it may make entities of it."""
+        self.more.append((f'the node is passed to {function}, which is not scanned', place))
+
+    def doubt(self, reason: str, place: Place | None) -> None:
+        """It may have entities that are not seen."""
+        self.more.append((reason, place))
+
+
+@dataclass(eq=False)
+class ExecutorState(LibraryState):
+    """
+    An executor; its slot ``nodes`` holds the nodes it has, in order.
+
+    :param threads: number of worker threads, ``None`` for the number of CPUs at run time.
+    :param unresolved: why its kind or thread count could not be followed.
+    """
+
+    is_block = True
+    is_known_by_name = True
+    is_unit_of_its_own = True
+
+    kind: str
+    threads: int | None = 1
+    threads_at: Place | None = None
+    threads_unresolved: Unknown | None = None
+    is_global: bool = False
+    unknown: Unknown | None = None
+    unresolved: Unknown | None = None
+    assumed: str | None = None
+    spun: bool = False
+
+
+@dataclass(eq=False)
+class EntityState(Doer, LibraryState):
+    """
+    A ROS entity or a piece of group-less work; one record for each that is made.
+
+    :param assumed: the rule by which it is assumed to be there.
+    :param held: flags that its maker has handed over to it, see ``flag_locks.py``.
+    :param ran: how many of its functions were followed; -1 before any is.
+    :param maker: the callback or activity that makes it, if any does.
+    :param part_of: the subscription whose event it handles.
+    :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
+    :param restarted: somebody starts it, or starts it again.
+    """
+
+    is_one_of_many = True
+
+    kind: EntityKind
+    node: Instance
+    group: Instance
+    place: Place
+    callback: Value | None = None
+    key: Value | None = None
+    period: Value | None = None
+    path: Path = ()
+    count: int | Unknown = 1
+    when: When = When.START
+    library: str | None = None
+    builtin: bool = False
+    destroyed: bool = False
+    one_shot: bool = False
+    dormant: Place | None = None
+    restarted: bool = False
+    label: str | None = None
+    extra_callbacks: tuple[Value, ...] = ()
+    ran: int = -1
+    deeds: Deeds | None = None
+    argument: Value | None = None
+    goal_callback: Value | None = None
+    defers: bool = False
+    held: tuple[str, ...] | None = None
+    number: int = 0
+    maker: object = None
+    part_of: EntityState | None = None
+    assumed: str | None = None
+
+    @property
+    def owner(self) -> Instance | None:
+        """Its node."""
+        return self.node
+
+    @property
+    def kind_name(self) -> str:
+        """What a specification calls its kind."""
+        return self.kind.value
+
+    @property
+    def has_own_text(self) -> bool:
+        """Whether it is made in the set-up, for one value, and is not told with others as one."""
+        return self.kind not in _MERGED and self.when is not When.CALLBACK
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether it is a client."""
+        return self.kind in SERVER_KINDS
+
+    @property
+    def is_on_loop(self) -> bool:
+        """Whether asyncio runs its node."""
+        return isinstance(self.node.state, NodeState) and self.node.state.on_asyncio
+
+    def owner_of(self, thing: Instance) -> Instance | None:
+        """Its node."""
+        return self.node
+
+
+@dataclass(eq=False)
+class Spin:
+    """
+    One spin call: the executor, the nodes it has then, and how it is called.
+
+    :param thread: which thread does it, 0 for the one of the set-up.
+    :param from_callback: that thread is one that a callback starts.
+    :param over: how many of the spins before it were over then.
+    :param is_tried: what rises out of it may be caught.
+    """
+
+    executor: Instance
+    nodes: tuple[Instance, ...]
+    how: str
+    place: Place
+    path: Path
+    for_ever: bool
+    in_thread: bool
+    repeated: bool = False
+    timeout: Value | None = None
+    thread: int = 0
+    from_callback: bool = False
+    over: int = 0
+    is_tried: bool = False
+
+    @property
+    def key(self) -> object:
+        """Equal for one call that is met again, as in a loop."""
+        nodes = tuple(id(node) for node in self.nodes)
+        return (id(self.executor), nodes, self.place, self.path, self.in_thread)
+
+
+@dataclass(frozen=True, eq=False)
+class InsideSpin:
+    """
+    A callback spins an executor.
+
+    :param held: the locks that are held meanwhile.
+    """
+
+    entity: EntityState
+    executor: Instance
+    how: str
+    timeout: Value | None
+    place: Place
+    held: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """
+    A callback, or a thread of the program's own, ends something that is served.
+
+    :param what: the node, executor or entity.
+    :param text: what is done, where that is no end but comes after one.
+    :param behind: the last wait of ``doer`` before it, see ``Deeds.behind``.
+    :param locks: held at that place.
+    """
+
+    kind: str
+    what: Instance | EntityState | None
+    doer: EntityState | ActivityState
+    place: Place
+    text: str = ''
+    behind: object = None
+    locks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class MessageWait:
+    """
+    A message of ``node`` is waited for.
+
+    :param by: the callback that waits; ``None`` for a thread or ``main``.
+    :param thread: which one it is, as ``ConcurrentWorld.thread`` counts them.
+    """
+
+    node: Instance
+    outside: OutsideWait
+    by: EntityState | None
+    thread: int
+    has_limit: bool
+
+
+@dataclass
+class RosWorld(ConcurrentWorld):
+    """
+    One run, with what it makes of rclpy.
+
+    :param current: the callback that is followed.
+    :param admitted: flags that hold for an accepted goal, by node and place of the action server.
+    :param open_to: those that were down when a goal was accepted, by the same.
+    :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
+    :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
+    """
+
+    current: EntityState | None = None
+    admitted: dict[tuple[Instance, Place], tuple[str, ...]] = field(default_factory=dict)
+    open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
+    nodes: list[Instance] = field(default_factory=list)
+    entities: list[EntityState] = field(default_factory=list)
+    spins: dict[object, Spin] = field(default_factory=dict)
+    inside_spins: list[InsideSpin] = field(default_factory=list)
+    message_waits: list[MessageWait] = field(default_factory=list)
+    ends: list[End] = field(default_factory=list)
+    context: Instance | None = None
+    executors: list[Instance] = field(default_factory=list)
+    ghosts: dict[str, Instance] = field(default_factory=dict)
+    unknown_groups: dict[object, Instance] = field(default_factory=dict)
+    shutting_down: bool = False
+    followed: int = 0
+    by_node: dict[int, list[EntityState]] = field(default_factory=dict)
+    lists_builtin: bool = False
+    builtins: list[EntityState] = field(default_factory=list)
+    global_executor: Instance | None = None
+    groupless: Instance | None = None
+
+    @property
+    def has_let_others_run(self) -> bool:
+        """Whether something has been spun."""
+        return bool(self.spins)
+
+    @property
+    def spins_begun(self) -> int:
+        """How many spins there were, in whatever thread."""
+        return len(self.spins)
+
+    @property
+    def things_made(self) -> int:
+        """How many entities there are."""
+        return len(self.entities) + len(self.builtins)
+
+    def served_within(self, file: str, first: int, last: int) -> tuple[Instance, ...]:
+        """The nodes that are spun within these lines."""
+        return tuple(
+            node
+            for spin in self.spins.values()
+            if spin.place.file == file and first <= spin.place.line <= last
+            for node in spin.nodes
+        )
