@@ -76,6 +76,7 @@ class ThreadState(LibraryState):
     """A ``threading.Thread`` or timer: what it runs when started."""
 
     is_beside = True
+    may_end_waits = True
 
     kind: ActivityKind
     target: Value | None = None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
@@ -23,7 +24,6 @@ from ros2cc_extract.extract.static.concurrency.wake_operations import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
-from ros2cc_extract.extract.static.libraries.standard.outside_calls import OF_CHILDREN
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of

@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Iterator
 
 from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.values.values import NONE, Const, Value, options_of
@@ -214,11 +213,3 @@ def _refuses(value: ast.expr | None) -> bool:
 
 def _may_refuse(value: ast.IfExp) -> bool:
     return _refuses(value.body) or _refuses(value.orelse)
-
-
-def hand_over(world: ConcurrentWorld, to: EntityState) -> None:
-    """What a callback makes runs after it, and holds what it holds."""
-    if world.deeds is not None:
-        held = tuple(lock for lock in world.held if lock.endswith(FLAG))
-        to.held = held if to.held is None else tuple(lock for lock in to.held if lock in held)
-        world.held = tuple(lock for lock in world.held if lock not in held)

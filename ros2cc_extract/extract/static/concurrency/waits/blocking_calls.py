@@ -21,7 +21,6 @@ from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     unknown_wait,
 )
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
-    INITIAL,
     NO_ROW,
     SPIN_UNTIL,
     WAITS,
@@ -41,7 +40,11 @@ from ros2cc_extract.extract.static.python.language.parameter_branches import onl
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer, way_of
-from ros2cc_extract.extract.static.python.machine.waitable_objects import SETTABLE, is_of_loop
+from ros2cc_extract.extract.static.python.machine.waitable_objects import (
+    INITIAL,
+    SETTABLE,
+    is_of_loop,
+)
 from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption, default_of
 from ros2cc_extract.extract.static.python.values.values import (

@@ -9,13 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.libraries.standard import outside_calls
+from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
-
-INITIAL = '__initial__'
-"""Slot of a semaphore for its value, and of a queue for its size."""
-
 
 SPIN_UNTIL = 'spin_until_future_complete'
 """How code that no callback runs waits for a future, and spins meanwhile."""
@@ -94,8 +90,8 @@ WAITS: dict[str, WaitRow] = {
     'Rate.sleep': _ANSWER,
     'wait_for_service': _OUTSIDE,
     'wait_for_server': _OUTSIDE,
-    **dict.fromkeys(outside_calls.CALLS, _OUTSIDE),
-    **dict.fromkeys(outside_calls.READS_OF_CAMERAS, _SLEEP),
+    **dict.fromkeys(CALLS, _OUTSIDE),
+    **dict.fromkeys(READS_OF_CAMERAS, _SLEEP),
 }
 
 NO_ROW = WaitRow()

@@ -43,3 +43,11 @@ def _note_admission(world: RosWorld) -> None:
     deeds, names = world.deeds, world.reading.refusing
     if deeds is not None and names:
         deeds.reads[:] = [replace(r, admits=r.name in names) for r in deeds.reads]
+
+
+def hand_over(world: RosWorld, to: EntityState) -> None:
+    """What a callback makes runs after it, and holds what it holds."""
+    if world.deeds is not None:
+        held = tuple(lock for lock in world.held if lock.endswith(FLAG))
+        to.held = held if to.held is None else tuple(lock for lock in to.held if lock in held)
+        world.held = tuple(lock for lock in world.held if lock not in held)

@@ -12,9 +12,17 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits.outside_names import (
+    CLASSES,
+    FRAMES,
+    FUNCTIONS,
+    READS_OF_CAMERAS,
+    STREAM,
+    WAIT_KEY,
+    OutsideRow,
+)
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
 from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
@@ -38,80 +46,14 @@ from ros2cc_extract.places import Place
 
 _TIMEOUT = 'timeout'
 _LIMIT = '__timeout__'
-_WAIT_KEY = 'cv2.waitKey'
+
+
 _READ = 'os.read'
 _COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
 _CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
 
 
-@dataclass(frozen=True)
-class _Wait:
-    """
-    One call that waits.
-
-    :param position: where its time-out may stand; by name it is ``timeout`` everywhere.
-    :param takes_limit: it keeps to the time-out of its object.
-    """
-
-    position: int | None = None
-    takes_limit: bool = False
-
-
-_BY_NAME = _Wait()
-OF_CHILDREN = frozenset(['os.wait', 'os.waitpid'])
-"""Waits for the end of a child of this process."""
-_LIMITED = _Wait(takes_limit=True)
-
-_FUNCTIONS: dict[str, _Wait] = {
-    'subprocess.run': _BY_NAME,
-    'subprocess.call': _BY_NAME,
-    'subprocess.check_call': _BY_NAME,
-    'subprocess.check_output': _BY_NAME,
-    'subprocess.getoutput': _BY_NAME,
-    'subprocess.getstatusoutput': _BY_NAME,
-    'os.system': _BY_NAME,
-    'os.read': _BY_NAME,
-    'os.wait': _BY_NAME,
-    'os.waitpid': _BY_NAME,
-    'builtins.input': _BY_NAME,
-    'sys.stdin.read': _BY_NAME,
-    'sys.stdin.readline': _BY_NAME,
-    'sys.stdin.readlines': _BY_NAME,
-    'select.select': _Wait(3),
-    'signal.pause': _BY_NAME,
-    'signal.sigwait': _BY_NAME,
-    'socket.create_connection': _Wait(1),
-    'urllib.request.urlopen': _Wait(2),
-    'requests.request': _BY_NAME,
-    'requests.get': _BY_NAME,
-    'requests.post': _BY_NAME,
-    'requests.put': _BY_NAME,
-    'requests.patch': _BY_NAME,
-    'requests.delete': _BY_NAME,
-    'requests.head': _BY_NAME,
-}
-
-_SOCKET = dict.fromkeys(
-    ('accept', 'connect', 'recv', 'recv_into', 'recvfrom', 'recvfrom_into', 'recvmsg'), _LIMITED
-)
-_SERIAL = dict.fromkeys(('read', 'read_until', 'readline', 'readlines', 'readinto'), _LIMITED)
-_REQUESTS = dict.fromkeys(('get', 'post', 'put', 'patch', 'delete', 'head', 'request'), _BY_NAME)
-
-# What another program writes (``subprocess.py``, ``Popen.__init__``).
-_STREAM = 'io.BufferedReader'
-_READS = dict.fromkeys(('read', 'read1', 'readinto', 'readline', 'readlines'), _BY_NAME)
-
-_CLASSES: dict[str, dict[str, _Wait]] = {
-    'subprocess.Popen': {'wait': _Wait(0), 'communicate': _Wait(1)},
-    _STREAM: _READS,
-    'socket.socket': _SOCKET,
-    'serial.Serial': _SERIAL,
-    'requests.Session': _REQUESTS,
-    'selectors.DefaultSelector': {'select': _Wait(0)},
-}
-
-
-def _waiting(name: str, row: _Wait) -> Handler:
+def _waiting(name: str, row: OutsideRow) -> Handler:
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(row.position, _TIMEOUT)
         slots = receiver.slots if isinstance(receiver, Instance) else {}
@@ -213,7 +155,7 @@ _INITS: dict[str, Handler] = {
 
 def _stream(machine: ConcurrentMachine, instance: Instance, place: Place) -> Value:
     child_pipes.note_read(machine.world, instance)
-    return Instance(Name(_STREAM), instance.place)
+    return Instance(Name(STREAM), instance.place)
 
 
 _PROPERTIES: dict[str, dict[str, Property]] = {
@@ -224,7 +166,7 @@ _MORE: dict[str, dict[str, Handler]] = {
 }
 
 
-def _class(name: str, methods: dict[str, _Wait]) -> LibraryClass:
+def _class(name: str, methods: dict[str, OutsideRow]) -> LibraryClass:
     last = name.rpartition('.')[2]
     return LibraryClass(
         state=lambda machine, instance: PlainState('outside', place=instance.place),
@@ -241,14 +183,11 @@ def _wait_key(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """``cv2.waitKey(0)`` waits for a person; with a delay, which is in milliseconds, it ends."""
     delay = call.argument(0, 'delay')
     if delay is None or (isinstance(delay, Const) and delay.value == 0):
-        machine.note_blocking(_WAIT_KEY, None, None, call.place)
-    return machine.mystery(f'result of {_WAIT_KEY}', call.place, f'{_WAIT_KEY}(…)')
+        machine.note_blocking(WAIT_KEY, None, None, call.place)
+    return machine.mystery(f'result of {WAIT_KEY}', call.place, f'{WAIT_KEY}(…)')
 
 
 _CAPTURE = 'cv2.VideoCapture'
-_FRAMES = 'pipeline.wait_for_frames'
-READS_OF_CAMERAS = frozenset({'VideoCapture.read', 'VideoCapture.grab', _FRAMES})
-"""They wait for the next frame, and end by themselves where none comes."""
 
 
 def _reads_camera(name: str) -> Handler:
@@ -272,36 +211,26 @@ def _open_capture(machine: ConcurrentMachine, receiver: Value, call: Call) -> Va
 
 _OF_FILE = '__of_file__'
 
-CALLS = frozenset(
-    [
-        _WAIT_KEY,
-        *(name.removeprefix('builtins.') for name in _FUNCTIONS),
-        *(f'{name.rpartition(".")[2]}.{method}' for name, of in _CLASSES.items() for method in of),
-    ]
-)
-"""How these waits are called in a specification."""
 
 TABLE = Library(
     classes={
-        **{name: _class(name, methods) for name, methods in _CLASSES.items()},
+        **{name: _class(name, methods) for name, methods in CLASSES.items()},
         _CAPTURE: LibraryClass(
             init=_open_capture,
             methods={
                 name.rpartition('.')[2]: _reads_camera(name)
-                for name in sorted(READS_OF_CAMERAS - {_FRAMES})
+                for name in sorted(READS_OF_CAMERAS - {FRAMES})
             },
         ),
         'pyrealsense2.pipeline': LibraryClass(
             init=lambda machine, receiver, call: NONE,
-            methods={'wait_for_frames': _reads_camera(_FRAMES)},
+            methods={'wait_for_frames': _reads_camera(FRAMES)},
         ),
     },
     functions={
         'os.fork': _fork,
-        **{
-            name: _waiting(name.removeprefix('builtins.'), row) for name, row in _FUNCTIONS.items()
-        },
-        _WAIT_KEY: _wait_key,
+        **{name: _waiting(name.removeprefix('builtins.'), row) for name, row in FUNCTIONS.items()},
+        WAIT_KEY: _wait_key,
         'atexit.register': on_exit,
         'signal.signal': on_signal,
     },

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer
+from ros2cc_extract.extract.static.python.machine.waitable_objects import INITIAL
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,

@@ -11,7 +11,6 @@ from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.state import ThreadState, thread_of
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_join, note_over
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import INITIAL
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
@@ -20,6 +19,7 @@ from ros2cc_extract.extract.static.python.machine.library_table import (
     StateFactory,
 )
 from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer
+from ros2cc_extract.extract.static.python.machine.waitable_objects import INITIAL
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

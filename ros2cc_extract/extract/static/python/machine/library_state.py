@@ -22,6 +22,7 @@ class LibraryState:
     :cvar is_made_once: code that asks whether there is one yet makes one at each place.
     :cvar is_beside: an object may be this besides what another base class makes of it.
     :cvar is_unit_of_its_own: who waits for it waits for what it serves.
+    :cvar may_end_waits: code that has it may end what others wait for.
     """
 
     is_block: ClassVar[bool] = False
@@ -30,6 +31,7 @@ class LibraryState:
     is_made_once: ClassVar[bool] = False
     is_unit_of_its_own: ClassVar[bool] = False
     is_beside: ClassVar[bool] = False
+    may_end_waits: ClassVar[bool] = False
 
     def owner_of(self, thing: Instance) -> Instance | None:
         """The object to which ``thing``, whose state this is, belongs with all that it runs."""
@@ -47,6 +49,7 @@ class PlainState(LibraryState):
     """A library object of which only the kind matters: a lock, an event, a publisher …"""
 
     is_block = True
+    may_end_waits = True
 
     kind: str
     key: Value | None = None

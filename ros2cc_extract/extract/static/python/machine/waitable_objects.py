@@ -9,6 +9,9 @@ OF_LOOP = 'loop future'
 OF_POOL = 'pool'
 """Kind of a future that waits when it is asked."""
 
+INITIAL = '__initial__'
+"""Slot of a semaphore for its value, and of a queue for its size."""
+
 SETTABLE = frozenset(
     {'event', 'future', OF_LOOP, 'condition', 'queue', 'semaphore', 'barrier', OF_POOL}
 )

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
@@ -56,20 +55,6 @@ def note_open_test(world: World, test: ast.expr, place: Place) -> None:
         world.missing.add(place)
 
 
-def made_while_missing(
-    world: World, known: EntityState, key: Value | None, callback: Value | None
-) -> bool:
-    """Whether code that nobody in sight calls has made ``known`` here, behind the same test."""
-    tests = {place for place, _ in world.path} & world.missing
-    return (
-        world.when in (When.LATER, When.CALLBACK)
-        and known.when is When.LATER
-        and known.callback == callback
-        and _token(known.key) == _token(key)
-        and any(place in tests for place, _ in known.path)
-    )
-
-
 def remember(machine: Machine, instance: Instance, call: Call) -> None:
     """Keep ``instance`` for ``made_before``, if it is a node."""
     if isinstance(instance.state, LibraryState) and instance.state.is_made_once:
@@ -79,10 +64,10 @@ def remember(machine: Machine, instance: Instance, call: Call) -> None:
 
 def _site(cls: Class | Library, call: Call) -> object:
     arguments = [*enumerate(call.args), *call.keywords.items()]
-    return (cls, call.place, tuple((name, _token(value)) for name, value in arguments))
+    return (cls, call.place, tuple((name, argument_token(value)) for name, value in arguments))
 
 
-def _token(value: Value | None) -> object:
+def argument_token(value: Value | None) -> object:
     """Equal for arguments that are the same each time; a new library object counts as that."""
     if isinstance(value, Const):
         return value

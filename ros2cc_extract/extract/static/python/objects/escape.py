@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.concurrency.state import ThreadState
-from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import Instance, Native, Value, options_of
@@ -39,7 +38,7 @@ def reached(value: Value) -> Iterator[Instance]:
         if id(thing) in seen:
             continue
         seen.add(id(thing))
-        if isinstance(thing, Instance) and isinstance(thing.state, (PlainState, ThreadState)):
+        if isinstance(thing, Instance) and _may_end_waits(thing):
             yield thing
         elif isinstance(thing, Sequence):
             waiting.extend(each for item in thing.items for each in options_of(item))
@@ -49,3 +48,7 @@ def reached(value: Value) -> Iterator[Instance]:
         elif isinstance(thing, Instance) and thing.state is None:
             held = (item for item in thing.slots.values() if isinstance(item, Value))
             waiting.extend(each for item in held for each in options_of(item))
+
+
+def _may_end_waits(thing: Instance) -> bool:
+    return isinstance(thing.state, LibraryState) and thing.state.may_end_waits

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.python.machine.world import Spin, World
+from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld, Spin
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Instance, options_of
 
@@ -21,14 +21,14 @@ SLUG = 'node-taken-out'
 _TAKES = 'rclpy.'
 
 
-def note_taken_by_threads(world: World) -> None:
+def note_taken_by_threads(world: RosWorld) -> None:
     """Tell of nodes that a thread takes out of an executor, when all was followed."""
     told = {each.place for each in world.diagnostics if each.slug == SLUG}
     found = (each for each in _thefts(world) if each.place not in told)
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _thefts(world: World) -> Iterator[Diagnostic]:
+def _thefts(world: RosWorld) -> Iterator[Diagnostic]:
     spins = list(world.spins.values())
     for number, spin in enumerate(spins):
         if not spin.in_thread or spin.for_ever or not spin.how.startswith(_TAKES):

@@ -9,15 +9,14 @@ and ``action/client.py``.
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.made_entities import (
+    entity_made_before,
+    remember_entity,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node, groupless
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
-from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
-    add_entity,
-    entity_made_before,
-    mark_destroyed,
-    remember_entity,
-)
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, mark_destroyed
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

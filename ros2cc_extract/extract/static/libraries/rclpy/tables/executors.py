@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency import activities
-from ros2cc_extract.extract.static.concurrency.accesses import flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
 from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
@@ -20,6 +19,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     SHUTDOWN_EXECUTOR,
     note_end,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.held_by_callbacks import hand_over
 from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.state import (
     EntityState,
@@ -393,13 +393,13 @@ def add_task(
         is_same = is_here and _name_of(known.key) == _name_of(key)
         if is_same and _code_of(known.callback) == _code_of(run):
             _run_too(known, run)
-            flag_locks.hand_over(world, known)
+            hand_over(world, known)
             note_made(world, kind.value, place)
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
     entity.callback, entity.key = run, key
     entity.count = 1
-    flag_locks.hand_over(world, entity)
+    hand_over(world, entity)
     return entity
 
 

@@ -18,6 +18,10 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     note_end,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.made_entities import (
+    entity_made_before,
+    remember_entity,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, GroupState, NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
@@ -37,7 +41,6 @@ from ros2cc_extract.extract.static.python.machine.library_table import Library, 
 from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS
 from ros2cc_extract.extract.static.python.objects.allocation_sites import (
     made_before,
-    made_while_missing,
     remember,
 )
 from ros2cc_extract.extract.static.python.values.assumed_defaults import AT_RUN_TIME, default_of
@@ -54,7 +57,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.model import EntityKind, GroupType, When
+from ros2cc_extract.spec.model import EntityKind, GroupType
 
 NODE = 'rclpy.node.Node'
 _BEGUN = '__begun__'
@@ -196,42 +199,6 @@ def _creator(row: CreateCall) -> Handler:
         return made
 
     return create
-
-
-def _site(node: Instance, kind: EntityKind, key: Value | None, place: Place) -> object:
-    text = key.value if isinstance(key, Const) else None
-    return (id(node), kind, place, text)
-
-
-def remember_entity(machine: RosMachine, made: Instance) -> None:
-    """Keep an entity for ``entity_made_before``."""
-    entity = made.state
-    site = _site(entity.node, entity.kind, entity.key, entity.place)
-    machine.world.made_in_callbacks[site] = made
-
-
-def entity_made_before(
-    machine: RosMachine,
-    node: Instance,
-    kind: EntityKind,
-    key: Value | None,
-    place: Place,
-    callback: Value | None = None,
-) -> Instance | None:
-    """What a callback makes at one place is one entity, made again and again."""
-    world = machine.world
-    known = world.made_in_callbacks.get(_site(node, kind, key, place))
-    if known is None:
-        return None
-    is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
-    if (
-        not is_again
-        and not world.retelling
-        and not made_while_missing(world, known.state, key, callback)
-    ):
-        return None
-    note_made(world, kind.value, place)
-    return known
 
 
 def _create_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
