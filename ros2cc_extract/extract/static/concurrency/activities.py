@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.state import ActivityState, ConcurrentWorld
-from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
 from ros2cc_extract.extract.static.python.machine.machine import THING_STEPS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import (

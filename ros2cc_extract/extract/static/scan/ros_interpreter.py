@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.libraries.model import model
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.notes import RosNotes
-from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.python.interpreter import Interpreter
 

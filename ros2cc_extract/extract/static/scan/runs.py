@@ -7,11 +7,15 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.values_during_waits import show_to_callbacks
-from ros2cc_extract.extract.static.libraries.rclpy.held_by_callbacks import call_holding
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.held_by_callbacks import call_holding
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    NodeState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services import (
     BUILDING,
     TRANSITIONS,

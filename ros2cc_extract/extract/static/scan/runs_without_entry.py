@@ -7,7 +7,7 @@ from typing import TypeGuard
 
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import forget_awaits
-from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.program.call_order import (
     callers_first,
     leading_to_entities,

@@ -18,7 +18,7 @@ from ros2cc_extract.crew import Crew
 from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.libraries.rclpy.state import RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.program.entry_points import console_scripts, entries_of
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.relevance import replaces_rclpy

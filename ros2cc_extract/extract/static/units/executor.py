@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.concurrency.state import SetUpWait
-from ros2cc_extract.extract.static.libraries.rclpy.state import ExecutorState, Spin
+from ros2cc_extract.extract.static.concurrency.machine.state import SetUpWait
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, Spin
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.python.values.values import Class, Instance
 from ros2cc_extract.places import Unknown

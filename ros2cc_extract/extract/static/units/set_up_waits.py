@@ -10,8 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState, SetUpWait
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, SetUpWait
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    NodeState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Piece
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.spec.deeds import Access

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 
-from ros2cc_extract.extract.static.libraries.rclpy.state import GroupState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import GroupState, RosWorld
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
 

@@ -6,14 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
-from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
-    data_is_written_elsewhere,
-    uncalled_wakers,
-)
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
-from ros2cc_extract.extract.static.concurrency.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ClockRef,
     DataRef,
     EntityRef,
@@ -22,7 +16,13 @@ from ros2cc_extract.extract.static.concurrency.wake_operations import (
     TopicRef,
     Waking,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld
+from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
+    data_is_written_elsewhere,
+    uncalled_wakers,
+)
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, WAITS
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
 from ros2cc_extract.extract.static.python.machine.path_facts import Word

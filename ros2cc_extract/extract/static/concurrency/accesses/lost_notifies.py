@@ -12,8 +12,8 @@ import ast
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import lock_of, locks_named
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
-from ros2cc_extract.extract.static.concurrency.wake_operations import Guard, Waking
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Guard, Waking
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Hold
 from ros2cc_extract.extract.static.python.machine.world import note_once

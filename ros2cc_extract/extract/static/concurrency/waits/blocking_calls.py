@@ -7,8 +7,17 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    ClockRef,
+    DataRef,
+    EntityRef,
+    ResourceRef,
+    SettableRef,
+    TopicRef,
+    Waking,
+)
 from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before,
@@ -27,15 +36,6 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WaitRow,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
-from ros2cc_extract.extract.static.concurrency.wake_operations import (
-    ClockRef,
-    DataRef,
-    EntityRef,
-    ResourceRef,
-    SettableRef,
-    TopicRef,
-    Waking,
-)
 from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import (
+from ros2cc_extract.extract.static.concurrency.machine.state import (
     ConcurrentWorld,
     OutsideWait,
     Over,
     SetUpWait,
 )
-from ros2cc_extract.extract.static.concurrency.wake_operations import EntityRef
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
 from ros2cc_extract.extract.static.python.values.values import Instance, Value

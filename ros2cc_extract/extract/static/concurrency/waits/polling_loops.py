@@ -11,8 +11,9 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import WAITS
@@ -24,7 +25,6 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     only_waits,
     spins,
 )
-from ros2cc_extract.extract.static.concurrency.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.python.language.plain_data_calls import reachable
 from ros2cc_extract.extract.static.python.machine.dependences import Asked

@@ -8,7 +8,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.relevance import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.places import Place, Unknown

@@ -9,7 +9,7 @@ ends it for all (``units/waits.py``, ``wakings_of``).
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.store import Store
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.values.values import (

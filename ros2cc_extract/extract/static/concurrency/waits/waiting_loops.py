@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.spec.deeds import WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind
 

@@ -6,12 +6,12 @@ import ast
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
-from ros2cc_extract.extract.static.concurrency.wake_operations import ClockRef
-from ros2cc_extract.extract.static.libraries.rclpy import end_operations
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     NODE_EXECUTOR,
     UNKNOWN_CLIENT,

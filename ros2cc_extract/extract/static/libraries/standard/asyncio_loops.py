@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.wake_operations import LoopRun, LoopTouch
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopRun, LoopTouch
 from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_in_executor
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full

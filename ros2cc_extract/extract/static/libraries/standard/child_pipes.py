@@ -8,7 +8,7 @@ asks for the stream before, or elsewhere in the program, counts as its reader.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Library, Value
 from ros2cc_extract.places import Place

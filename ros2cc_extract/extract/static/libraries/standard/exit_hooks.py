@@ -6,7 +6,7 @@ Source: CPython 3.12, ``atexit`` (the last one registered is called first).
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Value
 
 

@@ -8,7 +8,7 @@ leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threads
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
     add_done_callback,
     begin_anew,

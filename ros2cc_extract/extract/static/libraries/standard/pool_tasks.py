@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
 from ros2cc_extract.places import Unknown

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.objects.loops import counted

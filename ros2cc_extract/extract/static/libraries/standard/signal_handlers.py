@@ -11,8 +11,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

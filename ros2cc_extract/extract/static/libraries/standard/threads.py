@@ -7,8 +7,8 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_counter
 from ros2cc_extract.extract.static.concurrency.activities import begin
-from ros2cc_extract.extract.static.concurrency.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.state import ThreadState, thread_of
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ThreadState, thread_of
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_join, note_over
 from ros2cc_extract.extract.static.python.machine.dependences import Asked

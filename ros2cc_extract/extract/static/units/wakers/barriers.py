@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, GroupState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, GroupState
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import Blocking

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     GroupState,

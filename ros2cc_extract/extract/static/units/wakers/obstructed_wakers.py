@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import may_not_overlap

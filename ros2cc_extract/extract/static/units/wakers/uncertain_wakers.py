@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import Notifier, is_heard
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     CANCEL,
     DESTROY,
     DESTROY_NODE,
@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     SHUTDOWN,
     executor_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP

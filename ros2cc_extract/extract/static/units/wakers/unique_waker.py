@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 
 _SETTING = frozenset({Word.SET})

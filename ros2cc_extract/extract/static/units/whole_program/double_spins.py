@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     GroupState,

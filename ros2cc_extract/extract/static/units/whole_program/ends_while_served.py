@@ -17,9 +17,9 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import EntityRef
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
@@ -30,7 +30,12 @@ from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
     USED,
     executor_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, RosWorld, Spin
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    End,
+    EntityState,
+    RosWorld,
+    Spin,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import (

@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.wake_operations import LoopTouch
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopTouch
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     RosWorld,

@@ -11,15 +11,19 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import ActivityState, OutsideWait, Over
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
-from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
-from ros2cc_extract.extract.static.concurrency.wake_operations import (
+from ros2cc_extract.extract.static.concurrency.machine.state import (
+    ActivityState,
+    OutsideWait,
+    Over,
+)
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     EntityRef,
     ResourceRef,
     Waking,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld, Spin
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import way_of
 from ros2cc_extract.extract.static.python.values.values import (

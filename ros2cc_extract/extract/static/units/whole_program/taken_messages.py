@@ -13,9 +13,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
-from ros2cc_extract.extract.static.libraries.rclpy.message_waits import CALL
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.message_waits import CALL
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     GroupState,
     MessageWait,
     RosWorld,

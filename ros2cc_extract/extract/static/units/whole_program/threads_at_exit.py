@@ -13,10 +13,10 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import ActivityState, OutsideWait
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, OutsideWait
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import executor_of
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.program.relevance import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import (

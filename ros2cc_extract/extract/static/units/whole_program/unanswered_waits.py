@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.state import OutsideWait
+from ros2cc_extract.extract.static.concurrency.machine.state import OutsideWait
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     NodeState,
     RosWorld,

@@ -8,8 +8,8 @@ has that loop; the unit says that its executor is not known. Source: rclpy 10.0.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     ExecutorState,
     GroupState,
     NodeState,

@@ -9,8 +9,8 @@ caller, the latest first), ``parameter_service.py`` (two services of the default
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     list_clock,
     option_of_node,

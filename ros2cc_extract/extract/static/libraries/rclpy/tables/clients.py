@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
-from ros2cc_extract.extract.static.libraries.rclpy import message_waits
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine import message_waits
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     CANCEL,
     note_end,
     note_published,
     note_use,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import note_sleep
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     node_executor_property,

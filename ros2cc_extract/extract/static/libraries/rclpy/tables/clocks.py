@@ -11,8 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, NodeState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    NodeState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import CLOCKS, THE_CLOCK
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState

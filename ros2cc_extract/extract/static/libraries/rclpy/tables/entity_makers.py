@@ -9,8 +9,8 @@ its own; ``spin_thread`` adds a single-threaded executor), ``message_filters/__i
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     GroupState,

@@ -7,8 +7,8 @@ the group of its publisher or subscription), ``parameter_event_handler.py`` (one
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     without_default_events,
 )

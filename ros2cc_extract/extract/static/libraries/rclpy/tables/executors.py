@@ -12,16 +12,16 @@ from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
-from ros2cc_extract.extract.static.concurrency.wake_operations import Waking
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
     note_end,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.held_by_callbacks import hand_over
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.held_by_callbacks import hand_over
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     GroupState,

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import GroupState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import GroupState, NodeState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

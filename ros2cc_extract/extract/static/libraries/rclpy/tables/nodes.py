@@ -10,19 +10,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     DESTROY,
     DESTROY_NODE,
     DESTROY_PUBLISHER,
     OF_RATE,
     note_end,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.made_entities import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.made_entities import (
     entity_made_before,
     remember_entity,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, GroupState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    GroupState,
+    NodeState,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
     add_events_of,

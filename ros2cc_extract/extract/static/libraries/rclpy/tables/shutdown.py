@@ -8,8 +8,8 @@ in its caller, in their order), ``__init__.py`` (``shutdown`` is that of the def
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
-from ros2cc_extract.extract.static.libraries.rclpy.end_operations import note_shutdown
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import note_shutdown
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import (

@@ -9,8 +9,8 @@ event), ``nav2_simple_commander/robot_navigator.py`` (a node of its own, which i
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, add_entity, init_node

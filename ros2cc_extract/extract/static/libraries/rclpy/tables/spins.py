@@ -11,8 +11,8 @@ from typing import TypeGuard
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import is_handed_on
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import ExecutorState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     Awaited,
     add_node,

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.state import OutsideWait
-from ros2cc_extract.extract.static.libraries.rclpy.state import MessageWait, NodeState, RosWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import OutsideWait
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    MessageWait,
+    NodeState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.python.values.values import Instance, Value, options_of
 from ros2cc_extract.places import Place
 

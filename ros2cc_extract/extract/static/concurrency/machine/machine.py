@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-from ros2cc_extract.extract.static.concurrency.state import ConcurrentWorld
-from ros2cc_extract.extract.static.concurrency.wake_operations import ClockRef, DataRef
+from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef, DataRef
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import Instance, Value

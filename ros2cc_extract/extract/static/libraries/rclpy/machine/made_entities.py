@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_made
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.objects.allocation_sites import argument_token
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value
 from ros2cc_extract.places import Place

@@ -10,7 +10,11 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
-from ros2cc_extract.extract.static.concurrency.wake_operations import LoopRun, LoopTouch, Waking
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    LoopRun,
+    LoopTouch,
+    Waking,
+)
 from ros2cc_extract.extract.static.python.machine.library_state import BESIDE, LibraryState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer

@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import End, EntityState, ExecutorState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    End,
+    EntityState,
+    ExecutorState,
+)
 from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
 from ros2cc_extract.places import Place, Unknown

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.concurrency.state import (
+from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,
     ConcurrentWorld,
     OutsideWait,

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.flag_locks import has_waited
-from ros2cc_extract.extract.static.libraries.rclpy.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Value, options_of
 from ros2cc_extract.spec.deeds import FLAG
 from ros2cc_extract.spec.model import EntityKind
