@@ -15,7 +15,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
 from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
-from ros2cc_extract.extract.static.program.relevance import reassigned_attributes, unmangled
+from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind, note_once

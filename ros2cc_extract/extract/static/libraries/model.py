@@ -31,6 +31,7 @@ from ros2cc_extract.extract.static.libraries.standard import (
     servers,
     threads,
 )
+from ros2cc_extract.extract.static.program.relevance import MAKING, MAKING_NAMES
 from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.machine.library_table import LibraryModel
 
@@ -61,6 +62,9 @@ _HARMLESS = (
     'launch',
 )
 """Helpers of the ROS libraries that take a node and add nothing its executor would serve."""
+
+
+_CALLS = frozenset({'call', 'call_async', 'wait_for_service', 'publish', 'declare_parameter'})
 
 
 class _RosModel(LibraryModel):
@@ -105,5 +109,7 @@ def model() -> LibraryModel:
             shutdown.TABLE,
             async_nodes.TABLE,
         ],
-        _HARMLESS,
+        harmless=_HARMLESS,
+        making=MAKING,
+        acting=MAKING_NAMES | _CALLS,
     )

@@ -8,12 +8,8 @@ from collections.abc import Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.program.relevance import (
-    creates_entities,
-    noted_on,
-    waits_for_others,
-    walk,
-)
+from ros2cc_extract.extract.static.program.relevance import creates_entities, waits_for_others
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 
 Item = TypeVar('Item')
 

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros2cc_extract.extract.static.program.relevance import walk
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES, SourceFile
+from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.files import Files
 from ros2cc_extract.places import Place
 

@@ -29,13 +29,10 @@ from ros2cc_extract.extract.static.program.call_order import (
 )
 from ros2cc_extract.extract.static.program.entry_points import Entry
 from ros2cc_extract.extract.static.program.project import Project
-from ros2cc_extract.extract.static.program.relevance import creates_entities, is_test
+from ros2cc_extract.extract.static.program.relevance import creates_entities
+from ros2cc_extract.extract.static.program.text_queries import is_test
 from ros2cc_extract.extract.static.python.language.open_tests import holds_objects
-from ros2cc_extract.extract.static.python.language.plain_data_calls import (
-    leads_nowhere,
-    may_make_entities,
-    may_wait,
-)
+from ros2cc_extract.extract.static.python.language.plain_data_calls import leads_nowhere
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
@@ -59,6 +56,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
+from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
 from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
@@ -174,7 +172,7 @@ def guarded(
     try:
         act()  # type: ignore[operator]
     except BudgetError:
-        if world.nodes or text is None or not leads_nowhere(world, text):
+        if world.nodes or text is None or not leads_nowhere(machine, text):
             why = _why_cut(machine)
     except RecursionError:
         why = 'set-up is nested too deeply to be followed'

@@ -14,9 +14,10 @@ from ros2cc_extract.extract.static.program.call_order import (
     mentions,
 )
 from ros2cc_extract.extract.static.program.project import Project
-from ros2cc_extract.extract.static.program.relevance import creates_entities, is_test, walk
+from ros2cc_extract.extract.static.program.relevance import creates_entities
 from ros2cc_extract.extract.static.program.relevant_files import names_from_scanned
 from ros2cc_extract.extract.static.program.source import SourceFile
+from ros2cc_extract.extract.static.program.text_queries import is_test, walk
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import (
     Call,

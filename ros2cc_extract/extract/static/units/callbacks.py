@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
+from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, beyond, shared
 from ros2cc_extract.extract.static.python.values.values import (
     Class,

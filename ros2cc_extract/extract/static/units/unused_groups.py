@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import GroupState, RosWorld
-from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
 
 

@@ -8,7 +8,7 @@ changes it under the one is seen under the other.
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.program.relevance import reassigned_attributes
+from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
 

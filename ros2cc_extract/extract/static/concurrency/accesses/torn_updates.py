@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from ros2cc_extract.extract.static.concurrency.accesses import collection_aliases
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.program.relevance import noted_on, unmangled, walk
+from ros2cc_extract.extract.static.program.text_queries import noted_on, unmangled, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Piece
 from ros2cc_extract.extract.static.python.machine.world import RECENT

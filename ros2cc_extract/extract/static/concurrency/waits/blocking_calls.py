@@ -46,7 +46,7 @@ from ros2cc_extract.extract.static.python.machine.waitable_objects import (
     is_of_loop,
 )
 from ros2cc_extract.extract.static.python.machine.world import RECENT
-from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption, default_of
+from ros2cc_extract.extract.static.python.values.assumed_defaults import default_of
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -113,7 +113,7 @@ class Waits(ConcurrentMachine):
             source=place,
             on=self._waited_for(on if thing is None or why is not None else thing),
             seconds=_seconds(seconds, place),
-            assumed=_assumed_seconds(seconds),
+            assumed=self._assumed_seconds(seconds),
             chain=world.chain[1:],
             held=held_over(world, on),
             resource=self._resource(name, thing, row, asked=is_ready),
@@ -125,6 +125,11 @@ class Waits(ConcurrentMachine):
             times=world.times,
         )
         return block, thing
+
+    def _assumed_seconds(self, value: Value | None) -> str | None:
+        if not isinstance(value, Mystery) or _default_seconds(value) is None:
+            return None
+        return self.assumption('duration', value)
 
     def note_loop_on_data(
         self,
@@ -429,9 +434,3 @@ def _default_seconds(value: Mystery) -> float | None:
     if not isinstance(known, (int, float)) or isinstance(known, bool):
         return None
     return float(known) if known >= 0 else None
-
-
-def _assumed_seconds(value: Value | None) -> str | None:
-    if not isinstance(value, Mystery) or _default_seconds(value) is None:
-        return None
-    return assumption('duration', value)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 
 _MARK = 'done_before'
 _OF_FUTURES = frozenset(['result', 'exception'])

@@ -25,12 +25,12 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     only_waits,
     spins,
 )
-from ros2cc_extract.extract.static.program.relevance import walk
-from ros2cc_extract.extract.static.python.language.plain_data_calls import reachable
+from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.program.relevance import CHANGING_METHODS, noted_on, walk
+from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.places import Place, Unknown
 

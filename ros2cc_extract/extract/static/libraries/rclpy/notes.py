@@ -10,6 +10,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Cl
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
 from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations
+from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
@@ -125,6 +126,10 @@ class RosNotes(StandardBlocks, RosMachine):
             return False
         run_in_thread(self, function, Call(place, arguments))
         return True
+
+    def assumption(self, fact: str, value: Mystery) -> str:
+        """The rule by which ``fact`` is assumed to be the default of ``value``."""
+        return assumption(fact, value)
 
     def objects_made(self) -> int:
         """How many nodes there are."""

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
-from ros2cc_extract.extract.static.program.relevance import walk
+from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,

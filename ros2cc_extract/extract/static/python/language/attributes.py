@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.program.relevance import MAKING, reassigned_attributes
+from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.language import open_tests
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
@@ -59,7 +59,7 @@ class Attributes(Machine):
             label = text or (f'{value.text}.{name}' if value.text else name)
             return Mystery(value.unknown, label)
         reason = f'attribute {name!r} could not be followed'
-        if name.startswith(MAKING):
+        if name.startswith(self.model.making):
             note_once(self.world.cut, Cut(reason, place, self.running_classes()))
         if isinstance(value, Instance) and self.world.in_callback:
             self.world.lacking.append((value, name))

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable
 from functools import partial
 
-from ros2cc_extract.extract.static.program.relevance import is_test, mangled
+from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
 from ros2cc_extract.extract.static.python.language import plain_data_calls
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
@@ -124,7 +124,7 @@ class Calls(Machine):
         """Run a function; one that works on plain data alone is left after some steps."""
         world = self.world
         is_short = self.steps < plain_data_calls.LONG or self.in_plain or world.deeds is not None
-        if is_short or not plain_data_calls.is_plain(world, function):
+        if is_short or not plain_data_calls.is_plain(self, function):
             return self.run_function(function, call)
         limit, began, depth = self.step_limit, self.steps, self.store.depth
         held, trying = world.held, world.trying

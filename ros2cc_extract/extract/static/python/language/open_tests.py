@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence as Several
 
-from ros2cc_extract.extract.static.program.relevance import (
+from ros2cc_extract.extract.static.program.text_queries import (
     assignments_of_attributes,
     noted_on,
     reassigned_attributes,

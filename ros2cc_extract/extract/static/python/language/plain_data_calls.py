@@ -1,24 +1,22 @@
 """
 Calls that work on plain data alone, and for long: they are left, and what they gave is unknown.
 
-Programs that read a file of some nested format spend their time there, and what makes nodes
-would not be reached. A call is plain by what its text names, and the text of all that it may
-lead to, by name; so it is never one that makes, serves or waits for anything of ROS.
+Programs that read a file of some nested format spend their time there, and what matters would
+not be reached. A call is plain by what its text names, and the text of all that it may lead to,
+by name; so it is never one that starts, locks or waits for anything, nor one that the model of
+its libraries says to act.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
+from functools import partial
 
-from ros2cc_extract.extract.static.program.relevance import (
-    creates_entities,
-    noted_on,
-    waits_for_others,
-    walk,
-)
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable, used_names
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -54,12 +52,7 @@ _DOING = frozenset(
         'Semaphore',
         'Barrier',
         'acquire',
-        'call',
-        'call_async',
         'wait',
-        'wait_for_service',
-        'publish',
-        'declare_parameter',
         'exec',
         'eval',
         'getattr',
@@ -68,75 +61,29 @@ _DOING = frozenset(
 )
 
 
-def is_plain(world: World, function: Function) -> bool:
-    """Whether nothing that ``function`` may lead to has to do with ROS, threads or locks."""
+def is_plain(machine: Machine, function: Function) -> bool:
+    """Whether nothing that ``function`` may lead to acts: makes, serves, starts, locks, waits."""
+    world = machine.world
     if world.plain_of != len(world.trees):
         # What is imported later may define more functions of a name.
         world.plain, world.plain_of = {}, len(world.trees)
     known = world.plain.get(id(function.node))
     if known is None:
-        known = world.plain[id(function.node)] = leads_nowhere(world, function.node)
+        known = world.plain[id(function.node)] = leads_nowhere(machine, function.node)
     return known
 
 
-def leads_nowhere(world: World, start: ast.AST) -> bool:
-    """Whether nothing that ``start`` names makes, serves or waits for anything of ROS."""
+def leads_nowhere(machine: Machine, start: ast.AST) -> bool:
+    """Whether nothing that ``start`` names does more than to compute something."""
+    does_more = partial(_does_more, _DOING | machine.model.acting)
     return not any(
-        creates_entities(node) or noted_on(node, 'does_more', _does_more)
-        for node in reachable(world, start)
+        noted_on(node, 'does_more', does_more) for node in reachable(machine.world, start)
     )
 
 
-def may_make_entities(world: World, start: ast.AST) -> bool:
-    """Whether something that ``start`` names makes or serves entities."""
-    return any(creates_entities(node) for node in reachable(world, start))
-
-
-def may_wait(world: World, start: ast.AST) -> bool:
-    """Whether something that ``start`` names waits for somebody else."""
-    return any(waits_for_others(node) for node in reachable(world, start))
-
-
-def reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
-    """``start``, and the functions and classes that it leads to by name."""
-    indices = [noted_on(tree, 'by_name', _by_name) for tree in world.trees]
-    waiting, seen = [start], {id(start)}
-    while waiting:
-        node = waiting.pop()
-        yield node
-        for name in noted_on(node, 'used_names', _used_names):
-            for index in indices:
-                for other in index.get(name, ()):
-                    if id(other) not in seen:
-                        seen.add(id(other))
-                        waiting.append(other)
-
-
-def _used_names(node: ast.AST) -> frozenset[str]:
-    return frozenset(name for part in walk(node) if (name := _name(part)) is not None)
-
-
-def _name(part: ast.AST) -> str | None:
-    if isinstance(part, ast.Name):
-        return part.id
-    return part.attr if isinstance(part, ast.Attribute) else None
-
-
-def _by_name(tree: ast.Module) -> dict[str, list[ast.AST]]:
-    """The functions and classes of a module, also those without a name of their own."""
-    found: dict[str, list[ast.AST]] = {}
-    for part in walk(tree):
-        if isinstance(part, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-            found.setdefault(part.name, []).append(part)
-        elif isinstance(part, ast.Assign) and isinstance(part.value, ast.Lambda):
-            for name in filter(None, map(_name, part.targets)):
-                found.setdefault(name, []).append(part.value)
-    return found
-
-
-def _does_more(node: ast.AST) -> bool:
+def _does_more(acting: frozenset[str], node: ast.AST) -> bool:
     """Whether it names threads, locks and waits, or calls what somebody hands in."""
-    if not _DOING.isdisjoint(_used_names(node)):
+    if not acting.isdisjoint(used_names(node)):
         return True
     handed_in = {part.arg for part in walk(node) if isinstance(part, ast.arg)} - {'cls'}
     return any(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.static.program.relevance import mangled
+from ros2cc_extract.extract.static.program.text_queries import mangled
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts
 from ros2cc_extract.extract.static.python.machine.store import Writes
 from ros2cc_extract.extract.static.python.values.values import (

@@ -84,11 +84,21 @@ class LibraryModel:
     What is known of code that is not scanned: a class or function by whatever name.
 
     :param harmless: how names begin of what does nothing with what it is given.
+    :param making: how methods are called that make what matters: where one is asked for and
+        cannot be followed, something is missing.
+    :param acting: names in whose text more is done than to compute something.
     """
 
-    def __init__(self, tables: Sequence[Library], harmless: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self,
+        tables: Sequence[Library],
+        *,
+        harmless: tuple[str, ...] = (),
+        making: tuple[str, ...] = (),
+        acting: frozenset[str] = frozenset(),
+    ) -> None:
         self.table = merged(list(tables))
-        self.harmless = harmless
+        self.harmless, self.making, self.acting = harmless, making, acting
         self.canonical: Callable[[str], str] = lru_cache(_KEPT)(self._canonical)
         """The one name under which a name stands in the tables."""
         self.with_bases: Callable[[str], tuple[str, ...]] = lru_cache(_KEPT)(self._with_bases)

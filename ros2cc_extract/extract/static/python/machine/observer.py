@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASK
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Instance,
@@ -153,6 +154,10 @@ class LibraryHooks:
     def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
         """Whether whoever is given ``function`` is taken to run it with these arguments."""
         return False
+
+    def assumption(self, fact: str, value: Mystery) -> str:
+        """The rule by which ``fact`` is assumed to be the default of ``value``."""
+        return assumption(fact, value)
 
     def objects_made(self) -> int:
         """How many objects of libraries there are of which it matters which one is meant."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.program.project import Project
-from ros2cc_extract.extract.static.program.relevance import changed_globals
 from ros2cc_extract.extract.static.program.source import SourceFile
+from ros2cc_extract.extract.static.program.text_queries import changed_globals
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import (

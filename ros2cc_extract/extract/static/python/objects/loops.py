@@ -12,7 +12,6 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.values.assumed_defaults import (
-    assumption,
     items_by_default,
 )
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
@@ -82,7 +81,7 @@ def items_to_run(machine: Machine, value: Value, place: Place) -> Items:
     """What a loop runs over; a list that is a default by assumption."""
     known = items_by_default(value)
     if known and isinstance(value, Mystery):
-        return Items(known, None, {}, assumption('number', value))
+        return Items(known, None, {}, machine.assumption('number', value))
     return items_in(machine, value, place)
 
 

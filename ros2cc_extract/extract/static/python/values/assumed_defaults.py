@@ -14,10 +14,7 @@ from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Value
 
 PARAMETER = 'value of parameter'
-"""How the reason of what a ROS parameter may be begins."""
-
-AT_RUN_TIME = 'name of the node at run time'
-"""Why the name of a node is open: whoever starts it may give it another one."""
+"""How the reason of what somebody may set from outside begins, by the name of that."""
 
 
 def default_of(value: Value | None) -> Value | None:
@@ -57,6 +54,4 @@ def assumption(fact: str, value: Mystery) -> str:
     reason = value.unknown.reason
     if reason.startswith(PARAMETER):
         return f'{fact} follows from {reason.removeprefix("value of ")}'
-    if reason == AT_RUN_TIME:
-        return f'{fact} follows from the name of the node in the source'
     return f'{fact} is the default of parameter {value.text!r}'

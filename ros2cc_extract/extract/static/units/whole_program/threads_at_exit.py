@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ActivityStat
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.program.relevance import noted_on, walk
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
     comes_back,

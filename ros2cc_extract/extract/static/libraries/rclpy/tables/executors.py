@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
+from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     REMOVE_NODE,
     SHUTDOWN_EXECUTOR,
@@ -32,7 +33,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, ghost_node
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     NONE,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import AT_RUN_TIME
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     DESTROY,
     DESTROY_NODE,
@@ -47,7 +48,7 @@ from ros2cc_extract.extract.static.python.objects.allocation_sites import (
     made_before,
     remember,
 )
-from ros2cc_extract.extract.static.python.values.assumed_defaults import AT_RUN_TIME, default_of
+from ros2cc_extract.extract.static.python.values.assumed_defaults import default_of
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
