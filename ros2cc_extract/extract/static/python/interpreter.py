@@ -9,6 +9,7 @@ hooks of ``observer.py``.
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.program.project import Project
+from ros2cc_extract.extract.static.program.source import SourceFile
 from ros2cc_extract.extract.static.python.language.assignments import Assignments
 from ros2cc_extract.extract.static.python.language.attributes import Attributes
 from ros2cc_extract.extract.static.python.language.calls import Calls
@@ -22,6 +23,7 @@ from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects.imports import Imports
 from ros2cc_extract.extract.static.python.objects.instances import Instances
 from ros2cc_extract.extract.static.python.objects.library_calls import LibraryCalls
+from ros2cc_extract.extract.static.python.values.values import Module
 
 RUN_LIMIT = 800_000
 """Statements and expressions of a whole run: some seconds."""
@@ -60,3 +62,12 @@ class Interpreter(
         self.deadline = project.deadline
         self.modules = {}
         self._changed = {}
+
+    def follow(self, source: SourceFile) -> Module:
+        """
+        Run a program from the first line of its main file to the last; returns its globals.
+
+        :raises BudgetError: it is too long to be followed to its end.
+        """
+        self.steps, self.step_limit = 0, self.steps_left
+        return self.run_module(source, '__main__')
