@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from functools import cached_property, lru_cache
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     actions,
     async_nodes,
@@ -112,4 +113,5 @@ def model() -> LibraryModel:
         harmless=_HARMLESS,
         making=MAKING,
         acting=MAKING_NAMES | _CALLS,
+        waits=WAITS,
     )

@@ -32,7 +32,6 @@ from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     NO_ROW,
     SPIN_UNTIL,
-    WAITS,
     WaitRow,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
@@ -81,7 +80,7 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """A call that can hold its thread."""
         world, deeds = self.world, self.world.deeds
-        row = WAITS.get(name, NO_ROW)
+        row: WaitRow = self.model.waits.get(name, NO_ROW)
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
             return
@@ -105,7 +104,8 @@ class Waits(ConcurrentMachine):
         self, name: str, on: Value | None, seconds: Value | None, place: Place
     ) -> tuple[Blocking, Instance | None]:
         """The wait, with references to what it waits on, and the one object that this is."""
-        world, row = self.world, WAITS.get(name, NO_ROW)
+        world = self.world
+        row: WaitRow = self.model.waits.get(name, NO_ROW)
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         thing, why = _one_object(on, place)
         block = Blocking(
@@ -218,7 +218,7 @@ class Waits(ConcurrentMachine):
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
         self._note_outside(name, on, seconds, place, spun)
         if on is not None and (self.world.deeds is None or _is_main(self.world.activity)):
-            call = name if name in WAITS else SPIN_UNTIL
+            call = name if name in self.model.waits else SPIN_UNTIL
             block, thing = self._block(call, on, seconds, place)
             values_during_waits.note_met(self.world, thing)
             self._note_in_set_up(block, thing, place, spun)

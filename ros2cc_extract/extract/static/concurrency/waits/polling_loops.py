@@ -16,7 +16,6 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWo
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import WAITS
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
     call_of_loop,
@@ -368,14 +367,14 @@ def _counts(loop: ast.While) -> bool:
 def _is_told(machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
     """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
     inside = deeds.blocking[before.waits :]
-    others = [block for block in inside if not _is_pause(block.call)]
+    others = [block for block in inside if not _is_pause(machine, block.call)]
     if any(block.call in ('busy wait', 'await') or 'spin' in block.call for block in others):
         return True
     return bool(others) and machine.world.activity is None
 
 
-def _is_pause(call: str) -> bool:
-    row = WAITS.get(call)
+def _is_pause(machine: ConcurrentMachine, call: str) -> bool:
+    row = machine.model.waits.get(call)
     return call == 'Rate.sleep' or (row is not None and row.always == (TIME,))
 
 

@@ -1,8 +1,7 @@
 """
-What waits, and what ends it: the one table of the waits that the scanner knows.
+What waits, and what ends it: the form of such tables, and the one of Python's own libraries.
 
-Sources: CPython 3.12, ``threading.py``, ``queue.py``, ``concurrent/futures/``; rclpy 7.1.6,
-``client.py``, ``timer.py``, ``task.py``, ``clock.py``.
+Source: CPython 3.12, ``threading.py``, ``queue.py``, ``concurrent/futures/``.
 """
 
 from __future__ import annotations
@@ -44,9 +43,8 @@ def _row(
     return WaitRow(frozenset(words), needs, unless_asked=unless_asked, rival=rival)
 
 
-_SLEEP = WaitRow(always=(TIME,))
-_OUTSIDE = WaitRow(always=(OUTSIDE,))
-_ANSWER = _row(Word.END)
+SLEEP = WaitRow(always=(TIME,))
+OF_OUTSIDE = WaitRow(always=(OUTSIDE,))
 _FUTURE = _row(Word.SET, Word.END, unless_asked=True)
 
 WAITS: dict[str, WaitRow] = {
@@ -77,21 +75,11 @@ WAITS: dict[str, WaitRow] = {
     'busy wait': _FUTURE,
     SPIN_UNTIL: _FUTURE,
     WORKING_LOOP: _FUTURE,
-    'time.sleep': _SLEEP,
-    'asyncio.sleep': _SLEEP,
-    TURN: _SLEEP,
-    'Clock.sleep_for': _SLEEP,
-    'Clock.sleep_until': _SLEEP,
-    'wait_for_message': WaitRow(),
-    'client.call': _ANSWER,
-    'send_goal': _ANSWER,
-    'get_result': _ANSWER,
-    'cancel_goal': _ANSWER,
-    'Rate.sleep': _ANSWER,
-    'wait_for_service': _OUTSIDE,
-    'wait_for_server': _OUTSIDE,
-    **dict.fromkeys(CALLS, _OUTSIDE),
-    **dict.fromkeys(READS_OF_CAMERAS, _SLEEP),
+    'time.sleep': SLEEP,
+    'asyncio.sleep': SLEEP,
+    TURN: SLEEP,
+    **dict.fromkeys(CALLS, OF_OUTSIDE),
+    **dict.fromkeys(READS_OF_CAMERAS, SLEEP),
 }
 
 NO_ROW = WaitRow()

@@ -7,9 +7,10 @@ those of Python itself, to the interpreter.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
@@ -87,6 +88,7 @@ class LibraryModel:
     :param making: how methods are called that make what matters: where one is asked for and
         cannot be followed, something is missing.
     :param acting: names in whose text more is done than to compute something.
+    :param waits: what ends each wait, by its name, see ``wait_table.py``.
     """
 
     def __init__(
@@ -96,9 +98,11 @@ class LibraryModel:
         harmless: tuple[str, ...] = (),
         making: tuple[str, ...] = (),
         acting: frozenset[str] = frozenset(),
+        waits: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         self.table = merged(list(tables))
         self.harmless, self.making, self.acting = harmless, making, acting
+        self.waits = waits
         self.canonical: Callable[[str], str] = lru_cache(_KEPT)(self._canonical)
         """The one name under which a name stands in the tables."""
         self.with_bases: Callable[[str], tuple[str, ...]] = lru_cache(_KEPT)(self._with_bases)
