@@ -31,7 +31,7 @@ from ros2cc_extract.extract.static.program.entry_points import Entry
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.relevance import creates_entities
 from ros2cc_extract.extract.static.program.text_queries import is_test
-from ros2cc_extract.extract.static.python.language.open_tests import holds_objects
+from ros2cc_extract.extract.static.python.branching.open_tests import holds_objects
 from ros2cc_extract.extract.static.python.language.plain_data_calls import leads_nowhere
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError

@@ -35,7 +35,7 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     WaitRow,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
-from ros2cc_extract.extract.static.python.language.parameter_branches import only_if
+from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer, way_of

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes
+from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
-from ros2cc_extract.extract.static.python.language import open_tests
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import subclass_registry

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
-from ros2cc_extract.extract.static.python.language import conditions, open_tests
+from ros2cc_extract.extract.static.python.branching import conditions, open_tests
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame

@@ -14,7 +14,7 @@ from functools import partial, reduce
 from operator import or_
 from typing import Any
 
-from ros2cc_extract.extract.static.python.language import (
+from ros2cc_extract.extract.static.python.branching import (
     correlated_tests,
     open_tests,
     parameter_branches,
