@@ -51,7 +51,11 @@ class Notes(Effects):
         reading = self.world.reading
         if is_first:
             flag_locks.note_test(
-                reading, node, found, place, lambda each: flag_locks.constant(self, each, frame)
+                reading,
+                node,
+                found,
+                place,
+                lambda each: flag_locks.constant_text(self, each, frame),
             )
         lost_notifies.note_test(self.world, node.test, place, reading.tests[place])
 

@@ -27,13 +27,10 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.extract.static.scan.callback_runs import run_callbacks
+from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
-from ros2cc_extract.extract.static.scan.runs import (
-    UNCALLED,
-    guarded,
-    run_callbacks,
-    run_rest_of_instances,
-)
+from ros2cc_extract.extract.static.scan.runs import UNCALLED, run_rest_of_instances
 from ros2cc_extract.extract.static.scan.test_programs import end_test
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import When

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of, remove_node
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import remove_node
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Function, Instance
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin, nodes_of
 from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, exclusive
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, options_of

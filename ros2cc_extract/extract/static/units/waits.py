@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
@@ -22,13 +22,14 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     uncalled_wakers,
 )
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
+from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
     why_wiped_out,
@@ -59,7 +60,6 @@ from ros2cc_extract.spec.deeds import (
     OUTSIDE,
     POLLING_LOOP,
     TIME,
-    Access,
     Blocking,
     Needs,
     Waker,
@@ -73,19 +73,8 @@ NOWHERE = Place('')
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
 
-Doer = EntityState | ActivityState
 
-
-@dataclass
-class _Kept:
-    """The waits of one callback or activity that the unit tells of, and where each raw one is."""
-
-    raw: list[Blocking] = field(default_factory=list)
-    named: list[Blocking] = field(default_factory=list)
-    places: dict[object, int] = field(default_factory=dict)
-
-
-class UnitWaits:
+class UnitWaits(DataWriters):
     """
     Names what the callbacks and activities of a unit wait for.
 
@@ -93,8 +82,7 @@ class UnitWaits:
     """
 
     def __init__(self, world: RosWorld, names: dict[int, str], doers: Iterable[Doer]) -> None:
-        self._world = world
-        self._names = names
+        super().__init__(world, names, tuple(doers))
         self._resources: dict[object, str] = {}
         self._taken: dict[str, int] = {}
         self._settled = dict(names)
@@ -102,9 +90,7 @@ class UnitWaits:
             setter = the_setter(wakings)
             if setter is not None and id(setter) in names:
                 self._settled[number] = names[id(setter)]
-        doers = tuple(doers)
-        self._doers = doers
-        self._kept = {id(doer): self._keep(doer) for doer in doers}
+        self._kept = {id(doer): self._keep(doer) for doer in self._doers}
 
     def of(self, doer: Doer) -> tuple[Blocking, ...]:
         """The waits of ``doer``."""
@@ -120,9 +106,9 @@ class UnitWaits:
         del self._kept[id(doer)]
         return tuple(zip(kept.raw, named, strict=True))
 
-    def _keep(self, doer: Doer) -> _Kept:
+    def _keep(self, doer: Doer) -> Kept:
         """Waits for one of several that have no name here are alike."""
-        kept = _Kept()
+        kept = Kept()
         for raw in (doer.deeds or Deeds()).blocking:
             if not self._is_none(raw, doer) and not self._gives_back(raw, doer):
                 named = self._named(raw)
@@ -199,55 +185,6 @@ class UnitWaits:
         wakings = self._world.wakings.get(on.number, ())
         setters = [waking for waking in wakings if waking.word is Word.SET]
         return bool(setters) and all(is_activity(waking.by) for waking in setters)
-
-    def _the_writer(self, on: DataRef) -> str:
-        """The one callback that writes what a loop waits for, else the name of the data."""
-        names = {
-            name for doer, _ in self._writes(on) if (name := self._names.get(id(doer))) is not None
-        }
-        is_open = data_is_written_elsewhere(self._world, on.names) is not None
-        is_one = len(names) == 1 and not is_open
-        doer = next((doer for doer, _ in self._writes(on)), None)
-        return names.pop() if is_one and not is_activity(doer) else str(on)
-
-    def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
-        """Who writes what a loop waits for, but for what its own callback did before."""
-        for doer in self._doers:
-            for access in (doer.deeds or Deeds()).writes:
-                is_before = (access.name, access.source) in on.before
-                if access.name in on.names and not is_before:
-                    yield doer, access
-
-    def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
-        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
-        by = [clock if isinstance(clock, str) else OUTSIDE]
-        if not any(self._senders(TopicRef(topic))):
-            by.append(OUTSIDE)
-        return tuple(Waker(by=each) for each in dict.fromkeys(by))
-
-    def _writers(self, on: DataRef) -> Iterator[Waker]:
-        for doer, access in self._writes(on):
-            yield self._does(doer, access.name, access.source)
-
-    def _senders(self, topic: TopicRef) -> Iterator[Waker]:
-        """Who publishes what is waited for; the names are compared as they are written."""
-        for doer in self._doers:
-            for act in (doer.deeds or Deeds()).publishes:
-                if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
-                    yield self._does(doer, act.name, act.source)
-
-    def _at_end(self, on: DataRef, doer: Doer) -> Iterator[Waker]:
-        """What the program does when the spin has ended, which ends its threads from outside."""
-        for name in sorted(on.names) if is_activity(doer) else ():
-            by, place = self._world.other_writes.get(name, ('', None))
-            if by is None:
-                yield Waker(by=OUTSIDE, source=place)
-
-    def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
-        """A write or a message of ``doer`` that ends a wait."""
-        behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
-        after = self._kept[id(doer)].places.get(behind, 0)
-        return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
         if isinstance(raw.on, ClockRef):

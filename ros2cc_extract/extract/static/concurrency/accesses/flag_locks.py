@@ -98,7 +98,7 @@ def _name_of(test: ast.expr) -> str | None:
     return test.id if isinstance(test, ast.Name) else None
 
 
-def constant(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> str | None:
+def constant_text(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> str | None:
     """What a name, or an attribute, or a literal stands for, if that is one constant."""
     if not isinstance(value, (ast.Name, ast.Attribute, ast.Constant)):
         return None

@@ -8,13 +8,26 @@ reads ends it.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
+from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
+    asks_for_cancel,
+    asks_for_service,
+    asks_object,
+    exit_tests,
+    is_neutral,
+    leaves,
+    name_of,
+    names_assigned,
+    names_grown,
+    only_sleeps,
+    owners,
+    runs_out,
+)
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
@@ -43,15 +56,6 @@ from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
 
 POLL = POLLING_LOOP
-_LEAVES = (ast.Break, ast.Return, ast.Raise)
-_INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
-_NEUTRAL = frozenset(
-    ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
-)
-_CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
-_CHANGED_BY_CLIENTS = frozenset(['is_cancel_requested', 'is_active'])
-_OF_SERVICES = frozenset(['wait_for_service', 'service_is_ready', 'server_is_ready'])
-_ASKED = _OF_SERVICES | {'done', 'is_set', 'is_alive'}
 
 
 @dataclass(frozen=True)
@@ -127,7 +131,7 @@ def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
 
 def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told) -> bool:
     """Whether what happens to objects makes the test fail; the loop waits for that."""
-    tests = list(_exit_tests(loop))
+    tests = list(exit_tests(loop))
     place = frame.place(loop)
     why = Unknown('the loop also ends otherwise', place)
     is_timed = any(_ends_otherwise(machine, test, loop, frame) for test in tests)
@@ -160,25 +164,11 @@ def _ends_otherwise(
         return _ends_otherwise(machine, test.operand, loop, frame)
     if _tells(machine, test, frame):
         return False
-    return _runs_out(test, loop) or _asks_for_cancel(test)
-
-
-def _asks_for_cancel(test: ast.expr) -> bool:
-    """Whether a goal is asked for what its client, another process as a rule, may change."""
-    parts = (part for part in walk(test) if isinstance(part, ast.Attribute))
-    return any(part.attr in _CHANGED_BY_CLIENTS for part in parts)
-
-
-def _runs_out(test: ast.expr, loop: ast.While) -> bool:
-    """Whether a clock is asked, or what each round of the loop changes."""
-    called = {_name_of(part) for part in walk(test) if isinstance(part, ast.Call)}
-    stored = {name for each in loop.body for part in walk(each) for name in _assigned(part)}
-    names = {part.id for part in walk(test) if isinstance(part, ast.Name)}
-    return not called.isdisjoint(_CLOCKS) or not names.isdisjoint(stored)
+    return runs_out(test, loop) or asks_for_cancel(test)
 
 
 def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
-    return _asks_object(test) or _told_now(machine, test, frame) is not None
+    return asks_object(test) or _told_now(machine, test, frame) is not None
 
 
 def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
@@ -193,7 +183,7 @@ def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told 
 
 def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
     """What makes a loop end whose test tells of it only after a round, or stands inside."""
-    for test in _exit_tests(loop):
+    for test in exit_tests(loop):
         told = _told_now(machine, test, frame)
         if told is not None:
             return told if test is loop.test else told.negated()
@@ -216,14 +206,14 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):
         return
-    tests = list(_exit_tests(loop))
+    tests = list(exit_tests(loop))
     if not tests:
-        if is_endless(loop) and machine.world.in_callback and not _leaves(loop):
+        if is_endless(loop) and machine.world.in_callback and not leaves(loop):
             place = frame.place(loop)
             unknown = Unknown('nothing but the end of the program ends the loop', place)
             machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
         return
-    names = _read(machine, [test for test in tests if not _asks_object(test)], frame)
+    names = _read(machine, [test for test in tests if not asks_object(test)], frame)
     written = {access.name for access in deeds.writes[before.writes :]}
     if names & (written | set(deeds.own[before.own :])):
         return
@@ -247,7 +237,7 @@ def _note_own_end(
 
 def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
-    is_plain = is_idle(loop) and not _asks_object(loop.test) and not _leaves(loop)
+    is_plain = is_idle(loop) and not asks_object(loop.test) and not leaves(loop)
     if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
         return
     names = _read(machine, [loop.test], frame)
@@ -291,14 +281,14 @@ def _leaves_to_others(world: ConcurrentWorld, loop: ast.While, names: set[str]) 
         for node in reachable(world, loop)
         for part in walk(node)
     )
-    return not _leaves(loop) and not any(stores)
+    return not leaves(loop) and not any(stores)
 
 
 def _holds(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
     """Whether it comes out so for certain, as long as nobody shuts rclpy down."""
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
         return all(_holds(machine, each, frame) for each in test.values)
-    is_ok = isinstance(test, ast.Call) and _name_of(test) == 'ok'
+    is_ok = isinstance(test, ast.Call) and name_of(test) == 'ok'
     return is_ok or machine.truth(machine.evaluate(test, frame)) is True
 
 
@@ -334,8 +324,8 @@ def _note(
         reference.sent_by_now = sent_by_now(machine.world.deeds or Deeds())
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
-    elif (not ends_otherwise or _is_idle(loop, tests)) and not any(
-        _asks_for_service(test) for test in tests
+    elif (not ends_otherwise or only_sleeps(loop, tests)) and not any(
+        asks_for_service(test) for test in tests
     ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
@@ -346,22 +336,6 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
     """Whether the loop asks, under the lock of a condition, for what it waits on that for."""
     guard = block.resource.guard if isinstance(block.resource, ResourceRef) else None
     return guard is not None and asked is not None and guard.hold in asked.holds
-
-
-def _is_idle(loop: ast.While, tests: list[ast.expr]) -> bool:
-    """Whether it only sleeps until something is answered otherwise that no clock tells."""
-    called = {
-        _name_of(part) for test in tests for part in walk(test) if isinstance(part, ast.Call)
-    }
-    return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
-
-
-def _counts(loop: ast.While) -> bool:
-    return any(
-        isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
-        for each in loop.body
-        for part in walk(each)
-    )
 
 
 def _is_told(machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
@@ -376,31 +350,6 @@ def _is_told(machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: 
 def _is_pause(machine: ConcurrentMachine, call: str) -> bool:
     row = machine.model.waits.get(call)
     return call == 'Rate.sleep' or (row is not None and row.always == (TIME,))
-
-
-def _exit_tests(loop: ast.While) -> Iterator[ast.expr]:
-    """Tests one of which must come out otherwise for the loop to end."""
-    if not is_endless(loop):
-        yield loop.test
-    for part in _own_parts(loop):
-        if isinstance(part, ast.If) and any(
-            isinstance(each, _LEAVES) for arm in (part.body, part.orelse) for each in arm
-        ):
-            yield part.test
-
-
-def _leaves(loop: ast.While) -> bool:
-    return any(isinstance(part, (*_LEAVES, ast.Yield, ast.Await)) for part in _own_parts(loop))
-
-
-def _own_parts(loop: ast.While) -> Iterator[ast.AST]:
-    """What stands in the body of a loop, and in no function inside of it."""
-    waiting: list[ast.AST] = list(loop.body)
-    while waiting:
-        part = waiting.pop(0)
-        if not isinstance(part, _INNER):
-            yield part
-            waiting.extend(ast.iter_child_nodes(part))
 
 
 def _read(machine: ConcurrentMachine, tests: list[ast.expr], frame: Frame) -> set[str]:
@@ -418,13 +367,13 @@ def _read(machine: ConcurrentMachine, tests: list[ast.expr], frame: Frame) -> se
 def _is_foreign(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
     """Whether something else than shared data may turn out otherwise: a clock, a counter."""
     parts = [part for each in loop.body for part in walk(each)]
-    assigned = {name for part in parts for name in _assigned(part)}
-    grown = {name for part in parts for name in _grown(part)} - _owners(test)
+    assigned = {name for part in parts for name in names_assigned(part)}
+    grown = {name for part in parts for name in names_grown(part)} - owners(test)
     for part in walk(test):
         if isinstance(part, ast.Name) and part.id in assigned | grown:
             return True
         if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not (
-            _is_neutral(part) or _only_looks(machine, part, frame)
+            is_neutral(part) or _only_looks(machine, part, frame)
         ):
             return True
     return False
@@ -449,57 +398,4 @@ def _asks_nobody(function: Value) -> bool:
         return False
     asking = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
     parts = walk(function.node)
-    return all(_is_neutral(part) for part in parts if isinstance(part, asking))
-
-
-def _assigned(part: ast.AST) -> Iterator[str]:
-    if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store):
-        yield part.id
-
-
-def _grown(part: ast.AST) -> Iterator[str]:
-    """Names whose object a method, an assignment to an item, or who gets it may change."""
-    if isinstance(part, ast.Call) and _name_of(part) not in _NEUTRAL:
-        yield from (each.id for each in part.args if isinstance(each, ast.Name))
-    target = part.func if isinstance(part, ast.Call) else part
-    is_stored = isinstance(part, ast.Subscript) and isinstance(part.ctx, ast.Store)
-    if (isinstance(part, ast.Call) or is_stored) and isinstance(
-        target, (ast.Attribute, ast.Subscript)
-    ):
-        owner = target.value
-        if isinstance(owner, ast.Name):
-            yield owner.id
-
-
-def _owners(test: ast.expr) -> set[str]:
-    """Names of which the test reads an attribute: that is shared data, and asked as such."""
-    parts = (part.value for part in walk(test) if isinstance(part, ast.Attribute))
-    return {owner.id for owner in parts if isinstance(owner, ast.Name)}
-
-
-def _is_neutral(part: ast.expr) -> bool:
-    return isinstance(part, ast.Call) and _name_of(part) in _NEUTRAL
-
-
-def _name_of(call: ast.Call) -> str:
-    function = call.func
-    return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-
-
-def _asks_object(test: ast.expr) -> bool:
-    """What is asked by a method is told where that is noted."""
-    return _calls_one_of(test, _ASKED)
-
-
-def _asks_for_service(test: ast.expr) -> bool:
-    """Whether others are there is a wait of its own."""
-    return _calls_one_of(test, _OF_SERVICES)
-
-
-def _calls_one_of(test: ast.expr, names: frozenset[str]) -> bool:
-    return any(
-        isinstance(part, ast.Call)
-        and isinstance(part.func, ast.Attribute)
-        and part.func.attr in names
-        for part in walk(test)
-    )
+    return all(is_neutral(part) for part in parts if isinstance(part, asking))

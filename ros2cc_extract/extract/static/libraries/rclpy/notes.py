@@ -11,26 +11,27 @@ from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
 from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
-from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
-from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
-    NODE_EXECUTOR,
-    UNKNOWN_CLIENT,
-    result_of,
-)
-from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import (
+from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
     CLOCKS,
     slept,
     time_from_now,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import add_task
+from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
+    UNKNOWN_CLIENT,
+    result_of,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import node_executor
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     CREATE_CALLS,
     NODE,
     ghost_node,
     make_node,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import add_task
 from ros2cc_extract.extract.static.libraries.standard.blocks import StandardBlocks
+from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.objects.library_calls import is_standard
@@ -45,7 +46,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.spec.deeds import ABORTS, Act
 from ros2cc_extract.spec.model import EntityKind
 
 _ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
@@ -67,7 +68,7 @@ class RosNotes(StandardBlocks, RosMachine):
             return None
         if not cls.name.startswith('rclpy.') or name != 'executor':
             return None
-        return NODE_EXECUTOR[1](self, receiver, place)
+        return node_executor(self, receiver, place)
 
     def member_of_unknown_base(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
@@ -164,6 +165,15 @@ class RosNotes(StandardBlocks, RosMachine):
     def note_raised(self, error: ast.expr, place: Place) -> None:
         """What a callback raises may end the spin that runs it."""
         end_operations.note_raised(self, error, place)
+
+    def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
+        """``goal_handle.abort()`` of a goal that is not known: one that runs is told to stop."""
+        super().note_call(function, node, frame)
+        deeds, called = self.world.deeds, node.func
+        is_abort = isinstance(called, ast.Attribute) and called.attr == ABORTS
+        if deeds is not None and is_abort and isinstance(function, Mystery):
+            act = Act(name=ABORTS, source=frame.place(node), chain=self.world.chain[1:])
+            note_once(deeds.changes, act)
 
     def note_clock_call(self, call: Call) -> bool:
         """The clock of a node is not followed: its methods wait by their names."""

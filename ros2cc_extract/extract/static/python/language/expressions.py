@@ -7,13 +7,12 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import conditions, open_tests
+from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
-from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import AccessKind, note_once
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
 from ros2cc_extract.extract.static.python.values import constant_folding
@@ -39,7 +38,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     present,
 )
 from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import ABORTS, ADDS, TAKES, Act
 from ros2cc_extract.spec.model import When
 
 _DEPTH_LIMIT = 120
@@ -219,123 +217,6 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     return machine.attribute(owner, name, place, text)
 
 
-def _call(machine: Expressions, node: ast.Call, frame: Frame) -> Value:
-    if isinstance(node.func, ast.Name) and node.func.id == 'super' and not node.args:
-        return machine.zero_argument_super(frame)
-    _note_heap(machine, node, frame)
-    machine.world.reading.note_use(node.func, frame.place(node.func))
-    _note_choice(machine, node, frame)
-    function = _called(machine, node.func, frame)
-    call = arguments(machine, node, frame)
-    machine.note_call(function, node, frame)
-    if isinstance(function, Mystery):
-        call.text = node
-        _note_abort(machine, node, call.place)
-    if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
-        return machine.mystery(f'{function.name}()', call.place)
-    machine.world.reading.calls += 1
-    return machine.call(function, call)
-
-
-def _called(machine: Expressions, node: ast.expr, frame: Frame) -> Value:
-    """The function of a call; a method that changes its owner in place is an update of it."""
-    if (
-        machine.world.deeds is None
-        or not isinstance(node, ast.Attribute)
-        or node.attr not in CHANGING_METHODS
-        or not isinstance(node.value, (ast.Attribute, ast.Name))
-    ):
-        function = machine.evaluate(node, frame)
-        _note_within(machine, node, frame)
-        return function
-    machine.note_part(node.value, frame, f'.{node.attr}')
-    noted, machine.world.deeds = machine.world.deeds, None
-    function = machine.evaluate(node, frame)
-    machine.world.deeds = noted
-    machine.world.moves = _MOVES.get(node.attr)
-    machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
-    machine.world.moves = None
-    return function
-
-
-_MOVES = {
-    **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
-    **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
-}
-
-
-def _note_abort(machine: Expressions, node: ast.Call, place: Place) -> None:
-    """``goal_handle.abort()``: a goal that runs is told to stop."""
-    deeds, function = machine.world.deeds, node.func
-    if deeds is not None and isinstance(function, ast.Attribute) and function.attr == ABORTS:
-        act = Act(name=ABORTS, source=place, chain=machine.world.chain[1:])
-        note_once(deeds.changes, act)
-
-
-_OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
-
-
-def _note_choice(machine: Expressions, node: ast.Call, frame: Frame) -> None:
-    """``self.free.remove(slot)``: which item is meant may have been looked up before."""
-    function = node.func
-    if machine.world.deeds is None or not isinstance(function, ast.Attribute):
-        return
-    if function.attr in _OF_ONE_ITEM and node.args:
-        sources, place = computed_from(node.args[0], frame.sources), frame.place(function.value)
-        machine.world.reading.note_choice(function.value, sources, place)
-
-
-def _note_heap(machine: Expressions, node: ast.Call, frame: Frame) -> None:
-    """``heapq.heappop(self.rows)`` changes its argument in place (``heapq``)."""
-    function = node.func
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-    if name.startswith('heap') and node.args and machine.world.deeds is not None:
-        machine.note_update(node.args[0], frame, AccessKind.UPDATE_IN_PLACE)
-
-
-def _note_within(machine: Expressions, node: ast.expr, frame: Frame) -> None:
-    """``self.rows[k].append(x)`` leaves ``self.rows`` as it is, and changes what lies in it."""
-    if not isinstance(node, ast.Attribute) or node.attr not in CHANGING_METHODS:
-        return
-    target = node.value
-    while isinstance(target, ast.Subscript):
-        target = target.value
-    if target is not node.value and isinstance(target, (ast.Attribute, ast.Name)):
-        machine.note_update(target, frame, AccessKind.WITHIN)
-
-
-def arguments(machine: Expressions, node: ast.Call, frame: Frame) -> Call:
-    """Evaluate the arguments of a call, starred ones spread out."""
-    call = Call(frame.place(node))
-    for argument in node.args:
-        if isinstance(argument, ast.Starred):
-            value = machine.evaluate(argument.value, frame)
-            items, rest = machine.items_of(value, frame.place(argument))
-            machine.charge(len(items))
-            call.args.extend(items)
-            call.more = call.more or rest
-        else:
-            at = len(call.args) if call.more is None else None
-            call.args.append(open_tests.evaluate_argument(machine, argument, frame, call, at))
-    for keyword in node.keywords:
-        value = open_tests.evaluate_argument(machine, keyword.value, frame, call, keyword.arg)
-        if keyword.arg is not None:
-            call.keywords[keyword.arg] = value
-        else:
-            _spread(machine, value, call, frame.place(keyword.value))
-    return call
-
-
-def _spread(machine: Expressions, value: Value, call: Call, place: Any) -> None:
-    if isinstance(value, Mapping):
-        for key, item in value.entries.items():
-            if isinstance(key, Const) and isinstance(key.value, str):
-                call.keywords[key.value] = item
-        call.more = call.more or value.rest
-    else:
-        call.more = call.more or machine.items_of(value, place)[1]
-
-
 def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:
     def handler(machine: Expressions, node: ast.List | ast.Tuple | ast.Set, frame: Frame) -> Value:
         items: list[Value] = []
@@ -478,7 +359,7 @@ _EXPRESSIONS: dict[type[ast.expr], Callable[..., Value]] = {
     ast.Name: _name,
     ast.Constant: _constant,
     ast.Attribute: _attribute,
-    ast.Call: _call,
+    ast.Call: evaluate_call,
     ast.List: _collection('list'),
     ast.Tuple: _collection('tuple'),
     ast.Set: _collection('set'),

@@ -9,14 +9,13 @@ its libraries says to act.
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterable
-from functools import partial
 
-from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
-from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable, used_names
+from ros2cc_extract.extract.static.python.objects.reachable_texts import (
+    leads_nowhere,
+)
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -37,29 +36,6 @@ LONG = 5_000
 FOR_EACH, AT_LEAST, FOR_ALL = 10_000, 150, 60_000
 """Steps that all plain calls of one function may take, each call at least, all in one run."""
 
-_DOING = frozenset(
-    {
-        'Thread',
-        'Timer',
-        'Process',
-        'ThreadPoolExecutor',
-        'ProcessPoolExecutor',
-        'submit',
-        'Lock',
-        'RLock',
-        'Event',
-        'Condition',
-        'Semaphore',
-        'Barrier',
-        'acquire',
-        'wait',
-        'exec',
-        'eval',
-        'getattr',
-        'exit',
-    }
-)
-
 
 def is_plain(machine: Machine, function: Function) -> bool:
     """Whether nothing that ``function`` may lead to acts: makes, serves, starts, locks, waits."""
@@ -71,27 +47,6 @@ def is_plain(machine: Machine, function: Function) -> bool:
     if known is None:
         known = world.plain[id(function.node)] = leads_nowhere(machine, function.node)
     return known
-
-
-def leads_nowhere(machine: Machine, start: ast.AST) -> bool:
-    """Whether nothing that ``start`` names does more than to compute something."""
-    does_more = partial(_does_more, _DOING | machine.model.acting)
-    return not any(
-        noted_on(node, 'does_more', does_more) for node in reachable(machine.world, start)
-    )
-
-
-def _does_more(acting: frozenset[str], node: ast.AST) -> bool:
-    """Whether it names threads, locks and waits, or calls what somebody hands in."""
-    if not acting.isdisjoint(used_names(node)):
-        return True
-    handed_in = {part.arg for part in walk(node) if isinstance(part, ast.arg)} - {'cls'}
-    return any(
-        isinstance(part, ast.Call)
-        and isinstance(part.func, ast.Name)
-        and part.func.id in handed_in
-        for part in walk(node)
-    )
 
 
 def allowance(world: World, function: Function) -> int:

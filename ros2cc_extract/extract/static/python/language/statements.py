@@ -8,16 +8,19 @@ more than one bit is set where that depends on a branch nobody can decide.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from functools import partial, reduce
+from collections.abc import Callable, Sequence
+from functools import reduce
 from operator import or_
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import (
-    correlated_tests,
     open_tests,
-    parameter_branches,
+)
+from ros2cc_extract.extract.static.python.language.control_flow import (
+    run_for,
+    run_if,
+    run_match,
+    run_while,
 )
 from ros2cc_extract.extract.static.python.language.try_blocks import run_try
 from ros2cc_extract.extract.static.python.language.with_blocks import run_with
@@ -30,15 +33,13 @@ from ros2cc_extract.extract.static.python.machine.block_exits import (
     NEXT,
     RETURN,
 )
-from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.store import Writes
 from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
 )
-from ros2cc_extract.extract.static.python.objects import iterators, loops, memoization
-from ros2cc_extract.extract.static.python.objects.allocation_sites import note_open_test
+from ros2cc_extract.extract.static.python.objects import memoization
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -54,7 +55,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.places import Place
 
 
 class Statements(Machine):
@@ -137,26 +138,6 @@ def _keep_loop_exits(ends: Sequence[tuple[int, Writes]], frame: Frame) -> None:
 def _held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
     """Locks that are held however the branches were left."""
     return tuple(lock for lock in ends[0] if all(lock in others for others in ends[1:]))
-
-
-@contextmanager
-def _loop(machine: Statements, frame: Frame) -> Iterator[None]:
-    """A loop runs inside; afterwards what held at any ``break`` may hold."""
-    outer = frame.breaks, frame.continues, frame.known_at_break
-    frame.breaks, frame.continues, frame.known_at_break = [], [], []
-    try:
-        yield
-        machine.store.join([{}], frame.breaks)
-    finally:
-        frame.breaks, frame.continues, frame.known_at_break = outer
-
-
-def _round(machine: Statements, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Run the body of a loop once."""
-    flow = machine.execute_block(body, frame)
-    machine.store.join([{}], frame.continues)
-    frame.continues.clear()
-    return flow
 
 
 def _without(writes: Writes, scope: Scope) -> Writes:
@@ -259,156 +240,9 @@ def _raise(machine: Statements, node: ast.Raise, frame: Frame) -> int:
     return DEAD
 
 
-def _if(machine: Statements, node: ast.If, frame: Frame) -> int:
-    holds = open_tests.decide_branch(machine, node, frame, node)
-    if holds is not None:
-        return machine.execute_block(node.body if holds else node.orelse, frame)
-    note_open_test(machine.world, node.test, frame.place(node))
-    asked = machine.world.tested
-    bodies = _arms(machine, node, frame)
-    if len(bodies) != len(('then', 'else')):
-        parameter_branches.note_arms(machine, node.test, asked, frame.place(node))
-        return machine.branches(bodies, frame.place(node), frame)
-    place, is_opposite = correlated_tests.first_place(machine, node, frame)
-    parameter_branches.note_arms(machine, node.test, asked, place, is_opposite=is_opposite)
-    return machine.branches(bodies[::-1] if is_opposite else bodies, place, frame)
-
-
-def _arms(machine: Statements, node: ast.If, frame: Frame) -> list[Callable[[], int]]:
-    """The arms of an undecided ``if … elif … else`` as alternatives of one statement."""
-    told = path_facts.told_by(machine.world.tested)
-    so_far: tuple[path_facts.Told, ...] = ()
-    is_one_of_two = not (len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If))
-    arm = partial(_arm, machine, frame, is_one_of_two=is_one_of_two)
-    arms: list[Callable[[], int]] = [arm(node.body, so_far, told)]
-    rest = node.orelse
-    while len(rest) == 1 and isinstance(rest[0], ast.If):
-        inner = rest[0]
-        so_far = (*so_far, told) if told is not None else so_far
-        holds = open_tests.decide_branch(machine, inner, frame, node)
-        told = path_facts.told_by(machine.world.tested)
-        if holds is not False:
-            arms.append(arm(inner.body, so_far, told))
-        if holds is True:
-            return arms
-        rest = inner.orelse
-    so_far = (*so_far, told) if told is not None else so_far
-    arms.append(arm(rest, so_far, None))
-    return arms
-
-
-def _arm(
-    machine: Statements,
-    frame: Frame,
-    body: Sequence[ast.stmt],
-    fails: Sequence[path_facts.Told],
-    holds: path_facts.Told | None,
-    *,
-    is_one_of_two: bool,
-) -> Callable[[], int]:
-    """An arm that is run where some tests have failed, and its own, if any, has held."""
-
-    def run() -> int:
-        for told in fails:
-            machine.world.assume(told, holds=False)
-        machine.world.assume(holds, holds=True)
-        if is_one_of_two:
-            skipped = holds.fails if holds is not None else fails[0].holds if fails else None
-            machine.world.skipped_if[machine.world.path[-1]] = skipped or path_facts.NOTHING
-        return machine.execute_block(body, frame)
-
-    return run
-
-
-def _match(machine: Statements, node: ast.Match, frame: Frame) -> int:
-    machine.evaluate(node.subject, frame)
-    bodies: list[Callable[[], int]] = [
-        lambda case=case: _case(machine, case, frame)  # type: ignore[misc]
-        for case in node.cases
-    ]
-    if not any(_is_wildcard(case) for case in node.cases):
-        bodies.append(lambda: NEXT)
-    return machine.branches(bodies, frame.place(node), frame)
-
-
-def _is_wildcard(case: ast.match_case) -> bool:
-    pattern = case.pattern
-    return case.guard is None and isinstance(pattern, ast.MatchAs) and pattern.pattern is None
-
-
-def _case(machine: Statements, case: ast.match_case, frame: Frame) -> int:
-    for part in ast.walk(case.pattern):
-        name = getattr(part, 'name', None) or getattr(part, 'rest', None)
-        if isinstance(name, str):
-            unknown = machine.mystery('bound by a match pattern', frame.place(part), name)
-            machine.assign(ast.Name(name, ast.Store()), unknown, frame)
-    return machine.execute_block(case.body, frame)
-
-
-def _for(machine: Statements, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
-    place = frame.place(node.iter)
-    values = open_tests.evaluate_iterated(machine, node, frame)
-    machine.note_iteration(node.iter, frame)
-    values = iterators.iterated(machine, values, place)
-    step = iterators.next_of(machine, values, place)
-    rounds = values if step is None else machine.mystery('as many rounds as it gives items', place)
-    items = loops.items_to_run(machine, rounds, place)
-
-    with _loop(machine, frame), machine.world.reading.in_loop(NOTHING_ASKED):
-        with loops.repeated(machine, items, node.body) as begin:
-
-            def once(item: Value) -> int:
-                begin(item)
-                machine.assign(node.target, step() if step is not None else item, frame)
-                machine.world.assume_picked(values, item)
-                return _round(machine, node.body, frame)
-
-            flow = loops.run_loop(machine, items, once, place)
-        return _or_else(machine, node, flow, frame)
-
-
-def _or_else(machine: Statements, node: ast.For | ast.AsyncFor, flow: int, frame: Frame) -> int:
-    """Run what stands under ``else`` of a loop that ends by ``flow``, unless it is left."""
-    left, rest = flow & BREAK, flow & ~(NEXT | BREAK)
-    if not flow & NEXT or not node.orelse:
-        return rest | (NEXT if flow & (NEXT | BREAK) else 0)
-
-    def run() -> int:
-        return machine.execute_block(node.orelse, frame)
-
-    ends = machine.branches([run, lambda: NEXT], frame.place(node), frame) if left else run()
-    return rest | ends
-
-
 def _break(machine: Statements, node: ast.Break, frame: Frame) -> int:
     frame.known_at_break.append(machine.world.ready)
     return BREAK
-
-
-def _while(machine: Statements, node: ast.While, frame: Frame) -> int:
-    holds, asked = open_tests.decide_loop(machine, node, frame)
-    if holds is False:
-        return machine.execute_block(node.orelse, frame)
-    told, ready = path_facts.told_by(machine.world.tested), machine.world.ready
-    begun = machine.begin_loop(node, frame, told)
-    reason = Unknown('made in a while loop', frame.place(node))
-    with (
-        loops.counted(machine, reason),
-        _loop(machine, frame),
-        machine.world.reading.in_loop(asked),
-    ):
-        machine.world.assume(told, holds=True)
-        open_tests.note_rounds(node, frame)
-        flow = _round(machine, node.body, frame)
-        ends = [] if holds else [ready | (told.fails if told is not None else path_facts.NOTHING)]
-        after = path_facts.of_all([*ends, *frame.known_at_break] or [ready])
-    machine.world.ready = ready
-    if not flow & (BREAK | RETURN):
-        machine.note_endless(node, frame.place(node))
-    if flow & (NEXT | CONTINUE):
-        machine.end_loop(node, frame, begun)
-    machine.world.ready = after
-    return loops.after_loop(flow)
 
 
 def _function(
@@ -512,14 +346,14 @@ _STATEMENTS: dict[type[ast.stmt], Callable[..., Any]] = {
     ast.AugAssign: _assign_augmented,
     ast.Return: _return,
     ast.Raise: _raise,
-    ast.If: _if,
+    ast.If: run_if,
     ast.Try: run_try,
     ast.With: run_with,
     ast.AsyncWith: run_with,
-    ast.Match: _match,
-    ast.For: _for,
-    ast.AsyncFor: _for,
-    ast.While: _while,
+    ast.Match: run_match,
+    ast.For: run_for,
+    ast.AsyncFor: run_for,
+    ast.While: run_while,
     ast.FunctionDef: _function,
     ast.AsyncFunctionDef: _function,
     ast.ClassDef: _class,

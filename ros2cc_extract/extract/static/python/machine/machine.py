@@ -2,8 +2,7 @@
 What the parts of the interpreter and the library tables may ask of each other.
 
 ``interpreter.py`` puts the parts together; none of them imports another. What only a machine has
-that notes what runs concurrently, or that models rclpy, stands in ``concurrency/machine.py`` and
-``libraries/rclpy/machine.py``.
+that notes what runs concurrently, or that models a library, stands in the rooms above.
 """
 
 from __future__ import annotations

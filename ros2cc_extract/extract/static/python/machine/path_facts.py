@@ -4,8 +4,8 @@ What tests tell of the objects that others may wait for: a future is done, a thr
 ``if not future.done(): await future`` waits; behind ``if future.done():`` the result is there, and
 a loop that asks until the answer changes is a wait itself. The answer to such a question is an
 ``Answer``, through ``not``, ``and``, ``or``, names and functions; where a test has come out, what
-it tells is kept in ``World.ready`` until the branches meet. Sources: CPython 3.12,
-``concurrent/futures/_base.py``, ``threading.py``, ``queue.py``; rclpy 7.1.6, ``task.py``.
+it tells is kept in ``World.ready`` until the branches meet. Source: CPython 3.12,
+``concurrent/futures/_base.py``, ``threading.py``, ``queue.py``.
 """
 
 from __future__ import annotations

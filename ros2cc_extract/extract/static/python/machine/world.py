@@ -1,8 +1,8 @@
 """
 What one run of a program leaves behind, as far as Python itself goes.
 
-Records are mutable while the run goes on. Who models more than the language adds to it: what runs
-concurrently in ``concurrency/state.py``, what rclpy makes in ``libraries/rclpy/state.py``.
+Records are mutable while the run goes on. Who models more than the language derives from it: what
+runs concurrently in ``concurrency/machine/state.py``, the model of a library in its own.
 """
 
 from __future__ import annotations

@@ -1,12 +1,37 @@
-"""Which functions and classes a text leads to, by the names that stand in it."""
+"""Which functions and classes a text leads to, by the names that stand in it, and what they do."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
+
+_DOING = frozenset(
+    {
+        'Thread',
+        'Timer',
+        'Process',
+        'ThreadPoolExecutor',
+        'ProcessPoolExecutor',
+        'submit',
+        'Lock',
+        'RLock',
+        'Event',
+        'Condition',
+        'Semaphore',
+        'Barrier',
+        'acquire',
+        'wait',
+        'exec',
+        'eval',
+        'getattr',
+        'exit',
+    }
+)
 
 
 def reachable(world: World, start: ast.AST) -> Iterator[ast.AST]:
@@ -45,3 +70,24 @@ def _by_name(tree: ast.Module) -> dict[str, list[ast.AST]]:
             for name in filter(None, map(_name, part.targets)):
                 found.setdefault(name, []).append(part.value)
     return found
+
+
+def leads_nowhere(machine: Machine, start: ast.AST) -> bool:
+    """Whether nothing that ``start`` names does more than to compute something."""
+    does_more = partial(_does_more, _DOING | machine.model.acting)
+    return not any(
+        noted_on(node, 'does_more', does_more) for node in reachable(machine.world, start)
+    )
+
+
+def _does_more(acting: frozenset[str], node: ast.AST) -> bool:
+    """Whether it names threads, locks and waits, or calls what somebody hands in."""
+    if not acting.isdisjoint(used_names(node)):
+        return True
+    handed_in = {part.arg for part in walk(node) if isinstance(part, ast.arg)} - {'cls'}
+    return any(
+        isinstance(part, ast.Call)
+        and isinstance(part.func, ast.Name)
+        and part.func.id in handed_in
+        for part in walk(node)
+    )

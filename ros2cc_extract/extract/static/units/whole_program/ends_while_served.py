@@ -35,8 +35,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     RosWorld,
     Spin,
+    nodes_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import nodes_of
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,

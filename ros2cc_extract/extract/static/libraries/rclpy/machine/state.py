@@ -11,7 +11,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
 )
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
-from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value
+from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 from ros2cc_extract.spec.partners import SERVER_KINDS
@@ -326,3 +326,11 @@ class RosWorld(ConcurrentWorld):
             if spin.place.file == file and first <= spin.place.line <= last
             for node in spin.nodes
         )
+
+
+def nodes_of(executor: Instance) -> tuple[Instance, ...]:
+    """The nodes an executor has, in the order in which they were added."""
+    found: list[Instance] = []
+    for entry in executor.slots.get('__nodes__', ()):
+        found.extend(o for o in options_of(entry) if isinstance(o, Instance) and o not in found)
+    return tuple(found)

@@ -14,9 +14,10 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.made_entities import 
     remember_entity,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node, groupless
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, mark_destroyed
+from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import groupless
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

@@ -13,10 +13,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import note_sleep
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
-    node_executor_property,
-)
-from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import NODE, mark_destroyed
+from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import mark_destroyed
 from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
     add_done_callback,
     begin_anew,
@@ -252,5 +249,3 @@ TABLE = Library(
     functions={'rclpy.wait_for_message.wait_for_message': _wait_for_message},
     aliases={'rclpy.Future': 'rclpy.task.Future', 'rclpy.Task': 'rclpy.task.Task'},
 )
-
-NODE_EXECUTOR = (NODE, node_executor_property)

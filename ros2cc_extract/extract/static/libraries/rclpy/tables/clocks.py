@@ -11,13 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import CLOCKS, THE_CLOCK
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     NodeState,
     RosWorld,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.tables.durations import CLOCKS, THE_CLOCK
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass

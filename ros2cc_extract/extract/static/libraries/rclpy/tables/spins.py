@@ -12,7 +12,7 @@ from typing import TypeGuard
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import is_handed_on
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, nodes_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     Awaited,
     add_node,
@@ -20,7 +20,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     as_node,
     future_of,
     global_executor,
-    nodes_of,
     note_inside,
     note_served_inside,
     record_spin,

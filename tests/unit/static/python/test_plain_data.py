@@ -8,7 +8,7 @@ import pytest
 
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.api import scan
-from ros2cc_extract.extract.static.scan import runs
+from ros2cc_extract.extract.static.scan import guarded_runs
 from ros2cc_extract.places import Unknown
 
 NAMES = [f'read_{number}' for number in range(20)]
@@ -64,7 +64,7 @@ def test_what_such_work_may_have_filled_is_not_known(tmp_path: Path) -> None:
 def test_work_that_may_touch_a_node_is_never_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runs, 'STEP_LIMIT', 50_000)
+    monkeypatch.setattr(guarded_runs, 'STEP_LIMIT', 50_000)
     extraction = scanned(tmp_path, 'notify(found.get("node"))')
     assert [diagnostic.slug for diagnostic in extraction.diagnostics] == ['not-followed']
 
@@ -72,7 +72,7 @@ def test_work_that_may_touch_a_node_is_never_left(
 def test_of_a_long_program_without_ros_nothing_is_missing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runs, 'STEP_LIMIT', 50_000)
+    monkeypatch.setattr(guarded_runs, 'STEP_LIMIT', 50_000)
     loops = ''.join(f'{"    " * n}for i{n} in range(30):\n' for n in range(4))
     (tmp_path / 'size.py').write_text('from node import size\n\n' + loops + ' ' * 16 + 'size()\n')
     (tmp_path / 'node.py').write_text('import rclpy\n\n\ndef size():\n    return 1\n')

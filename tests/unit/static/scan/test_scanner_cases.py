@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from scanner_rendering import rendered
 
-CASES = Path(__file__).parents[2] / 'scanner_cases'
+CASES = Path(__file__).parents[3] / 'scanner_cases'
 MARK = '\n# expect:\n'
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.extract.static.scan import runs
+from ros2cc_extract.extract.static.scan import guarded_runs
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.spec.close import close
@@ -46,7 +46,7 @@ WAITS = '\n'.join(f'        self.field_{number} = {number}' for number in range(
 def test_what_is_not_followed_may_wait_for_anything(
     function: str, line: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runs, 'STEP_LIMIT', 4_000)
+    monkeypatch.setattr(guarded_runs, 'STEP_LIMIT', 4_000)
     head = f'    def {function}(self):\n'
     text = LONG.replace(f'{head}        pass', f'{head}{WAITS}\n        self.done.wait()')
     (unit,) = scan_text(text).units
@@ -56,12 +56,12 @@ def test_what_is_not_followed_may_wait_for_anything(
         for each in (*unit.callbacks, *unit.activities)
         if (each.function or '').endswith(function)
     )
-    why = Unknown(runs.TOO_LONG, place)
+    why = Unknown(guarded_runs.TOO_LONG, place)
     assert doer.blocking == (Blocking(call='unknown wait', source=place, on=why, escapes=why),)
 
 
 def test_its_claims_are_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runs, 'STEP_LIMIT', 4_000)
+    monkeypatch.setattr(guarded_runs, 'STEP_LIMIT', 4_000)
     text = LONG.replace('        pass', WAITS, 1)
     (unit,) = scan_text(text).units
     results = verify_unit(close(unit), Options(profile=Profile.RCLPY)).results

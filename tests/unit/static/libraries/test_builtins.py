@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ros2cc_extract.extract.static.api import scan
 
-PROGRAM = Path(__file__).parents[2] / 'live' / 'programs' / 'every_builtin.py'
+PROGRAM = Path(__file__).parents[3] / 'live' / 'programs' / 'every_builtin.py'
 
 
 def test_by_default_nothing_is_listed_that_nobody_wrote() -> None:
