@@ -70,14 +70,9 @@ _WAITS = frozenset(
         'recv',
         'recvfrom',
         'wait',
-        'wait_for',
-        'wait_for_message',
-        'wait_for_server',
-        'wait_for_service',
     ]
 )
-
-
+_WAIT = 'wait_'
 _OF_PROCESSES = frozenset(['run', 'check_call', 'check_output'])
 
 
@@ -97,7 +92,7 @@ def _is_wait(call: ast.Call) -> bool:
     if function.attr in _OF_PROCESSES:
         return isinstance(function.value, ast.Name) and function.value.id == 'subprocess'
     is_of_thread = function.attr == 'join' and not call.args  # that of a text takes something
-    return function.attr in _WAITS or is_of_thread
+    return function.attr in _WAITS or function.attr.startswith(_WAIT) or is_of_thread
 
 
 def replaces_rclpy(tree: ast.Module) -> bool:

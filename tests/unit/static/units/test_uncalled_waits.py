@@ -32,6 +32,7 @@ class Robot(Node):
         super().__init__('robot')
         self.seen = Seen(self)
         self.home = self.create_client(Trigger, 'home')
+        self.pressed = keys.Pressed()
         self.worker = threading.Thread(target=print)
         self.worker.start()
 
@@ -72,6 +73,7 @@ def waits(wait: str, handed: str, last: str) -> list[str]:
         ('self.home.call(Trigger.Request())', 'client.call'),
         ('self.home.wait_for_service()', 'wait_for_service'),
         ('self.worker.join()', 'Thread.join'),
+        ('self.pressed.wait_for_a_key()', 'unknown wait'),
         ("subprocess.run(['true'])", 'subprocess.run'),
         ('if self.seen.pose:\n            self.home.call(Trigger.Request())', 'client.call'),
     ],
