@@ -21,7 +21,7 @@ for name in ('geteuid', 'getuid', 'sched_getaffinity'):
     delattr(os, name)
 del signal.setitimer
 from pathlib import Path
-from ros2cc_extract.checker.engines.choice import limits
+from ros2cc_extract.checker.engines import limits
 limits._STATM = limits._MEMINFO = Path('/proc/nowhere')
 from ros2cc_extract.cli.main import main
 sys.exit(main(sys.argv[1:], sys.stdout, sys.stderr))
