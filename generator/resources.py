@@ -9,6 +9,7 @@ it may stay until a waker that is known ends it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
 from ros2cc_extract.generator.spins import is_part_of_spin
@@ -243,7 +244,18 @@ def _resources_of(
     # Of what is left after other runs nothing is known, but that it is no more.
     has_some = is_each and block.escapes is None and not may_be_used_up(block, spec)
     initial = block.initial if has_some else 0
-    yield Resource(name, is_each, initial, forgets=is_each and block.forgets), block.wakers
+    by = (replace(waker, conditional=False) for waker in block.wakers)
+    yield (
+        Resource(
+            name,
+            is_each,
+            initial,
+            forgets=is_each and block.forgets,
+            least=1 if is_each else block.signals,
+            given_by=frozenset() if is_each else frozenset(by),
+        ),
+        block.wakers,
+    )
 
 
 def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:

@@ -41,13 +41,18 @@ class Resource:
 
     :param is_each: a signal ends one wait; else the first ends all, for good.
     :param initial: how many waits end without a signal.
+    :param least: of what ends for good, how many signals that takes.
     :param forgets: a signal is lost while nobody waits.
+    :param given_by: of what ends for good, who ends it, and where: what ends one wait for it may
+        come too early for another.
     """
 
     name: str
     is_each: bool
     initial: int = 0
     forgets: bool = False
+    least: int = 1
+    given_by: frozenset[Waker] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -101,6 +101,7 @@ class UnitResource:
 
     :param most: how many signals are kept; more would end no more waits.
     :param forgets: they are kept for those alone who wait already.
+    :param least: so many must be there before a wait ends.
     """
 
     name: str
@@ -108,6 +109,12 @@ class UnitResource:
     initial: int
     most: int
     forgets: bool = False
+    least: int = 1
+
+    @property
+    def counts(self) -> bool:
+        """True when a wait needs a signal of its own, or several."""
+        return self.is_each or self.least > 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,8 +157,18 @@ class Unit:
 
     @property
     def has_tokens(self) -> bool:
-        """True when each signal ends one wait."""
-        return any(resource.is_each for resource in self.resources)
+        """True when whoever gives a signal may have to give another one."""
+        return any(resource.counts for resource in self.resources)
+
+    @property
+    def has_counts(self) -> bool:
+        """True when a wait ends by several signals only."""
+        return any(resource.least > 1 for resource in self.resources)
+
+    @property
+    def counted(self) -> str:
+        """The table of what whoever waits is counted for."""
+        return 'resource_counts' if self.has_counts else 'resource_each'
 
     @property
     def has_forgetful(self) -> bool:
@@ -405,6 +422,7 @@ def _number_resource(
         initial=resource.initial,
         most=_most_signals(resource, steps, arrivals),
         forgets=resource.forgets,
+        least=resource.least,
     )
 
 
@@ -452,7 +470,7 @@ def _most_signals(
 ) -> int:
     """One for each arrival of whoever gives it; one for good where the first ends all waits."""
     if not resource.is_each:
-        return 1
+        return resource.least
     given = sum(
         arrivals[name]
         for name, own in steps.items()

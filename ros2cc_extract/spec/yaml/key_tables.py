@@ -96,6 +96,7 @@ BLOCKING = record(
                 ('foreign', 'foreign', FLAG),
                 ('resource', 'resource', optional(TEXT)),
                 ('needs', 'needs', member(Needs)),
+                ('signals', 'signals', COUNT),
                 ('forgets', 'forgets', FLAG),
                 ('initial', 'initial', COUNT),
                 ('wakers', 'wakers', listing(WAKER)),

@@ -188,7 +188,7 @@ class _Numbers:
         if step.resource is None:
             return step.may_skip, words
         place, resource = self.resources.index(step.resource), step.resource
-        kind = resource.is_each, resource.initial, resource.forgets
+        kind = resource.is_each, resource.initial, resource.forgets, resource.least
         return place, kind, step.may_skip, words
 
     def _held(self, wait: NamedWait) -> Sequence[int]:

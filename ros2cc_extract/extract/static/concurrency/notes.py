@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
-from ros2cc_extract.extract.static.concurrency.waits import polling_loops
+from ros2cc_extract.extract.static.concurrency.waits import counted_tests, polling_loops
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
@@ -42,6 +42,7 @@ class Notes(Effects):
         self, node: ast.Assign | ast.AugAssign, frame: Frame
     ) -> AbstractContextManager[None]:
         """While the statement is followed, its write is known to be in one piece, if it is."""
+        counted_tests.note_step(self, node, frame)
         return atomic_updates.noted(self, node, frame)
 
     def note_branch(

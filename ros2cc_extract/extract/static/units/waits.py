@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
+from ros2cc_extract.extract.static.concurrency.machine.rises import MOST
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ClockRef,
@@ -241,6 +242,11 @@ class UnitWaits(DataWriters):
     def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
         """A loop that waits until somebody has written what it reads."""
         writers = tuple(dict.fromkeys((*self._writers(on), *self._at_end(on, doer))))
+        signals = self._signals(on, doer)
+        if signals is None:
+            writers = _unsure(writers)
+        elif signals <= 0:
+            writers = (Waker(by=TIME, source=raw.source),)
         why = data_is_written_elsewhere(self._world, on.names)
         by = [writer for writer, _ in self._writes(on)]
         unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
@@ -254,7 +260,12 @@ class UnitWaits(DataWriters):
         sent = on.sent_by_now
         unsent = None if is_open else unsent_before_end(raw, sent, by, doer, self._world)
         return replace(
-            named, wakers=writers, escapes=why or unsure, answer_to=asked, unsent=unsent
+            named,
+            wakers=writers,
+            escapes=why or unsure,
+            answer_to=asked,
+            unsent=unsent,
+            signals=min(max(signals or 1, 1), MOST),
         )
 
     def _unsent(self, raw: Blocking, doer: Doer) -> str | None:

@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
+from ros2cc_extract.extract.static.concurrency.waits.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
     asks_for_cancel,
     asks_for_service,
@@ -320,6 +321,7 @@ def _note(
         )
         reference = DataRef(sorted(names)[0])
         reference.names, reference.before = frozenset(names), own
+        reference.rise = rise_of(machine, tests, frame)
         reference.sent = sent
         reference.sent_by_now = sent_by_now(machine.world.deeds or Deeds())
         reason = Unknown('the loop also ends otherwise', place)

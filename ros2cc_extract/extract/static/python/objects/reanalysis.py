@@ -26,6 +26,7 @@ def both(before: Deeds, again: Deeds) -> Deeds:
         pieces=list(dict.fromkeys((*before.pieces, *again.pieces))),
         stored={**before.stored, **again.stored},
         written={**before.written, **again.written},
+        steps={**before.steps, **again.steps},
     )
 
 

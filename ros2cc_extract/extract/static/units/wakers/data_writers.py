@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
+from ros2cc_extract.extract.static.concurrency.machine.rises import MOST, Rise
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ClockRef,
@@ -17,6 +18,8 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.values.values import Value
+from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
 
@@ -59,8 +62,7 @@ class DataWriters:
         """Who writes what a loop waits for, but for what its own callback did before."""
         for doer in self._doers:
             for access in (doer.deeds or Deeds()).writes:
-                is_before = (access.name, access.source) in on.before
-                if access.name in on.names and not is_before:
+                if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 
     def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
@@ -73,6 +75,34 @@ class DataWriters:
     def _writers(self, on: DataRef) -> Iterator[Waker]:
         for doer, access in self._writes(on):
             yield self._does(doer, access.name, access.source)
+
+    def _signals(self, on: DataRef, doer: Doer) -> int | None:
+        """How many writes end the wait; ``None`` where one may not be enough."""
+        writes = tuple(self._writes(on))
+        if on.rise is None or len(on.names) != 1 or not writes:
+            return 1
+        steps = [(each.deeds or Deeds()).steps.get(access.source) for each, access in writes]
+        known = [step for step in steps if step is not None]
+        if len(known) < len(steps):
+            return 1  # what is stored there may be as much as it takes
+        mine = [access for access in (doer.deeds or Deeds()).writes if _is_before(access, on)]
+        left = on.rise.writes_left(self._stored_first(on.rise), known, len(mine))
+        is_open = any(self._is_open(access, doer) for access in mine)
+        is_open = is_open or any(step.repeats for step in known)
+        is_open = is_open or (left is not None and left > MOST and not _all_recur(writes))
+        return None if left is None or (left + len(mine) > 1 and is_open) else left
+
+    def _stored_first(self, rise: Rise) -> Iterator[Value]:
+        """What the set-up has stored there, or the class has."""
+        doers = (doer.deeds or Deeds() for doer in self._doers)
+        later = {access.source for deeds in doers for access in deeds.writes}
+        stored = self._world.stored.get((rise.owner, rise.name), {})
+        first = [value for place, value in stored.items() if place not in later]
+        yield from first or rise.of_class
+
+    def _is_open(self, access: Access, doer: Doer) -> bool:
+        written = (doer.deeds or Deeds()).written
+        return written.get((access.name, access.source), (None, True))[1]
 
     def _senders(self, topic: TopicRef) -> Iterator[Waker]:
         """Who publishes what is waited for; the names are compared as they are written."""
@@ -93,3 +123,13 @@ class DataWriters:
         behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
         after = self._kept[id(doer)].places.get(behind, 0)
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
+
+
+def _is_before(access: Access, on: DataRef) -> bool:
+    """Whether it lies before the loop in the run that waits."""
+    return (access.name, access.source) in on.before
+
+
+def _all_recur(writes: Iterable[tuple[Doer, Access]]) -> bool:
+    """Whether whoever writes comes again and again."""
+    return all(isinstance(by, EntityState) and by.kind in RECURRING for by, _ in writes)

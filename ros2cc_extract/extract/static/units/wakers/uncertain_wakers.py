@@ -31,7 +31,7 @@ from ros2cc_extract.spec.model import EntityKind, When
 
 Doer = EntityState | ActivityState
 Names = Callable[[object], str | None]
-_RECURRING = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE)
+RECURRING = (EntityKind.TIMER, EntityKind.SUBSCRIPTION, EntityKind.SERVICE)
 _RISING = (
     EntityKind.TIMER,
     EntityKind.SUBSCRIPTION,
@@ -241,7 +241,7 @@ def _is_modelled(waking: Waking, doer: Doer) -> bool:
     if waking.repeats or waking.conditional:
         return False
     if isinstance(by, EntityState):
-        return by.kind in _RECURRING and (by.when is not When.CALLBACK or by.maker is doer)
+        return by.kind in RECURRING and (by.when is not When.CALLBACK or by.maker is doer)
     return _comes_once(waking, doer)
 
 
