@@ -78,7 +78,7 @@ class Blocking:
     :param wakers: who can end it, as far as is known.
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
-    :param signals: of ``ONCE``: how many of them, or how often one, as of a number that is to grow.
+    :param signals: of ``ONCE``: how many of them, or how often one, as of a number that grows.
     :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
         waited on without asking first).
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the

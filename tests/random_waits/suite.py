@@ -39,7 +39,7 @@ from tests.random_waits.recorded import Ran, add, load, unfinished
 WATCH = Path(__file__).with_name('watch.py')
 CHUNK = 20
 OPTIONS = Options(profile=Profile.RCLPY, structural=False, families=frozenset({Family.PROGRESS}))
-MOST_S = 10.0
+MOST_S = 20.0
 ENDS, FOUND, UNDECIDED = 'always ends', 'found', 'undecided'
 _OF_VERDICT = {
     Verdict.SATISFIED: ENDS,

@@ -14,9 +14,11 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import SLICE_STATES, Found, key_of, total, weighs_more
+from ros2cc_extract.verify.search.found import Found, key_of, total, weighs_more
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
+#: The second search is the last one: it may take what is left of the time of the unit.
+MOST_STATES = 1_000_000
 OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
 
 
@@ -34,7 +36,7 @@ def ask_again(
     if not arrivals or not left:
         return found
     more = replace(closed, arrivals=arrivals)
-    second = ask(left, more, replace(limits, states=limits.states or SLICE_STATES))
+    second = ask(left, more, replace(limits, states=limits.states or MOST_STATES))
     results = dict(found.results)
     for query in left:
         key = key_of(query)

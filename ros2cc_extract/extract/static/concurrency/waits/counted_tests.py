@@ -1,8 +1,8 @@
 """
 How many writes it takes until a loop on plain data goes on.
 
-``while self.arrived < 2: time.sleep(0.1)`` goes on behind the second ``self.arrived += 1``: whoever
-adds one and waits then has not ended it.
+``while self.arrived < 2: time.sleep(0.1)`` goes on behind the second ``self.arrived += 1``.
+Whoever adds one, and waits then itself, has not ended it.
 """
 
 from __future__ import annotations

@@ -91,6 +91,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     if world.deeds is None and not is_idle(loop):
         return
     place = frame.place(loop)
+    _note_rest(machine, loop, frame)
     is_known = told is not None and _note_things(machine, loop, frame, told)
     if not is_known:
         is_known = _note_by_name(machine, loop, frame)
@@ -98,6 +99,12 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
         # How many callbacks run before it ends is not one.
         reason = f'what ends the loop: {ast.unparse(loop.test)}'
         machine.note_blocking('busy wait', machine.mystery(reason, place), None, place)
+
+
+def _note_rest(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
+    """A loop of asyncio runs others in each round that awaits."""
+    if machine.world.deeds is not None and awaits_each_round(loop):
+        machine.world.deeds.resting.update(map(frame.place, (loop, *exit_tests(loop))))
 
 
 def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:

@@ -44,6 +44,7 @@ class Deeds:
     :param pieces: what is changed piece by piece, or published as a whole.
     :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
+    :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
     """
 
@@ -60,6 +61,7 @@ class Deeds:
     stored: dict[Hold, set[str]] = field(default_factory=dict)
     looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
+    resting: set[Place | None] = field(default_factory=set)
     steps: dict[Place | None, Any] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
     order: list[tuple[str, object]] = field(default_factory=list)

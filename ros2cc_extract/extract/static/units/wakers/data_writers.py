@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
 from ros2cc_extract.extract.static.python.values.values import Value
+from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
@@ -122,6 +123,7 @@ class DataWriters:
         """A write or a message of ``doer`` that ends a wait."""
         behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
         after = self._kept[id(doer)].places.get(behind, 0)
+        is_open = is_open or is_off_its_loop(doer, self._doers)
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
 
 

@@ -43,15 +43,27 @@ def is_plain_lock(
 
     Everybody who takes it gives it back, and waits for nothing meanwhile, nor takes it twice.
     """
-    if not any(waking.by is doer for waking in given):
-        return False
-    return all(
+    takers = [each for each in doers if any(_takes(raw, each))]
+    return any(each is doer for each in takers) and all(
         len(list(_takes(raw, each))) == 1
         and all(block.times == 1 for block in _takes(raw, each))
+        and _gives_on_all_ways(raw, each, given)
         and not _waits_meanwhile(raw, each, given)
-        for each in doers
-        if any(_takes(raw, each))
+        for each in takers
     )
+
+
+def _gives_on_all_ways(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bool:
+    """
+    Whether it gives back what it takes.
+
+    Several branches that do are taken for all that there are, and what it perhaps takes it gives
+    back where it has it.
+    """
+    own = [waking for waking in given if waking.by is doer]
+    may_have_none = all(b.conditional or b.seconds is not None for b in _takes(raw, doer))
+    is_sure = len(own) > 1 or any(not waking.conditional for waking in own)
+    return bool(own) and (is_sure or may_have_none)
 
 
 def _takes(raw: Blocking, doer: Doer) -> Iterator[Blocking]:

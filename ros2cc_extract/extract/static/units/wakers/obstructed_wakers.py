@@ -28,9 +28,16 @@ def is_kept_out(waking: Waking, reference: ResourceRef, doer: Doer, doers: Seque
     by = waking.by
     if by is doer:
         return False
-    if isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers):
-        return True
-    return _is_made_by_one_kept_out(by, doer) or _takes_back(waking, reference)
+    return (
+        is_off_its_loop(by, doers)
+        or _is_made_by_one_kept_out(by, doer)
+        or _takes_back(waking, reference)
+    )
+
+
+def is_off_its_loop(by: object, doers: Sequence[Doer]) -> bool:
+    """Whether it is to run on a loop of asyncio that somebody else may block."""
+    return isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers)
 
 
 def _is_made_by_one_kept_out(by: object, doer: Doer) -> bool:
@@ -45,8 +52,8 @@ def _holds_the_loop_of(by: ActivityState, other: Doer) -> bool:
         return False
     return by.turns == other.turns and any(
         block.seconds is None
-        and isinstance(block.resource, ResourceRef)
-        and not block.call.startswith('asyncio')
+        and not block.call.startswith(('asyncio', 'await'))
+        and block.source not in other.deeds.resting
         for block in other.deeds.blocking
     )
 

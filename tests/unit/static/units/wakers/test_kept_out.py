@@ -25,6 +25,7 @@ class Waiter(Node):
         self.other = MutuallyExclusiveCallbackGroup()
         self.given, self.never = threading.Event(), threading.Event()
         self.stock = queue.Queue()
+        self.permits = threading.Semaphore(3)
         self.changed = threading.Condition()
         self.loop = asyncio.new_event_loop()
         threading.Thread(target=self.loop.run_forever, daemon=True).start()
@@ -60,6 +61,30 @@ async def work_0(self):
 
 async def work_1(self):
     {blocks}
+"""
+POLLS = """
+def tick_0(self):
+    asyncio.run_coroutine_threadsafe(self.work_0(), self.loop).result()
+
+def tick_1(self):
+    asyncio.run_coroutine_threadsafe(self.work_1(), self.loop).result()
+
+async def work_0(self):
+    self.arrived = False
+    while not self.arrived:
+        {rests}
+
+async def work_1(self):
+    self.arrived = True
+"""
+PERMITS = """
+def tick_0(self):
+    self.permits.acquire()
+    {gives}
+
+def tick_1(self):
+    {takes}
+    self.permits.release()
 """
 STOCK = """
 def tick_0(self):
@@ -124,6 +149,41 @@ def test_a_task_is_not_there_before_its_maker_ran(group: str, is_kept_out: bool)
 def test_a_coroutine_that_blocks_holds_the_loop(blocks: str, is_kept_out: bool) -> None:
     text = program(LOOP.replace('{blocks}', blocks))
     assert perhaps(text, 'Future.result') == [is_kept_out]
+
+
+@pytest.mark.parametrize(
+    ('rests', 'expected'),
+    [('time.sleep(0.01)', UNDECIDED), ('await asyncio.sleep(0.01)', ENDS)],
+)
+def test_a_coroutine_that_looks_at_data_and_sleeps_holds_the_loop(
+    rests: str, expected: str
+) -> None:
+    assert judge(program(POLLS.replace('{rests}', rests)))['tick_0'] == expected
+
+
+@pytest.mark.parametrize(
+    ('gives', 'takes', 'expected'),
+    [
+        ('self.permits.release()', 'self.permits.acquire()', None),
+        ('pass', 'self.permits.acquire()', FOUND),
+        (
+            'if self.given.is_set():\n        self.permits.release()',
+            'self.permits.acquire()',
+            UNDECIDED,
+        ),
+        (
+            'if self.given.is_set():\n        self.permits.release()\n'
+            '    else:\n        self.permits.release()',
+            'self.permits.acquire()',
+            None,
+        ),
+    ],
+)
+def test_a_semaphore_is_a_lock_where_all_give_back_what_they_take(
+    gives: str, takes: str, expected: str | None
+) -> None:
+    judged = judge(program(PERMITS.format(gives=gives, takes=takes)))
+    assert (judged.get('tick_0'), judged.get('tick_1')) == (expected, expected)
 
 
 @pytest.mark.parametrize(
