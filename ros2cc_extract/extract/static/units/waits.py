@@ -122,7 +122,11 @@ class UnitWaits(DataWriters):
         return kept
 
     def _is_none(self, raw: Blocking, doer: Doer) -> bool:
-        """Whether it never waits: it was asked before, and nobody else changes the answer."""
+        """
+        Whether it never waits: it was asked before, and nobody else changes the answer.
+
+        Nor does what nobody ever puts in: it is never found there.
+        """
         reference = raw.resource
         if not isinstance(reference, ResourceRef) or not reference.asked:
             return False
@@ -130,6 +134,11 @@ class UnitWaits(DataWriters):
         if rival is None:
             return True
         wakings = wakings_of(self._world, reference)
+        mine = [waking for waking in wakings if waking.word in reference.ended_by]
+        is_in_sight = reference.number not in self._world.kept_inside
+        is_empty = is_in_sight and not mine and self._initial(reference, wakings) == 0
+        if is_empty and self._why_others(mine, reference) is None:
+            return True
         takers = {id(waking.by): waking.by for waking in wakings if waking.word is rival}
         return len(takers) < 2 or keeps_to_itself(doer, takers.values())
 
@@ -361,12 +370,16 @@ class UnitWaits(DataWriters):
         return self._names.get(id(doer))
 
     def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
+        """Why it is not known who ends the wait."""
+        if reference.asked and reference.number not in self._world.given:
+            return Unknown('somebody else may have taken what was asked for')
+        return self._why_others(mine, reference)
+
+    def _why_others(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
         """Why somebody may end the wait who is not known."""
         given = self._world.given.get(reference.number)
         if given is not None:
             return given
-        if reference.asked:
-            return Unknown('somebody else may have taken what was asked for')
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(

@@ -46,7 +46,7 @@ class Rise:
         :param first: what is stored there before anybody writes.
         :param mine: how many writes lie behind whoever waits.
         """
-        values = [value.value for value in first if isinstance(value, Const)]
+        values: list[float] = [value.value for value in first if isinstance(value, Const)]
         by = {step.by for step in steps}
         if len(values) != 1 or not is_number(values[0]) or len(by) != 1 or min(by) <= 0:
             return None

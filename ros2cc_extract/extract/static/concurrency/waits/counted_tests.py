@@ -39,7 +39,7 @@ def note_step(machine: ConcurrentMachine, node: ast.Assign | ast.AugAssign, fram
         return
     place = frame.place(node.target if isinstance(node, ast.AugAssign) else node.targets[0])
     is_first = place not in deeds.steps and not deeds.loops and not machine.world.open_loops
-    if isinstance(added, ast.Constant) and is_number(added.value):
+    if isinstance(added, ast.Constant) and isinstance(added.value, (int, float)):
         deeds.steps[place] = Step(added.value, repeats=not is_first)
 
 

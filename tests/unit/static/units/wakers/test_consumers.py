@@ -94,3 +94,22 @@ def test_it_is_open_where_the_thread_may_be_held_up_or_over(changes: dict[str, s
 def test_so_it_is_where_it_is_not_known_whether_the_thread_runs() -> None:
     start = 'if input():\n            threading.Thread(target=self.write).start()'
     assert isinstance(put(start=start), str)
+
+
+@pytest.mark.parametrize(
+    ('start', 'is_none'),
+    [
+        ('threading.Thread(target=self.write).start()', True),
+        ('threading.Thread(target=self.write).start()\n        self.lines.put(1)', False),
+        ('threading.Thread(target=self.write).start()\n        serve(self.lines)', False),
+    ],
+)
+def test_what_nobody_puts_in_is_never_found_there(start: str, is_none: bool) -> None:
+    takes = 'if not self.lines.empty():\n            self.lines.get()'
+    text = PROGRAM.replace('import String', 'import String\nfrom elsewhere import serve')
+    text = text.replace('node.lines.put(None)', '')
+    changes = {**PLAIN, 'start': start, 'put': takes, 'loop': 'not self.lines.empty()'}
+    (unit,) = scan_text(text.format(**changes)).units
+    on_line = next(each for each in unit.callbacks if each.name == 'on_line')
+    calls = [block.call for block in on_line.blocking]
+    assert calls == ([] if is_none else ['Queue.get'])
