@@ -18,7 +18,7 @@ from ros2cc_extract.verify.search.found import Found, key_of, total, weighs_more
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
 #: The second search is the last one: it may take what is left of the time of the unit.
-MOST_STATES = 1_000_000
+MOST_STATES = 3_000_000
 OF_ENDS = (Family.DEADLOCK, Family.PROGRESS, Family.POOL_EXHAUSTION, Family.STARVATION)
 
 
