@@ -37,6 +37,7 @@ from ros2cc_extract.extract.static.units.wakers.lost_events import (
 )
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
+from ros2cc_extract.extract.static.units.wakers.operations import comes_last, wakings_of
 from ros2cc_extract.extract.static.units.wakers.queue_consumers import (
     may_find_it_done,
     taken_by_itself,
@@ -451,25 +452,6 @@ class UnitWaits(DataWriters):
         """How many of its own waits the doer of ``waking`` has behind it then."""
         kept = self._kept.get(id(waking.by))
         return kept.places.get(waking.behind, 0) if kept is not None else 0
-
-
-def wakings_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
-    """
-    What is done to an object.
-
-    A callback makes an object of its own each time; who ends the wait for one of them, from one
-    place, ends it for all, where nothing is seen that ends it for this one.
-    """
-    known = world.wakings.get(reference.number)
-    if known is not None:
-        return known
-    return [waking for number in reference.like for waking in world.wakings.get(number, ())]
-
-
-def comes_last(waking: Waking, world: RosWorld) -> bool:
-    """Whether the set-up does it when its last spin is over, and no callback runs any more."""
-    is_behind = 0 < waking.spins == world.main_spins
-    return waking.by is None and (waking.after_spin or is_behind)
 
 
 def _is_in_turn(reference: ResourceRef, doer: Doer) -> bool:

@@ -31,19 +31,27 @@ def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple
     :param lock: text of the lock's expression, ``self.lock``.
     :param suffix: of the methods: ``_read`` for ``acquire_read`` and ``release_read``.
     :return: nothing where the function never gives the lock back: another one may; and nothing
-        where it gives it back first: whoever calls it holds the lock, and wants it held again.
+        where it gives it back first: whoever calls it holds the lock, and wants it held again. Nor
+        where one loop takes several locks, and another one gives them back.
     """
     walk = _Walk(lock, suffix)
     given = min((_at(p) for p in ast.walk(function) if walk.does(p, _GIVES)), default=None)
     taken = min((_at(p) for p in ast.walk(function) if walk.does(p, _TAKES)), default=None)
     if given is None or (taken is not None and given < taken):
         return ()
-    if any(walk.is_try(part) for part in ast.walk(function)):
+    if any(walk.is_try(part) for part in ast.walk(function)) or _is_of_loops(function, lock):
         return ()
     at_end = walk.block(function.body, frozenset({False}))
     if True in at_end:
         walk.kept.append(function.body[-1])
     return tuple(sorted(set(walk.kept), key=lambda statement: statement.lineno))
+
+
+def _is_of_loops(function: FunctionNode, lock: str) -> bool:
+    """Whether one loop goes over locks and takes them, and another one to give them back."""
+    name = lock.partition('.')[0]
+    loops = [part for part in ast.walk(function) if isinstance(part, (ast.For, ast.AsyncFor))]
+    return sum(isinstance(loop.target, ast.Name) and loop.target.id == name for loop in loops) > 1
 
 
 def _at(call: ast.AST) -> tuple[int, int]:
