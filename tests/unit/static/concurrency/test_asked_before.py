@@ -23,6 +23,7 @@ class Store(Node):
         self.stock = queue.Queue()
         self.create_timer(0.1, self.first, callback_group=self.one)
         self.create_timer(0.1, self.second, callback_group=self.{group})
+        self.create_timer(0.1, self.fill)
         {more}
 
     {kind} first(self):
@@ -33,6 +34,9 @@ class Store(Node):
     def second(self):
         if not self.stock.empty():
             self.stock.get()
+
+    def fill(self):
+        self.stock.put(1)
 
     def take(self):
         self.stock.get_nowait()

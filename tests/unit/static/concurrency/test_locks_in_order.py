@@ -86,4 +86,3 @@ def test_locks_that_are_sorted_first_are_clean(lines: tuple[str, ...]) -> None:
 
 def test_in_the_order_of_who_calls_they_are_a_deadlock() -> None:
     assert codes('with a, b:', '    pass') == {'CC111'}
-
