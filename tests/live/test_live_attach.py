@@ -6,6 +6,7 @@ import io
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from expectations import EXPECTED
 from held import of_spec, without_unknown_keys
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
-from ros2cc_extract.extract.live.attach import attach_process, inject, injectors
+from ros2cc_extract.extract.live.attach import attach_process
+from ros2cc_extract.extract.live.entering import inject, injectors
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import load_specs
@@ -92,6 +94,34 @@ def test_process_that_is_no_python_is_left_alone(tmp_path: Path) -> None:
         try:
             with pytest.raises(ToolNotFoundError, match=f'process {other.pid} cannot be entered'):
                 attach_process(other.pid, tmp_path / 'attached.yaml', io.StringIO())
+            with pytest.raises(subprocess.TimeoutExpired):
+                other.wait(1)
+        finally:
+            other.kill()
+
+
+KEEPS_THE_LOCK = """
+import re, threading, time
+threading.Thread(target=time.sleep, args=(600,), daemon=True).start()
+print(flush=True)
+re.match('(a+)+b', 'a' * 60)
+"""
+
+
+@needs_a_way_in
+def test_process_that_keeps_the_interpreter_in_c_is_given_up_in_time_and_goes_on(
+    tmp_path: Path,
+) -> None:
+    command = [sys.executable, '-c', KEEPS_THE_LOCK]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as other:
+        try:
+            assert other.stdout is not None
+            other.stdout.readline()
+            time.sleep(0.3)
+            begun = time.monotonic()
+            with pytest.raises(InputError, match='does not let anybody in'):
+                attach_process(other.pid, tmp_path / 'attached.yaml', io.StringIO())
+            assert time.monotonic() - begun < 4
             with pytest.raises(subprocess.TimeoutExpired):
                 other.wait(1)
         finally:

@@ -11,12 +11,8 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
-from ros2cc_extract.extract.live.attach import (
-    Injector,
-    attach_process,
-    inject,
-    refuse_what_would_end,
-)
+from ros2cc_extract.extract.live.attach import attach_process
+from ros2cc_extract.extract.live.entering import Injector, inject, refuse_what_would_end
 
 SCRIPT = Path('record.py')
 
