@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ros2cc_extract.spec.model import Callback, CallbackType, EntityKind, Spec
-from ros2cc_extract.spec.releases import TASKS_OLDEST_FIRST, has_change
+from ros2cc_extract.spec.releases.table import TASKS_OLDEST_FIRST
 
 
 class ExecutorKind(Enum):
@@ -37,7 +37,7 @@ class TaskOrder(Enum):
 
 def task_order(rclpy: str | None) -> TaskOrder | None:
     """Tell in which order a version of rclpy serves tasks; ``None`` where that is not known."""
-    is_oldest_first = has_change(rclpy, TASKS_OLDEST_FIRST)
+    is_oldest_first = TASKS_OLDEST_FIRST.holds(rclpy)
     if is_oldest_first is None:
         return None
     return TaskOrder.OLDEST_FIRST if is_oldest_first else TaskOrder.NEWEST_FIRST

@@ -18,7 +18,7 @@ from ros2cc_extract.spec.deeds import Blocking
 from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.spec.moves import named_executor
 from ros2cc_extract.spec.partners import client_before
-from ros2cc_extract.spec.releases import NODE_STAYS, SPIN_REFUSED_TWICE, has_change
+from ros2cc_extract.spec.releases.table import NODE_STAYS, SPIN_REFUSED_TWICE
 
 _BUSY_WAIT, _FOR_FUTURE = 'busy wait', 'spin for future'
 
@@ -172,7 +172,7 @@ def _spun(block: Blocking, callback: Callback, spec: Spec) -> Spun | None:
         # Which executor goes on with a coroutine of a node that moves is not modelled.
         awaits = any(b.call == 'await' for c in spec.callbacks for b in c.blocking)
         return None if awaits else Spun.GLOBAL
-    return None if has_change(spec.rclpy, NODE_STAYS) is False else Spun.OWN
+    return None if NODE_STAYS.holds(spec.rclpy) is False else Spun.OWN
 
 
 def _is_global(spec: Spec) -> bool:
@@ -190,7 +190,7 @@ def _refusal(block: Blocking, how: str, spun: Spun, spec: Spec) -> Refusal:
     """
     if spun is Spun.GLOBAL:
         return Refusal.NEVER
-    if has_change(spec.rclpy, SPIN_REFUSED_TWICE):
+    if SPIN_REFUSED_TWICE.holds(spec.rclpy):
         return Refusal.ALWAYS
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
     asks_the_same = how in ('spin', 'spin_once') and block.seconds is None

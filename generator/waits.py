@@ -28,7 +28,7 @@ from ros2cc_extract.once import known_of, once
 from ros2cc_extract.spec.deeds import RE_ENTRANT, TURN, Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.partners import client_before, is_client, server_of
-from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF, has_change
+from ros2cc_extract.spec.releases.table import FUTURE_YIELDS_ITSELF
 
 _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')
 # They end by themselves, even where it is not known when.
@@ -263,7 +263,7 @@ def foreign_wakes(spec: Spec) -> bool:
     Before, a lap asks every coroutine whether it can go on, and nothing but a lap (``task.py``,
     ``Future.__await__``, of 7.1.6 and 9.1.2; then of 3.3.21, 7.1.9 and 9.1.5).
     """
-    return has_change(spec.rclpy, FUTURE_YIELDS_ITSELF) is True
+    return FUTURE_YIELDS_ITSELF.holds(spec.rclpy) is True
 
 
 def is_absent(block: Blocking, spec: Spec) -> bool:

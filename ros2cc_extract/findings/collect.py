@@ -16,7 +16,6 @@ from ros2cc_extract.findings.rules.reading.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.findings.rules.registry import BY_SLUG, RULES
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.releases import has_change
 from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verification
 
@@ -124,9 +123,10 @@ def _of_unit(context: Context) -> Iterator[Finding]:
 def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool | None:
     """Whether it does in the releases that are named; ``None`` where that is open."""
     rule = BY_SLUG.get(diagnostic.slug)
-    if rule is None or (rule.since is None and rule.until is None):
+    behaviour = None if rule is None else rule.since or rule.until
+    if rule is None or behaviour is None:
         return None
-    known = {has_change(release, rule.since or rule.until or {}) for release in releases}
+    known = {behaviour.holds(release) for release in releases}
     has_changed = known.pop() if len(known) == 1 else None
     return has_changed if rule.since is not None or has_changed is None else not has_changed
 

@@ -7,7 +7,7 @@ tables of the reports are all made from them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -15,7 +15,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
-from ros2cc_extract.spec.releases import Release
+from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import Verification
 
@@ -113,8 +113,8 @@ class Rule:
     :param bad: a node, or the part that matters, that gets the finding.
     :param good: the same, mended.
     :param mend: what to do, in a sentence or two.
-    :param until: the first releases in which it matters no more, by line; none for all.
-    :param since: the releases of rclpy from which on it matters, by line; none for all.
+    :param until: what releases do in which it matters no more; none for all.
+    :param since: what releases of rclpy do in which it matters; none for all.
     :param language: of the bad example.
     :param find: the check; without one the rule speaks for the extractor's diagnostics.
     """
@@ -128,8 +128,8 @@ class Rule:
     bad: str
     good: str
     mend: str
-    since: Mapping[int, Release] | None = None
-    until: Mapping[int, Release] | None = None
+    since: Behaviour | None = None
+    until: Behaviour | None = None
     language: str = 'python'
     find: Check = field(default=_nothing, repr=False)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.generator.serving import TaskOrder, task_order
-from ros2cc_extract.spec.releases import SPIN_REFUSED_TWICE, has_change
+from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE
 
 NEWEST, OLDEST = TaskOrder.NEWEST_FIRST, TaskOrder.OLDEST_FIRST
 
@@ -34,4 +34,4 @@ def test_which_task_is_served_first(rclpy: str | None, order: TaskOrder | None) 
     [('3.3.21', False), ('7.1.9', True), ('9.1.4', False), ('9.1.5', True), ('10.0.1', True)],
 )
 def test_which_release_refuses_to_be_spun_twice(rclpy: str, refuses: bool) -> None:
-    assert has_change(rclpy, SPIN_REFUSED_TWICE) is refuses
+    assert SPIN_REFUSED_TWICE.holds(rclpy) is refuses

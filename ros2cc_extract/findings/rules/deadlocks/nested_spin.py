@@ -19,7 +19,7 @@ from ros2cc_extract.findings.waits.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.spec.moves import named_executor
-from ros2cc_extract.spec.releases import NODE_STAYS, has_change
+from ros2cc_extract.spec.releases.table import NODE_STAYS
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -104,7 +104,7 @@ def _severity(wait: Wait, unit: Spec, is_own: bool) -> Severity | None:
 
 def _loses_node(unit: Spec) -> bool:
     """True in old releases, which took the node out of the global executor as well."""
-    return has_change(unit.rclpy, NODE_STAYS) is False
+    return NODE_STAYS.holds(unit.rclpy) is False
 
 
 def is_global(unit: Spec) -> bool:

@@ -10,14 +10,14 @@ from ros2cc_extract.findings.base.words import made_at
 from ros2cc_extract.findings.waits.workers import EVENTS
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, EntityKind
-from ros2cc_extract.spec.releases import COROUTINES_IN_EVENTS, has_change
+from ros2cc_extract.spec.releases.table import COROUTINES_IN_EVENTS
 
 _NOT_AWAITED = (EntityKind.SERVICE, EntityKind.SUBSCRIPTION)
 
 
 def find(context: Context) -> Iterator[Hit]:
     unit = context.unit
-    is_mended = has_change(unit.rclpy, COROUTINES_IN_EVENTS)
+    is_mended = COROUTINES_IN_EVENTS.holds(unit.rclpy)
     if unit.executor.kind != EVENTS or is_mended:
         return
     for callback in context.written:

@@ -9,12 +9,12 @@ from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.words import made_at, served_at
 from ros2cc_extract.findings.rules.deadlocks.nested_spin import is_executor_call, is_global
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
-from ros2cc_extract.spec.releases import SPIN_REFUSED_TWICE, has_change
+from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE
 
 
 def find(context: Context) -> Iterator[Hit]:
     executor = context.unit.executor
-    refused = has_change(context.unit.rclpy, SPIN_REFUSED_TWICE)
+    refused = SPIN_REFUSED_TWICE.holds(context.unit.rclpy)
     for wait in waits_of(context):
         if wait.kind is WaitKind.SPIN and _is_of_this_executor(wait, context):
             yield Hit(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Rule
-from ros2cc_extract.spec.releases import FUTURE_YIELDS_ITSELF
+from ros2cc_extract.spec.releases.table import FUTURE_YIELDS_ITSELF
 
 NOBODY_SPINS = Rule(
     code='CC110',

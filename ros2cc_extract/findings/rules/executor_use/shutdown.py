@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Rule
-from ros2cc_extract.spec.releases import DESTROYED_SPIN_GOES_ON, SHUTDOWN_WAITS_NOT
+from ros2cc_extract.spec.releases.table import DESTROYED_SPIN_GOES_ON, SHUTDOWN_WAITS_NOT
 
 SERVED_NO_MORE = Rule(
     code='CC116',

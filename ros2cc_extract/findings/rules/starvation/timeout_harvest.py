@@ -9,14 +9,14 @@ from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.words import made_at, shown
 from ros2cc_extract.findings.waits.waits import WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import SINGLE
-from ros2cc_extract.spec.releases import TIMEOUT_KEEPS_HARVEST, has_change
+from ros2cc_extract.spec.releases.table import TIMEOUT_KEEPS_HARVEST
 
 
 def find(context: Context) -> Iterator[Hit]:
     """Only where the release is known: the newer ones are not concerned."""
     unit = context.unit
     spun = (unit.executor.spun or '').rpartition('.')[2]
-    is_old = has_change(unit.rclpy, TIMEOUT_KEEPS_HARVEST) is False
+    is_old = TIMEOUT_KEEPS_HARVEST.holds(unit.rclpy) is False
     if not is_old or unit.executor.kind != SINGLE or spun != 'spin_until_future_complete':
         return
     waits = [wait for wait in waits_of(context) if wait.kind is WaitKind.AWAIT]
