@@ -13,6 +13,8 @@ import pytest
 from tests.e2e.conftest import environment
 from tests.support.trees import write_tree
 
+OTHERS = ('json', 'sarif', 'junit', 'github')
+
 
 def checked(folder: Path, cache: Path, cores: int, *arguments: object) -> tuple[int, bytes]:
     allowed = ','.join(map(str, sorted(os.sched_getaffinity(0))[:cores]))
@@ -28,7 +30,10 @@ def checked(folder: Path, cache: Path, cores: int, *arguments: object) -> tuple[
     return done.returncode, done.stdout
 
 
-@pytest.mark.parametrize('form', ['text', 'json', 'sarif', 'junit', 'github', 'html'])
+FORMS = ['text', 'html', *(pytest.param(form, marks=pytest.mark.slow) for form in OTHERS)]
+
+
+@pytest.mark.parametrize('form', FORMS)
 def test_check_says_the_same_every_time(tmp_path: Path, form: str) -> None:
     folder = tmp_path / 'tree'
     write_tree(folder)

@@ -108,7 +108,7 @@ def test_slices_with_locks_that_have_once_differed(monkeypatch: pytest.MonkeyPat
 
 
 def test_texts_agree() -> None:
-    assert differences(spinning_units(range(30)), by_texts) == []
+    assert differences(spinning_units(range(15)), by_texts) == []
 
 
 @pytest.mark.slow
@@ -118,7 +118,7 @@ def test_texts_agree_on_many() -> None:
 
 def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
-    assert differences(spinning_units(range(20)), by_slices) == []
+    assert differences(spinning_units(range(10)), by_slices) == []
 
 
 @pytest.mark.slow
@@ -128,7 +128,7 @@ def test_slices_agree_on_many(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_texts_with_locks_agree() -> None:
-    assert differences(locking_units(range(60)), by_texts) == []
+    assert differences(locking_units(range(30)), by_texts) == []
 
 
 @pytest.mark.slow
@@ -138,7 +138,7 @@ def test_texts_with_locks_agree_on_many() -> None:
 
 def test_slices_with_locks_agree(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
-    assert differences(locking_units(range(60)), by_slices) == []
+    assert differences(locking_units(range(30)), by_slices) == []
 
 
 @pytest.mark.slow
