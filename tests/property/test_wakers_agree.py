@@ -95,7 +95,7 @@ def test_texts_agree_on_many() -> None:
 
 def one_bound_for_both(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
-    monkeypatch.setattr(filled_threads, 'SLICE_STATES', MOST_STATES)
+    monkeypatch.setattr(filled_threads, 'MOST_STATES', MOST_STATES)
 
 
 def test_slices_agree(monkeypatch: pytest.MonkeyPatch) -> None:
