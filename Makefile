@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -56,6 +56,12 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.suite --python $(KILTED)/bin/python $(ON_EVENTS)
 	$(BIN)/python -m tests.conformance.three --python $(JAZZY)/bin/python
 	$(BIN)/python -m tests.conformance.three --python $(KILTED)/bin/python
+
+# Random programs on releases that are no wheel, RELEASES="7.1.11 11.0.0" some of them; ROS2CC_RELEASES
+# is a folder with a program that builds them, and without it they are skipped.
+RELEASES ?=
+releases: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(BIN)/python -m tests.conformance.releases $(RELEASES)
 
 # Every shape of waiting and ending of docs/waits.md, on both distributions.
 observe_on = $(BIN)/python -m tests.shapes.observe --python .venv-$(1)/bin/python --as $(1)

@@ -39,6 +39,7 @@ COMMANDS = {
     'attach': 'write the specification of a process that already runs',
     'conform': 'decide whether a recorded execution is a path of the model',
     'diff': 'compare two specifications of one program',
+    'upgrade': 'tell what changes when another release of rclpy runs the nodes',
     'init': 'write the test file, hook and job that guard a ROS 2 package',
     'merge': 'join a specification from source with one from a live run',
 }

@@ -21,9 +21,10 @@ from ros2cc_extract.spec.model import (
     Spec,
     collect_unresolved,
 )
+from ros2cc_extract.spec.releases.lines import BY_DISTRO
 
 DEFAULT_COUNT = 'default_cpu_count'
-MEND = 'write threads=N, executor=CLASS, rclpy=X.Y.Z or group.NAME=EXCLUSIVE|REENTRANT'
+MEND = 'write threads=N, executor=CLASS, rclpy=X.Y.Z|DISTRO or group.NAME=EXCLUSIVE|REENTRANT'
 _RELEASE = re.compile(r'\d+\.\d+\.\d+')
 _GROUP = 'group.'
 
@@ -61,7 +62,7 @@ def read_assumptions(entries: Iterable[str], place: Place | None = None) -> Assu
             threads = int(value)
         elif key == 'executor' and value.isidentifier():
             executor = value
-        elif key == 'rclpy' and _RELEASE.fullmatch(value):
+        elif key == 'rclpy' and (_RELEASE.fullmatch(value) or value in BY_DISTRO):
             rclpy = value
         elif key.startswith(_GROUP) and equals and value in GroupType.__members__:
             groups[key.removeprefix(_GROUP)] = GroupType[value]

@@ -22,7 +22,9 @@ from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Trace, read_traces
 from ros2cc_extract.conform.unit import Comparison
 from ros2cc_extract.extract.live.run import record, write_traces
+from ros2cc_extract.spec.releases.table import EVENTS_EXECUTOR
 from tests.conformance.checking import Ran, compare_in_time, read_ran
+from tests.conformance.programs import EVENTS, draw
 from tests.support.domains import free_domain
 
 DRIVER = Path(__file__).with_name('driver.py')
@@ -78,6 +80,25 @@ def run_programs(
     return trace, read_ran(out)
 
 
+@dataclass(frozen=True)
+class Release:
+    """A release that stands in a folder of its own, before the one that PYTHON has."""
+
+    version: str
+    folder: Path
+
+    def over(self, environment: dict[str, str]) -> dict[str, str]:
+        """The environment with this release first."""
+        return {**environment, 'PYTHONPATH': str(self.folder)}
+
+
+def runnable(seeds: Sequence[int], built: Release | None) -> list[int]:
+    """Leave out programs for an executor that the release has not."""
+    if built is None or EVENTS_EXECUTOR.holds(built.version):
+        return list(seeds)
+    return [seed for seed in seeds if draw(seed).executor != EVENTS]
+
+
 @contextmanager
 def own_environment() -> Iterator[dict[str, str]]:
     """Give an environment with a domain of its own, and nothing beyond this machine."""
@@ -89,7 +110,9 @@ def own_environment() -> Iterator[dict[str, str]]:
         }
 
 
-def run_suite(python: str, first: int, programs: int, keep: Path | None) -> Tally:
+def run_suite(
+    python: str, first: int, programs: int, keep: Path | None, built: Release | None = None
+) -> Tally:
     """Run programs in chunks, compare them, and print what fails."""
     tally = Tally()
     for start in range(first, first + programs, CHUNK):
@@ -97,7 +120,9 @@ def run_suite(python: str, first: int, programs: int, keep: Path | None) -> Tall
         with tempfile.TemporaryDirectory(prefix='ros2cc-conformance-') as folder:
             begun = time.monotonic()
             with own_environment() as environment:
-                trace, ran = run_programs(python, seeds, environment, Path(folder))
+                given = environment if built is None else built.over(environment)
+                trace, ran = run_programs(python, runnable(seeds, built), given, Path(folder))
+            assert built is None or trace.rclpy == built.version, trace.rclpy
             tally.run_s += time.monotonic() - begun
             begun, failed = time.monotonic(), len(tally.failed)
             for each in ran:
@@ -116,10 +141,13 @@ def main() -> int:
     parser.add_argument('--first', type=int, default=0, help='first seed')
     parser.add_argument('--programs', type=int, default=1000)
     parser.add_argument('--keep', type=Path, help='folder for the traces of failing chunks')
+    parser.add_argument('--release', help='the one that --built holds, such as 7.1.11')
+    parser.add_argument('--built', type=Path, metavar='FOLDER', help='with rclpy, see releases.py')
     args = parser.parse_args()
     if args.keep is not None:
         args.keep.mkdir(parents=True, exist_ok=True)
-    tally = run_suite(args.python, args.first, args.programs, args.keep)
+    built = Release(args.release, args.built.resolve()) if args.built is not None else None
+    tally = run_suite(args.python, args.first, args.programs, args.keep, built)
     return 0 if set(tally.outcomes) <= {Outcome.CONFORMS} else 1
 
 

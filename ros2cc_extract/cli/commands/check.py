@@ -89,6 +89,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
+    _tell_release(job.assumptions.rclpy, stderr)
     termination, begun = Termination(), time.monotonic()
     try:
         with termination_as_interrupt(termination):
@@ -120,7 +121,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
     from ros2cc_extract.pipeline.check import Job
     from ros2cc_extract.pipeline.config import assumptions_of
 
-    options = options_of(args)
+    options, assumptions = options_of(args), assumptions_of(config, args.assume)
     if config.timeout is not None and args.timeout == DEFAULT_SECONDS:
         options = replace(options, limits=replace(options.limits, seconds=config.timeout))
     return Job(
@@ -128,7 +129,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         config=config,
         policy=policy_of(args),
         options=options,
-        assumptions=assumptions_of(config, args.assume),
+        assumptions=replace(assumptions, rclpy=args.rclpy or assumptions.rclpy),
         root=config.root.resolve(),
         cached=not args.no_cache,
         keeps_runs=args.output_format in WITH_RUNS,
@@ -204,6 +205,15 @@ def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) 
     stdout.write(write(checked, form))
     if form == 'github':
         _append_step_summary(checked)
+
+
+def _tell_release(rclpy: str | None, stderr: TextIO) -> None:
+    """A release that nobody has looked at is not taken for another in silence."""
+    from ros2cc_extract.spec.releases.lines import judged_as
+
+    told = judged_as(rclpy) if rclpy else None
+    if told:
+        print(told, file=stderr)
 
 
 def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:

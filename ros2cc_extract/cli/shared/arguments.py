@@ -40,12 +40,19 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
         action='store_true',
         help='keep the entities in the model that rclpy itself creates',
     )
-    parser.add_argument(
+    release = parser.add_mutually_exclusive_group()
+    release.add_argument(
         '--rclpy',
         type=_version,
         metavar='VERSION',
         help='version of rclpy that runs the node, for what differs in profile rclpy: 7.1.6 is '
         'Jazzy, 9.1.2 Kilted (default: as recorded, else what holds for all)',
+    )
+    release.add_argument(
+        '--distro',
+        dest='rclpy',
+        choices=['humble', 'jazzy', 'kilted', 'lyrical', 'rolling'],
+        help='the distribution that runs it: what holds for all its releases',
     )
 
 
@@ -159,6 +166,16 @@ def _positive(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
     return value
+
+
+def release_argument(text: str) -> str:
+    """Read a release, or the name of a distribution."""
+    from ros2cc_extract.spec.releases.lines import BY_DISTRO, release_of
+
+    if text not in BY_DISTRO and release_of(text) is None:
+        known = ', '.join(BY_DISTRO)
+        raise argparse.ArgumentTypeError(f'{text!r} is no release; write 7.1.6, or one of {known}')
+    return text
 
 
 def _version(text: str) -> str:

@@ -44,6 +44,7 @@ from ros2cc_extract.places import Place
 from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
 from ros2cc_extract.verify.results.evidence import Evidence
 
 
@@ -221,8 +222,7 @@ def describe(race: Race) -> str:
 
 
 IN_ONE_PIECE = (
-    'CPython does it in one piece by its global lock, which the language does not promise and '
-    'free-threaded builds lack'
+    f'{NO_GLOBAL_LOCK.without}, which the language does not promise and free-threaded builds lack'
 )
 
 

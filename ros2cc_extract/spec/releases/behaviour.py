@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from ros2cc_extract.spec.releases.lines import Release, release_of, representatives
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Behaviour:
     """
     A behaviour that some releases have, and others do not.

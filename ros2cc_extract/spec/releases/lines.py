@@ -72,6 +72,12 @@ def lines_of(version: str | None) -> tuple[Line, ...]:
     return () if line is None else (line,)
 
 
+def newest_of(version: str) -> str:
+    """The newest known release of a distribution; a release stands for itself."""
+    line = BY_DISTRO.get(version)
+    return version if line is None else text_of(line.newest)
+
+
 def judged_as(version: str) -> str | None:
     """
     What a release is judged as that is newer than all that were looked at, for the reader.

@@ -14,6 +14,8 @@ _HEAD = """\
 What differs between the releases of rclpy that are supported, and between those of Python. Models
 and rules read the same table (`ros2cc_extract/spec/releases/table.py`), from which this page is
 written. A release newer than all that were looked at is judged as the newest of its distribution.
+`check --distro jazzy` or `--rclpy 7.1.6` judges for yours, and `upgrade --from humble --to lyrical
+PATH` tells what changes for your nodes.
 """
 
 

@@ -55,7 +55,7 @@ def test_entries_are_read_and_a_later_one_wins() -> None:
         'executor=',
         'executor=a b',
         'rclpy=7.1',
-        'rclpy=jazzy',
+        'rclpy=foxy',
         'group.g',
         'group.g=exclusive',
         'groups.g=EXCLUSIVE',
@@ -67,7 +67,7 @@ def test_an_entry_of_another_form_is_refused(entry: str) -> None:
         read_assumptions([entry], Place('pyproject.toml', 3))
     assert str(raised.value) == (
         f'pyproject.toml:3: assumption {entry!r} is not understood; write threads=N, '
-        'executor=CLASS, rclpy=X.Y.Z or group.NAME=EXCLUSIVE|REENTRANT'
+        'executor=CLASS, rclpy=X.Y.Z|DISTRO or group.NAME=EXCLUSIVE|REENTRANT'
     )
 
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from ros2cc_extract.spec.releases import table
+from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.lines import LINES, judged_as
 from ros2cc_extract.spec.releases.page import page
 from ros2cc_extract.spec.releases.table import (
@@ -116,3 +120,19 @@ def test_nothing_changes_behind_the_newest_release_that_was_looked_at() -> None:
 def test_page_of_the_documentation_is_that_of_the_table() -> None:
     """Written anew by ``make rules``."""
     assert (ROOT / 'docs' / 'releases.md').read_text(encoding='utf-8') == page()
+
+
+def test_every_row_is_read_by_a_model_a_rule_or_upgrade() -> None:
+    """What only the page shows would be a claim on which nothing rests."""
+    rows = {name for name, value in vars(table).items() if isinstance(value, Behaviour)}
+    folders = (ROOT / 'generator', ROOT / 'ros2cc_extract' / 'findings')
+    files = [path for folder in folders for path in folder.rglob('*.py')]
+    read = {name for path in files for name in uses(path)}
+    assert rows - read == set()
+
+
+def uses(path: Path) -> Iterator[str]:
+    """Names that a module uses, not those that it only imports."""
+    for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+        if isinstance(node, ast.Name):
+            yield node.id

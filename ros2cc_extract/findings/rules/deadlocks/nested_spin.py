@@ -19,7 +19,7 @@ from ros2cc_extract.findings.waits.workers import SINGLE
 from ros2cc_extract.places import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.spec.moves import named_executor
-from ros2cc_extract.spec.releases.table import NODE_STAYS
+from ros2cc_extract.spec.releases.table import NODE_STAYS, SPIN_REFUSED_TWICE
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -73,11 +73,18 @@ def _consequence(wait: Wait, context: Context) -> str:
             'callbacks runs again; under rclpy.spin it runs others inside this one'
         )
     if is_global(unit) and not _loses_node(unit):
-        return (
-            f'{_runs_inside(wait.caller, context)}, and from rclpy 7.1.9 on the executor refuses '
-            'to be spun twice'
-        )
+        return _spun_twice(wait.caller, context)
     return f'the node leaves its {unit.executor.kind}, and none of its callbacks runs again'
+
+
+def _spun_twice(caller: Callback, context: Context) -> str:
+    refused = SPIN_REFUSED_TWICE.holds(context.unit.rclpy)
+    if refused:
+        return 'it raises RuntimeError, since that executor spins already'
+    inside = _runs_inside(caller, context)
+    if refused is None:
+        return f'{inside}, and from rclpy 7.1.9 on the executor refuses to be spun twice'
+    return inside
 
 
 def _runs_inside(caller: Callback, context: Context) -> str:
@@ -97,8 +104,9 @@ def _severity(wait: Wait, unit: Spec, is_own: bool) -> Severity | None:
     if not is_own:
         return Severity.NOTE
     is_known = not isinstance(unit.executor.kind, Unknown)
+    is_refused = SPIN_REFUSED_TWICE.holds(unit.rclpy) is True
     is_lost = not is_global(unit) or _loses_node(unit) or _is_named(wait)
-    is_certain = is_known and is_lost
+    is_certain = is_known and (is_lost or is_refused)
     return None if is_certain else Severity.WARNING
 
 

@@ -11,6 +11,7 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import MULTI
 from ros2cc_extract.places import Place
 from ros2cc_extract.spec.model import Callback, CallbackGroup, Spec
+from ros2cc_extract.spec.releases.table import POOL_ORDER_VARIES
 from ros2cc_extract.verify.results.load import Load, LoadKind, load_of, served_before
 from ros2cc_extract.verify.results.rates import demand_of
 
@@ -92,9 +93,9 @@ RULE = Rule(
     'subscriptions, guard conditions, clients and services, each in order of creation. Source: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_wait_for_ready_callbacks`). Measured for two '
     'timers of one group: at a load of 0.9 both run 40 times, at 1.2 one 39 and the other 26 '
-    'times, at 2.1 the second never (Python 3.11 and 3.12). From Python 3.13 on the threads of a '
-    'pool now and then begin in another order than they were given their work: at 4.0 the second '
-    'ran 7 to 27 times while the first ran 240 to 275 times, on 3.13.0 and 3.14.10.',
+    'times, at 2.1 the second never (Python 3.11 and 3.12). From Python 3.13 on two threads of a '
+    f'pool begin what they were given {POOL_ORDER_VARIES.having}. Measured: '
+    f'{POOL_ORDER_VARIES.observed}.',
     bad="""\
 class Arm(Node):
     def __init__(self):

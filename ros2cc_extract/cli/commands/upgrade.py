@@ -1,0 +1,79 @@
+"""``ros2cc-extract upgrade``: what changes for a program when another release runs it."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from typing import TYPE_CHECKING, TextIO
+
+from ros2cc_extract.cli.shared.arguments import add_paths, release_argument
+from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS, EXIT_UNDECIDED
+
+if TYPE_CHECKING:
+    from ros2cc_extract.findings.upgrade import Change
+    from ros2cc_extract.pipeline.check import Outcome
+
+SECONDS, MAX_SECONDS = 20.0, 120.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_paths(parser)
+    for name, what in (('from', 'runs the nodes now'), ('to', 'is to run them')):
+        parser.add_argument(
+            f'--{name}',
+            dest=f'{name}_release',
+            required=True,
+            type=release_argument,
+            metavar='RELEASE',
+            help=f'what {what}: a distribution, by its newest known release, or 7.1.6',
+        )
+    parser.epilog = 'Exit status: 0 nothing changes, 1 something does, 2 input error, 3 undecided.'
+
+
+def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.findings.upgrade import changes
+    from ros2cc_extract.spec.releases.lines import judged_as, newest_of
+
+    old, new = newest_of(args.from_release), newest_of(args.to_release)
+    for told in filter(None, map(judged_as, (old, new))):
+        print(told, file=stderr)
+    before, after = _checked(args, old, stderr), _checked(args, new, stderr)
+    found = changes(after.units, before.findings, after.findings, old, new)
+    for change in found:
+        print(_line(change), file=stdout)
+        for row in change.because:
+            print(f'    because of {row.name}: {row.source}', file=stdout)
+    count = f'{len(found)} change{"" if len(found) == 1 else "s"}' if found else 'no change'
+    print(f'from rclpy {old} to {new}: {count}', file=stdout)
+    if found:
+        return EXIT_FINDINGS
+    return EXIT_UNDECIDED if before.is_undecided or after.is_undecided else EXIT_CLEAN
+
+
+def _checked(args: argparse.Namespace, release: str, stderr: TextIO) -> Outcome:
+    from ros2cc_extract.checker.api import Limits
+    from ros2cc_extract.pipeline.check import Job, check_paths
+    from ros2cc_extract.pipeline.config import assumptions_of, load_config
+    from ros2cc_extract.spec.close import Policy
+    from ros2cc_extract.verify.search.options import Options
+
+    config = load_config(min(args.paths, key=lambda path: path.absolute()))
+    job = Job(
+        paths=args.paths,
+        config=config,
+        policy=Policy(rclpy=release),
+        options=Options(limits=Limits(seconds=config.timeout or SECONDS)),
+        assumptions=replace(assumptions_of(config, []), rclpy=release),
+        root=config.root.resolve(),
+        cached=not args.no_cache,
+        max_seconds=MAX_SECONDS,
+    )
+    outcome = check_paths(job, stderr)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    return outcome
+
+
+def _line(change: Change) -> str:
+    code = f'{change.code} ' if change.code else ''
+    return f'{change.place}: {code}{change.turn.value}: {change.message}'

@@ -1,0 +1,64 @@
+"""
+Conformance on releases of rclpy that are no wheel, which a checkout builds.
+
+``ROS2CC_RELEASES=FOLDER python -m tests.conformance.releases`` expects in FOLDER a program
+``build PYTHON RELEASE TARGET``, which puts a release, native part included, over the wheel of
+PYTHON into TARGET. Without a folder everything is skipped, and said to be.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from ros2cc_extract.conform.search import Outcome
+from ros2cc_extract.spec.releases.lines import line_of
+from tests.conformance.suite import Release, run_suite
+
+VARIABLE = 'ROS2CC_RELEASES'
+RELEASES = ('3.3.21', '7.1.11', '9.1.5', '10.0.10', '11.0.0')
+WHEELS = {'humble': 'jazzy', 'jazzy': 'jazzy'}
+"""Whose wheel a release is built over; that of Kilted where none is named."""
+
+
+def built(release: str, checkout: Path, folder: Path) -> tuple[str, Release]:
+    """Build a release unless it is there; give the interpreter to run it by, too."""
+    line = line_of(release)
+    wheel = WHEELS.get(line.distro if line else '', 'kilted')
+    python, target = f'.venv-{wheel}/bin/python', folder / release
+    record = target / f'ros_rclpy-{release}.dist-info'
+    if not record.is_dir():
+        command = [str(checkout / 'build'), python, release, str(target)]
+        subprocess.run(command, check=True, stdout=sys.stderr)
+        record.mkdir()
+        # By this name the hook asks for the version, and finds that of the wheel otherwise.
+        text = f'Metadata-Version: 2.1\nName: ros-rclpy\nVersion: {release}\n'
+        (record / 'METADATA').write_text(text)
+    return python, Release(release, target.resolve())
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[1] if __doc__ else '')
+    parser.add_argument('releases', nargs='*', default=RELEASES, help='(default: all)')
+    parser.add_argument('--first', type=int, default=700_100, help='first seed')
+    parser.add_argument('--programs', type=int, default=50)
+    parser.add_argument('--folder', type=Path, default=Path('build/releases'))
+    parser.add_argument('--keep', type=Path, help='folder for the traces of failing chunks')
+    args = parser.parse_args()
+    checkout = os.environ.get(VARIABLE)
+    if checkout is None:
+        print(f'skipped: {", ".join(args.releases)}; {VARIABLE} names no folder that builds them')
+        return 0
+    outcomes: set[Outcome] = set()
+    for each in args.releases:
+        python, release = built(each, Path(checkout), args.folder)
+        print(f'rclpy {each}', flush=True)
+        outcomes |= set(run_suite(python, args.first, args.programs, args.keep, release).outcomes)
+    return 0 if outcomes <= {Outcome.CONFORMS} else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

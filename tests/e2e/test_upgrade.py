@@ -1,0 +1,111 @@
+"""``upgrade`` names what changes between two releases; ``--distro`` judges for one."""
+
+from __future__ import annotations
+
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.cli.main import main
+
+NODE = """\
+import rclpy
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.client = self.create_client(Trigger, 'go')
+        self.create_timer(1.0, self.on_timer)
+        self.create_timer(1.0, self.on_call)
+
+    def on_timer(self):
+        rclpy.spin_once(self)
+
+    def on_call(self):
+        self.client.call(Trigger.Request(), timeout_sec=1.0)
+        rclpy.shutdown()
+
+
+rclpy.init()
+rclpy.spin(Arm())
+"""
+
+
+@pytest.fixture
+def node(tmp_path: Path) -> str:
+    path = tmp_path / 'arm.py'
+    path.write_text(NODE)
+    return str(path)
+
+
+def run(*arguments: str) -> tuple[int, str, str]:
+    out, err = StringIO(), StringIO()
+    return main(arguments, out, err), out.getvalue(), err.getvalue()
+
+
+def upgraded(node: str, old: str, new: str) -> tuple[int, list[str]]:
+    status, out, _ = run('upgrade', '--from', old, '--to', new, node)
+    lines = [line.replace(node, 'arm.py') for line in out.splitlines()]
+    return status, [': '.join(line.split(': ')[:2]) for line in lines]
+
+
+def test_upgrade_over_distributions_names_each_change_with_its_switch(node: str) -> None:
+    assert upgraded(node, 'humble', 'lyrical') == (
+        1,
+        [
+            'arm.py:14:9: CC106 changes',
+            '    because of spin-refused-twice: ros2/rclpy pull request 1510, `executors.py` '
+            '(`spin`, `spin_once`)',
+            'arm.py:17:9: behaves otherwise',
+            '    because of call-timeout-raises: `client.py` (`Client.call`) of 7.1.11 and 9.1.5',
+            'arm.py:17:9: behaves otherwise',
+            '    because of call-takes-timeout: `client.py` (`Client.call`) of 3.3.21 and 7.1.11',
+            'arm.py:18:9: CC118 goes',
+            '    because of shutdown-waits-not: ros2/rclpy issue 944, `executors.py` '
+            '(`Executor.shutdown`)',
+            'from rclpy 3.3.22 to 10.0.10: 4 changes',
+        ],
+    )
+
+
+def test_upgrade_within_a_distribution(node: str) -> None:
+    status, lines = upgraded(node, '7.1.6', '7.1.9')
+    assert status == 1
+    assert [line for line in lines if not line.startswith(' ')] == [
+        'arm.py:14:9: CC106 changes',
+        'from rclpy 7.1.6 to 7.1.9: 1 change',
+    ]
+
+
+def test_upgrade_that_changes_nothing(node: str) -> None:
+    assert upgraded(node, '7.1.9', 'jazzy') == (0, ['from rclpy 7.1.9 to 7.1.11: no change'])
+
+
+def test_release_that_nobody_has_looked_at_is_told(node: str) -> None:
+    told = 'rclpy 7.1.12 is judged as 7.1.11, the newest known\n'
+    assert run('upgrade', '--from', 'jazzy', '--to', '7.1.12', node)[2] == told
+    assert run(node, '--rclpy', '7.1.12')[2] == told
+
+
+def test_no_release(node: str) -> None:
+    assert run('upgrade', '--from', 'foxy', '--to', 'jazzy', node)[0] == 2
+
+
+@pytest.mark.parametrize(
+    ('distro', 'told', 'found'),
+    [
+        ('humble', 'callbacks of other groups run inside this one, members of', ['CC118']),
+        ('jazzy', 'from rclpy 7.1.9 on the executor refuses to be spun twice', []),
+        ('rolling', 'inside a callback: it raises RuntimeError, since that executor', []),
+    ],
+)
+def test_distro_says_which_consequence_holds(
+    node: str, distro: str, told: str, found: list[str]
+) -> None:
+    _, out, _ = run(node, '--distro', distro)
+    assert told in out
+    assert [code for code in ('CC118',) if f': {code} ' in out] == found
