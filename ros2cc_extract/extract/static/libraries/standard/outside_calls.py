@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.python.machine.library_table import (
     LibraryClass,
     Property,
 )
+from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -50,6 +51,8 @@ _LIMIT = '__timeout__'
 
 _READ = 'os.read'
 _COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
+_SOCKET, _ACCEPT = 'socket.socket', 'socket.accept'
+_CONNECTED = 'socket.create_connection'
 _CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
 
 
@@ -68,9 +71,22 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
             child_pipes.note_wait(machine.world, receiver, _streams(slots), call.place)
         elif name == _COMMUNICATE:
             child_pipes.note_read(machine.world, receiver)
+        if name == _CONNECTED:
+            return _socket(machine, call, timeout)
+        if name == _ACCEPT:
+            address = machine.mystery('address of who connects', call.place)
+            return Sequence((_socket(machine, call, None), address), 'tuple')
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 
     return handler
+
+
+def _socket(machine: ConcurrentMachine, call: Call, limit: Value | None) -> Value:
+    """A new socket waits for ever; one that is connected so keeps the time-out of that."""
+    made = Instance(Name(_SOCKET), call.place)
+    if limit is not None:
+        machine.store.write(made, _LIMIT, limit)
+    return made
 
 
 def _streams(slots: Mapping[str, object]) -> list[str]:
@@ -149,7 +165,7 @@ def _child(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 _INITS: dict[str, Handler] = {
     'serial.Serial': _limit(5, _TIMEOUT),
     'subprocess.Popen': _child,
-    'socket.socket': _kind_of_socket,
+    _SOCKET: _kind_of_socket,
 }
 
 
@@ -162,7 +178,7 @@ _PROPERTIES: dict[str, dict[str, Property]] = {
     'subprocess.Popen': {'stdout': _stream, 'stderr': _stream}
 }
 _MORE: dict[str, dict[str, Handler]] = {
-    'socket.socket': {'settimeout': _limit(0, 'value'), 'setblocking': _blocks},
+    _SOCKET: {'settimeout': _limit(0, 'value'), 'setblocking': _blocks},
 }
 
 
@@ -229,6 +245,7 @@ TABLE = Library(
     },
     functions={
         'os.fork': _fork,
+        'socket.create_server': lambda machine, receiver, call: _socket(machine, call, None),
         **{name: _waiting(name.removeprefix('builtins.'), row) for name, row in FUNCTIONS.items()},
         WAIT_KEY: _wait_key,
         'atexit.register': on_exit,
