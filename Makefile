@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
+.PHONY: demo test test-long texts slices shapes waits why random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -69,6 +69,11 @@ shapes: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(call observe_on,jazzy) $(SHAPES)
 	$(call observe_on,kilted) $(SHAPES)
 	$(BIN)/python -m pytest -q -m 'slow or not slow' tests/shapes
+
+# What `why` says of every blocking pattern, on both distributions; none that goes on is a deadlock.
+why: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(BIN)/python -m tests.live.standing $(CURDIR)/$(JAZZY)/bin/python
+	$(BIN)/python -m tests.live.standing $(CURDIR)/$(KILTED)/bin/python
 
 # What the table of shapes excuses, asked anew, and docs/waits.md from it.
 waits: $(VENV)/developed

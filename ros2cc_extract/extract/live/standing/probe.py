@@ -1,0 +1,261 @@
+"""
+Where every thread of this process stands, and what rclpy's objects say: looked at twice.
+
+Runs inside the user's process, in a thread of its own that ends by itself: the standard library
+only. It changes nothing; what the looks mean is decided outside. Sources: rclpy 7.1.6 and 9.1.2,
+``executors.py``, ``callback_groups.py``, ``client.py``, ``task.py``.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import sys
+import threading
+import time
+from types import FrameType
+from typing import Any
+
+APART_S = 0.2
+MOST_FRAMES = 60
+_KINDS = ('timers', 'subscriptions', 'services', 'clients', 'guards', 'waitables')
+_OF_INTEREST = {
+    'lock', 'RLock', 'Condition', 'Event', 'Thread', 'Future', 'Task', 'Client', 'Queue',
+    'SimpleQueue', 'Semaphore', 'BoundedSemaphore', 'Barrier', 'Rate', 'SingleThreadedExecutor',
+    'MultiThreadedExecutor',
+}  # fmt: skip
+
+
+def look_twice(path: str) -> None:
+    """Write both looks into a new file."""
+    looks = [_look()]
+    time.sleep(APART_S)
+    looks.append(_look())
+    with open(path, 'x', encoding='utf-8') as stream:  # noqa: PTH123
+        json.dump({'python': sys.version.split()[0], 'looks': looks}, stream)
+
+
+def _look() -> dict[str, Any]:
+    frames = sys._current_frames()
+    frames.pop(threading.get_ident(), None)
+    objects: dict[int, dict[str, Any]] = {}
+    names = {thread.ident: thread for thread in list(threading._active.values())}  # type: ignore[attr-defined]
+    threads = [_thread(ident, names.get(ident), frame, objects) for ident, frame in frames.items()]
+    executors, nodes, tasks = _of_rclpy()
+    return {
+        'main': threading.main_thread().ident,
+        'threads': threads,
+        'executors': [_executor(each) for each in executors],
+        'nodes': [_node(each) for each in nodes],
+        'tasks': [row for each in tasks if (row := _suspended(each, objects)) is not None],
+        'objects': {str(key): row for key, row in objects.items()},
+    }
+
+
+def _of_rclpy() -> tuple[list[Any], list[Any], list[Any]]:
+    module = sys.modules.get('rclpy.executors')
+    if module is None:
+        return [], [], []
+    executors: list[Any] = []
+    nodes: list[Any] = []
+    tasks: list[Any] = []
+    for each in gc.get_objects():
+        kind = type(each)
+        if issubclass(kind, module.Executor):
+            executors.append(each)
+        elif hasattr(kind, 'default_callback_group'):
+            nodes.append(each)
+        elif kind.__name__ == 'Task' and kind.__module__ == 'rclpy.task':
+            tasks.append(each)
+    return executors, nodes, tasks
+
+
+def _thread(
+    ident: int, thread: Any, frame: FrameType | None, objects: dict[int, dict[str, Any]]
+) -> dict[str, Any]:
+    rows: list[dict[str, Any]] = []
+    while frame is not None and len(rows) < MOST_FRAMES:
+        rows.append(_frame(frame, objects))
+        frame = frame.f_back
+    rows.reverse()
+    native = getattr(thread, 'native_id', None)
+    return {
+        'ident': ident,
+        'name': getattr(thread, 'name', 'a thread without a name'),
+        'frames': rows,
+        'ticks': _ticks(native),
+    }
+
+
+def _ticks(native: int | None) -> int | None:
+    try:
+        with open(f'/proc/self/task/{native}/stat', encoding='utf-8') as stream:  # noqa: PTH123
+            fields = stream.read().rpartition(')')[2].split()
+        return int(fields[11]) + int(fields[12])
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def _frame(frame: FrameType, objects: dict[int, dict[str, Any]]) -> dict[str, Any]:
+    code, known = frame.f_code, frame.f_locals
+    values: dict[str, Any] = {name: known[name] for name in list(known) if isinstance(name, str)}
+    held = values.get('self')
+    for name, value in list(getattr(held, '__dict__', {}).items()):
+        values[f'self.{name}'] = value
+    for name in code.co_names:
+        values.setdefault(name, frame.f_globals.get(name))
+    return {
+        'id': id(frame),
+        'file': code.co_filename,
+        'function': code.co_name,
+        'module': str(frame.f_globals.get('__name__', '')),
+        'line': frame.f_lineno,
+        'at': frame.f_lasti,
+        'position': _position(frame),
+        'objects': {
+            name: _object(value, objects) for name, value in values.items() if _of_interest(value)
+        },
+        'endless': _is_endless(known),
+        # Who runs a callback: `Executor._make_handler`, its coroutine `handler`.
+        'entity': id(known['entity']) if _runs_an_entity(frame) else None,
+    }
+
+
+def _runs_an_entity(frame: FrameType) -> bool:
+    return (
+        frame.f_code.co_name == 'handler'
+        and frame.f_globals.get('__name__') == 'rclpy.executors'
+        and 'entity' in frame.f_locals
+    )
+
+
+def _is_endless(known: Any) -> bool:
+    for name in ('timeout', 'timeout_sec'):
+        value = known.get(name)
+        if isinstance(value, (int, float)) and 0 <= value < float('inf'):
+            return False
+    return True
+
+
+def _position(frame: FrameType) -> list[int] | None:
+    positions = getattr(frame.f_code, 'co_positions', None)
+    if positions is None:
+        return None
+    for index, found in enumerate(positions()):
+        if index == frame.f_lasti // 2:
+            return None if None in found else list(found)
+    return None
+
+
+def _of_interest(value: Any) -> bool:
+    return any(kind.__name__ in _OF_INTEREST for kind in type(value).__mro__)
+
+
+def _object(value: Any, objects: dict[int, dict[str, Any]]) -> int:
+    if id(value) not in objects:
+        objects[id(value)] = row = {'kind': type(value).__name__}
+        with contextlib.suppress(Exception):
+            _describe(value, row)
+    return id(value)
+
+
+def _describe(value: Any, row: dict[str, Any]) -> None:
+    if row['kind'] == 'lock':
+        row['locked'] = value.locked()
+    elif row['kind'] == 'RLock':
+        # `<locked _thread.RLock object owner=140 count=1 at 0x...>`: CPython, _threadmodule.c.
+        owner = repr(value).partition('owner=')[2].partition(' ')[0]
+        row['owner'] = int(owner) if owner.isdigit() else 0
+    elif isinstance(value, threading.Thread):
+        row.update(ident=value.ident, alive=value.is_alive(), name=value.name)
+    elif callable(getattr(value, 'done', None)):
+        row['done'] = bool(value.done())
+    elif row['kind'] == 'Rate':
+        row['timer'] = id(getattr(value, '_timer', None))
+
+
+def _executor(executor: Any) -> dict[str, Any]:
+    pool = getattr(executor, '_executor', None)
+    return {
+        'id': id(executor),
+        'class': type(executor).__name__,
+        'workers': getattr(pool, '_max_workers', None),
+        'pool': id(getattr(pool, '_work_queue', None)) if pool is not None else None,
+        'nodes': [id(node) for node in list(getattr(executor, '_nodes', ()))],
+        'spun': getattr(executor, '_last_args', None) is not None,
+    }
+
+
+def _node(node: Any) -> dict[str, Any]:
+    row: dict[str, Any] = {'id': id(node), 'name': '', 'entities': [], 'unread': None}
+    with contextlib.suppress(Exception):
+        row['name'] = node.get_fully_qualified_name()
+    # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
+    row['simulated_clock'] = bool(
+        getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)
+    )
+    for kind in _KINDS:
+        for entity in list(getattr(node, kind, ())):
+            try:
+                row['entities'].append(_entity(entity, kind))
+            except Exception as error:
+                row['unread'] = f'{type(entity).__name__}: {error!r}'[:200]
+    return row
+
+
+def _entity(entity: Any, kind: str) -> dict[str, Any]:
+    function = getattr(entity, 'callback', None)
+    code = getattr(getattr(function, '__func__', function), '__code__', None)
+    group = entity.callback_group
+    row: dict[str, Any] = {
+        'id': id(entity),
+        'kind': kind,
+        'class': type(entity).__name__,
+        'group': id(group),
+        'exclusive': hasattr(group, '_active_entity'),
+        'active': id(group._active_entity) if getattr(group, '_active_entity', None) else None,
+        'function': getattr(function, '__qualname__', None),
+        'place': [code.co_filename, code.co_firstlineno] if code is not None else None,
+        'module': getattr(function, '__module__', None) or '',
+        'queued': bool(getattr(entity, '_executor_event', False)),
+        'key': None,
+    }
+    if kind in ('services', 'clients'):
+        with entity.handle:
+            # `_rclpy.Client.service_name`, `_rclpy.Service.name`.
+            row['key'] = str(getattr(entity.handle, 'service_name', None) or entity.handle.name)
+    if kind == 'clients':
+        row['there'] = bool(entity.service_is_ready())
+        row['pending'] = [id(each) for each in list(entity._pending_requests.values())]
+    if kind == 'timers':
+        with entity.handle:
+            row['ready'] = bool(entity.handle.is_timer_ready())
+    return row
+
+
+def _suspended(task: Any, objects: dict[int, dict[str, Any]]) -> dict[str, Any] | None:
+    """Where a coroutine that has given its thread back stands, and on which future."""
+    handler = getattr(task, '_handler', None)
+    if task.done() or task.executing() or getattr(handler, 'cr_frame', None) is None:
+        return None
+    owner = None
+    rows: list[dict[str, Any]] = []
+    future = None
+    while handler is not None and len(rows) < MOST_FRAMES:
+        frame = getattr(handler, 'cr_frame', None) or getattr(handler, 'gi_frame', None)
+        if frame is None:
+            break
+        owner = owner or id(frame.f_locals.get('entity'))
+        if frame.f_code.co_name == '__await__':
+            future = frame.f_locals.get('self')
+        rows.append(_frame(frame, objects))
+        handler = getattr(handler, 'cr_await', None) or getattr(handler, 'gi_yieldfrom', None)
+    if future is None or len(rows) < 2:
+        return None
+    return {
+        'entity': owner,
+        'frames': rows,
+        'future': _object(future, objects),
+        'done': bool(future.done()),
+    }

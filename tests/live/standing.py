@@ -1,0 +1,102 @@
+"""
+What ``why`` says of every program of ``tests/blocking`` and ``tests/bugs``: ``make why``.
+
+A program that goes on is never called a deadlock; of those that hang the table says what is told.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from ros2cc_extract.errors import Ros2ccError
+from ros2cc_extract.extract.live.standing.judge import Explanation, Verdict
+from ros2cc_extract.extract.live.why import explain_process
+from tests.support.cells import Cell, all_cells
+from tests.support.domains import free_domain
+
+LIVE = Path(__file__).parent
+BLOCKING = LIVE.parent / 'blocking'
+BEGINS_WITHIN_S, SETTLES_S = 60.0, 1.0
+
+
+@contextmanager
+def program(
+    python: str, text: str, path: Path, until: str = 'asks'
+) -> Iterator[subprocess.Popen[str]]:
+    """Run a program until it says ``until``, and a moment longer; it is killed in the end."""
+    with free_domain() as domain, tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / path.name
+        file.write_text(text, encoding='utf-8')
+        env = {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'PYTHONPATH': f'{BLOCKING}:{LIVE}',
+            'PYTHONUNBUFFERED': '1',
+        }
+        log = Path(folder) / 'log'
+        with log.open('w') as stream:
+            process = subprocess.Popen(
+                [python, str(file)], env=env, stdout=stream, stderr=stream, text=True
+            )
+        try:
+            deadline = time.monotonic() + BEGINS_WITHIN_S
+            while until not in log.read_text() and time.monotonic() < deadline:
+                time.sleep(0.05)
+                if process.poll() is not None:
+                    break
+            time.sleep(SETTLES_S)
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+
+
+def awaited(cell: Cell) -> str:
+    """Give the line after which the program does what is asked about."""
+    return 'goes on' if cell.facts[0] == 'ok' else 'asks'
+
+
+def told(explanation: Explanation) -> tuple[str, list[tuple[str, int, str | None]]]:
+    """Give the verdict, and who waits for ever: function, line, code."""
+    stand = [each for each in explanation.standings if not each.can_end]
+    return explanation.verdict.value, sorted(
+        (each.activity.place.function, each.activity.place.line, each.code) for each in stand
+    )
+
+
+def main(python: str, names: Sequence[str]) -> int:
+    wrong, times = 0, []
+    for cell in all_cells():
+        if names and not any(each in cell.name for each in names):
+            continue
+        with program(python, cell.text, cell.path, awaited(cell)) as process:
+            begun = time.monotonic()
+            try:
+                explanation = explain_process(process.pid)
+            except Ros2ccError as error:
+                print(f'{cell.name}: {error}')
+                continue
+            times.append(time.monotonic() - begun)
+        verdict, stand = told(explanation)
+        is_false = cell.facts[0] == 'ok' and explanation.verdict is Verdict.DEADLOCK
+        wrong += is_false
+        print(f'{cell.name}: {cell.facts[0]}: {verdict} {stand}{"  WRONG" if is_false else ""}')
+    if times:
+        times.sort()
+        print(
+            f'{len(times)} programs, {wrong} wrong; median {times[len(times) // 2]:.2f} s, '
+            f'worst {times[-1]:.2f} s'
+        )
+    return min(wrong, 1)
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1], sys.argv[2:]))

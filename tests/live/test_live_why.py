@@ -1,0 +1,105 @@
+"""``why`` names what hangs in a real process, and says no false word of what goes on."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from interpreters import EVERY_RELEASE, interpreter_of
+
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.live import entering, why
+from ros2cc_extract.extract.live.why import explain_process
+from tests.live.standing import awaited, program, told
+from tests.support.cells import all_cells
+
+CELLS = {cell.name: cell for cell in all_cells()}
+EXPECTED = {
+    'call_own_group_multi': ('deadlock', [('ask', 20, 'CC101')]),
+    'call_other_group_single': ('deadlock', [('ask', 23, 'CC102')]),
+    'call_other_group_multi': ('idle and healthy', []),
+    'call_on_one_worker_multi': ('deadlock', [('ask', 23, 'CC103')]),
+    'call_service_of_own_group_multi': ('deadlock', [('ask', 23, 'CC101')]),
+    'await_own_group_multi': ('deadlock', [('ask', 20, 'CC104')]),
+    'await_other_group_multi': ('idle and healthy', []),
+    'rate_single': ('deadlock', [('ask', 18, 'CC105')]),
+    'event_own_group_multi': ('deadlock', [('ask', 20, 'CC109')]),
+    'absent_service_multi': ('waits for another process', []),
+}
+LOCKS = """
+import threading, time
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+class Mux(Node):
+    def __init__(self):
+        super().__init__('mux')
+        self.plan, self.motor = threading.Lock(), threading.Lock()
+        for callback in (self.move, self.stop):
+            self.create_timer(0.1, callback, callback_group=ReentrantCallbackGroup())
+
+    def move(self):
+        with self.plan:
+            time.sleep(0.3)
+            with self.motor:
+                pass
+
+    def stop(self):
+        with self.motor:
+            time.sleep(0.3)
+            print('asks', flush=True)
+            with self.plan:
+                pass
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=2)
+executor.add_node(Mux())
+executor.spin()
+"""
+SAME_ORDER = LOCKS.replace(
+    'with self.motor:\n            time', 'with self.plan:\n            time'
+).replace('flush=True)\n            with self.plan', 'flush=True)\n            with self.motor')
+
+
+@pytest.fixture(autouse=True)
+def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a busy machine an answer takes longer than a user is to wait."""
+    for module in (entering, why):
+        monkeypatch.setattr(module, 'PATIENCE_S', 60.0)
+
+
+@pytest.mark.parametrize('variable', EVERY_RELEASE)
+@pytest.mark.parametrize('name', EXPECTED)
+def test_process_is_explained(name: str, variable: str) -> None:
+    cell = CELLS[name]
+    with program(interpreter_of(variable), cell.text, cell.path, awaited(cell)) as process:
+        assert told(explain_process(process.pid)) == EXPECTED[name]
+        assert process.poll() is None
+
+
+def test_locks_that_wait_for_each_other_are_a_deadlock(rclpy_python: str) -> None:
+    with program(rclpy_python, LOCKS, Path('locks.py')) as process:
+        verdict, stand = told(explain_process(process.pid))
+    both = {(function, code) for function, _, code in stand}
+    assert (verdict, both) == ('deadlock', {('move', 'CC111'), ('stop', 'CC111')})
+
+
+def test_locks_in_one_order_are_none(rclpy_python: str) -> None:
+    with program(rclpy_python, SAME_ORDER, Path('locks.py')) as process:
+        assert told(explain_process(process.pid))[1] == []
+
+
+def test_process_without_nodes_is_told() -> None:
+    command = [sys.executable, '-c', 'import time\nprint(flush=True)\ntime.sleep(60)']
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as other:
+        try:
+            assert other.stdout is not None
+            other.stdout.readline()
+            with pytest.raises(InputError, match=f'process {other.pid} has no rclpy node'):
+                explain_process(other.pid)
+        finally:
+            other.kill()
