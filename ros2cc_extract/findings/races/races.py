@@ -298,7 +298,7 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
 def _is_stale(first: Use, second: Use) -> bool:
     write, doer = first.access, first.doer
     read = read_acted_on(write, doer, second.access)
-    if read is None or is_other_item(write, second.access) or _leaves_as_found(first, second):
+    if read is None or is_other_item(write, second.access) or _changes_nothing(first, second):
         return False
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
@@ -376,7 +376,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
             continue
         is_told = read_acted_on(first.access, first.doer, second.access) is not None
         is_told = is_told or (first.access.rests and not first.access.in_place)
-        is_told = is_told and not _leaves_as_found(first, second)
+        is_told = is_told and not _changes_nothing(first, second)
         if is_told and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
@@ -388,7 +388,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
             return RaceKind.WHOLE_UPDATE, first, second
     if one.access.in_place and other.access.in_place:
         return None
-    if _leaves_as_found(one, other) or _leaves_as_found(other, one):
+    if _leaves_as_found(one, other) or _leaves_as_found(other, one) or _store_alike(one, other):
         return None
     return RaceKind.LAST_WRITE_WINS, one, other
 
@@ -408,7 +408,7 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     for first, second in ((one, other), (other, one)):
         write = first.access
         read = read_acted_on(write, first.doer, second.access)
-        if _leaves_as_found(first, second):
+        if _changes_nothing(first, second):
             continue
         if read is not None and not keep_apart(
             kept_between(read, write, first.doer), second.access.locks
@@ -427,6 +427,23 @@ def _leaves_as_found(first: Use, second: Use) -> bool:
     found, write = first.access.found, second.access
     is_empty = found in (FOUND_NONE, FOUND_FALSE)
     return (is_empty and write.clears) or (found == FOUND_FALSE and write.lowers)
+
+
+def _store_alike(one: Use, other: Use) -> bool:
+    """Whether both store ``None``, or both what else is false: it is no matter who is last."""
+    ours, theirs = one.access, other.access
+    return (ours.clears and theirs.clears) or (ours.lowers and theirs.lowers)
+
+
+def _changes_nothing(first: Use, second: Use) -> bool:
+    """
+    Whether what comes in between is what was found, or the ``False`` that is stored in any case.
+
+    Two that both test before they store the same may both act on it, and who meets ``None`` where
+    an object was may fail.
+    """
+    is_lowered = first.access.lowers and second.access.lowers and not second.access.rests
+    return is_lowered or _leaves_as_found(first, second)
 
 
 def _is_of_threads(*uses: Use) -> bool:

@@ -463,7 +463,7 @@ class Arm(Node):
 
     def on_msg(self, msg):
         {test}
-            self.first = msg
+            self.first = {stored}
 
     def reset(self):
         {write}
@@ -491,7 +491,30 @@ executor.spin()
 def test_a_write_of_what_a_test_has_found_is_no_disturbance(
     test: str, write: str, expected: list[str], tmp_path: Path
 ) -> None:
-    path = tmp_path / 'arm.py'
-    path.write_text(CLAIM.format(test=test, write=write), encoding='utf-8')
-    (spec,) = scan([path], root=tmp_path).units
-    assert races(spec) == expected
+    assert races_of_claim(test, 'msg', write, tmp_path) == expected
+
+
+@pytest.mark.parametrize(
+    ('test', 'stored', 'write', 'expected'),
+    [
+        ('if self.first:', 'None', 'self.first = None', ['CC301:17 warning']),
+        ('if msg:', 'None', 'self.first = None', []),
+        ('if self.first:', 'False', 'self.first = False', []),
+        ('if msg:', 'False', 'self.first = False', []),
+        ('if self.first:', 'False', 'self.first = True', ['CC301:17 warning']),
+        ('if msg:', 'False', 'self.first = True', ['CC302:20 note']),
+        ('if msg:', 'False', 'self.first = None', ['CC302:20 note']),
+        ('if self.first:', 'None', 'if self.first: self.first = None', ['CC301:20 warning']),
+    ],
+)
+def test_who_is_last_is_no_matter_where_both_store_the_same(
+    test: str, stored: str, write: str, expected: list[str], tmp_path: Path
+) -> None:
+    assert races_of_claim(test, stored, write, tmp_path) == expected
+
+
+def races_of_claim(test: str, stored: str, write: str, folder: Path) -> list[str]:
+    path = folder / 'arm.py'
+    path.write_text(CLAIM.format(test=test, stored=stored, write=write), encoding='utf-8')
+    (spec,) = scan([path], root=folder).units
+    return races(spec)
