@@ -137,7 +137,7 @@ def _base(version: str, number: str) -> Path | None:
 
 
 def example(place: Place) -> tuple[bool, str]:
-    done = place.run(place.python.with_name('ros2cc-extract'), EXAMPLE)
+    done = place.run(place.python.with_name('ros2cc-extract'), EXAMPLE, '--verdicts')
     differences = differing(done.returncode, done.stdout, done.stderr)
     return not differences, differences
 
@@ -155,7 +155,7 @@ def diff_base(place: Place) -> tuple[bool, str]:
     if first.returncode or 'CC101' in first.stdout:
         said = f'{begun.stderr}{first.stdout}{first.stderr}'
         return False, f'what is known was told, status {first.returncode}: {said}'
-    if second.returncode != 1 or f'{new}:44:9: CC101' not in second.stdout:
+    if second.returncode != 1 or f'{new}:44:9: error CC101' not in second.stdout:
         said = f'{second.stdout}{second.stderr}'
         return False, f'what is new was not told, status {second.returncode}: {said}'
     return True, ''

@@ -19,8 +19,8 @@ from operator import is_
 from typing import Any, TextIO, TypeVar, cast
 
 T = TypeVar('T')
-_STYLE = re.compile('(\x1b\\[[0-9;]*m)')
-"""A colour, as our own console writes it; it moves nothing and ends with the line."""
+_STYLE = re.compile(r'(\x1b\[[0-9;]*m|\x1b\]8;(?:;|id=[-\d]*;file://[!-~]*)\x1b\\)')
+"""A colour or a link to a file, as our own console writes it; it moves nothing."""
 
 _COMMAND = re.compile(r'^[^\S\n]*:(?=:)|##(?=\[)', re.MULTILINE)
 """How commands of workflows begin: the one at the begin of a line, the other anywhere in it."""

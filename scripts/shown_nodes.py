@@ -66,13 +66,6 @@ def printed(name: str, text: str) -> str:
     return done.stdout
 
 
-def findings(name: str, text: str) -> str:
-    """Give what is printed below the verdicts: the findings, and the lines that sum up."""
-    lines = printed(name, text).splitlines()
-    begins = [n for n, line in enumerate(lines) if line.startswith((f'{name}:', 'resolved: '))]
-    return '\n'.join(lines[begins[0] :])
-
-
 def _environment() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name != 'COLUMNS'}
 
@@ -86,7 +79,7 @@ def _node(name: str, path: Path) -> str:
 
 
 def _printed(name: str, path: Path) -> str:
-    return f'```console\n$ {COMMAND} {name}\n…\n{findings(name, source(path))}\n```'
+    return f'```console\n$ {COMMAND} {name}\n{printed(name, source(path))}```'
 
 
 def _change(name: str, path: Path) -> str:

@@ -3,16 +3,15 @@
   const HERE = document.currentScript.src;
   const ENDINGS = ['no findings', 'findings', 'not checked', 'undecided'];
   const NOTHING = /^nothing was judged/m;
-  const FIRST_FINDING = /^(node\.py:\d+:\d+: |resolved: )/m;
   const PLACE_OR_RULE = /\bnode\.py:(\d+)(?::\d+)?|(?<=^node\.py:\d+:\d+: )CC\d{3}\b/gm;
-  const [node, numbers, check, stop, state, findings, more, verdicts] = [
-    'node', 'numbers', 'check', 'stop', 'state', 'findings', 'more', 'verdicts',
+  const [node, numbers, check, stop, state, findings] = [
+    'node', 'numbers', 'check', 'stop', 'state', 'findings',
   ].map((id) => document.getElementById(id));
   let worker = null;
   let clock = null;
 
   function start() {
-    for (const element of [findings, more]) {
+    for (const element of [findings]) {
       element.hidden = true;
     }
     busy('beginning');
@@ -39,11 +38,8 @@
   }
 
   function show({ status, out, complaints }) {
-    const begins = Math.max(0, out.search(FIRST_FINDING));
-    fill(findings, complaints + out.slice(begins));
-    fill(verdicts, out.slice(0, begins).trimEnd());
+    fill(findings, complaints + out);
     findings.hidden = false;
-    more.hidden = begins === 0;
     const found = ENDINGS[status] ?? `status ${status}`;
     const ending = status === 0 && NOTHING.test(complaints) ? 'nothing judged' : found;
     idle(`${ending}, ${elapsed().toFixed(1)} s`);

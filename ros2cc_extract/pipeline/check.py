@@ -21,6 +21,7 @@ from ros2cc_extract.findings.filters.baseline import compare
 from ros2cc_extract.findings.filters.selection import select
 from ros2cc_extract.findings.filters.suppress import suppress
 from ros2cc_extract.findings.joined import without_what_is_told
+from ros2cc_extract.findings.promises import Judgement, about, judge
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.pipeline.config import Config
@@ -75,6 +76,7 @@ class Outcome:
 
     :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
+    :param promises: of each unit, what is proven, broken and undecided.
     :param interrupted: somebody has ended it before all units were verified.
     """
 
@@ -85,6 +87,7 @@ class Outcome:
     findings: tuple[Finding, ...]
     accepted: int
     sources: Mapping[str, str]
+    promises: tuple[tuple[Judgement, ...], ...] = ()
     interrupted: bool = False
 
     @property
@@ -190,8 +193,20 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
+        promises=tuple(_promises(tasks, examined, findings)),
         interrupted=examination.interrupted,
     )
+
+
+def _promises(
+    tasks: Sequence[Task], examined: Sequence[Examined], findings: Sequence[Finding]
+) -> Iterator[tuple[Judgement, ...]]:
+    """What somebody has accepted breaks a promise all the same."""
+    units = [task.unit for task in tasks]
+    for task, each in zip(tasks, examined, strict=True):
+        of_others, near = about(findings, task.unit, units)
+        named = (finding for finding in of_others if finding.unit != task.unit.name)
+        yield judge(task.unit, each.judged, (*each.findings, *named), near)
 
 
 def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:

@@ -2,42 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
-from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.report.html.page import html_report
 from ros2cc_extract.report.machine.github import workflow_commands
 from ros2cc_extract.report.machine.json_report import check_data, to_text
 from ros2cc_extract.report.machine.junit import junit
 from ros2cc_extract.report.machine.sarif import sarif
+from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.report.unit_mermaid import units_diagram
-from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results.results import Verification
-
-
-@dataclass(frozen=True, kw_only=True)
-class Checked:
-    """
-    What a check found.
-
-    :param verifications: of the units, in their order.
-    :param files: every file that was looked at.
-    :param sources: text of those files that could be read, by the path that places name.
-    :param root: absolute path of the repository; paths below it become relative.
-    :param package: name of the test suite.
-    :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
-    """
-
-    units: Sequence[Spec]
-    verifications: Sequence[Verification]
-    findings: Sequence[Finding]
-    summary: Mapping[str, int]
-    files: Sequence[str]
-    sources: Mapping[str, str]
-    root: str = ''
-    package: str = 'ros2cc'
-    docs_url: str = ''
 
 
 def write(checked: Checked, format: str) -> str:

@@ -24,6 +24,7 @@ from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config, read_config
 from ros2cc_extract.report.machine.junit import junit
 from ros2cc_extract.report.text.findings import print_findings
+from ros2cc_extract.report.text.paths import Paths
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
 
@@ -87,7 +88,7 @@ def _check(args: argparse.Namespace) -> tuple[int, list[str]]:
 
 
 def _tell(outcome: Outcome, failures: int) -> None:
-    print_findings(outcome.findings, Path.cwd(), console_for(sys.stdout))
+    print_findings(outcome.findings, Paths(Path.cwd()), console_for(sys.stdout))
     undecided = outcome.summary['undecided']
     if undecided:
         print(f'{undecided} verdicts undecided: ros2cc-extract tells which')

@@ -158,7 +158,7 @@ def test_a_name_that_is_no_utf_8_ends_nothing(form: str, folder: Path) -> None:
     elif form == 'junit':
         ElementTree.fromstring(ended.out)
     elif form == 'text':
-        assert 'strange\\xff.py:44:9: CC101' in ended.out
+        assert 'strange\\xff.py:44:9: error CC101' in ended.out
 
 
 def test_a_specification_of_such_a_file_can_be_read_again(folder: Path) -> None:

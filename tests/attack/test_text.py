@@ -21,8 +21,10 @@ from hypothesis import strategies as st
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config
-from ros2cc_extract.report.formats import WRITERS, Checked, write
-from ros2cc_extract.report.text.check import print_check
+from ros2cc_extract.report.formats import WRITERS, write
+from ros2cc_extract.report.shared.checked import Checked
+from ros2cc_extract.report.text.check import Telling, print_check
+from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
 from ros2cc_extract.shown import Shown, json_text, one_line, printable
@@ -103,20 +105,20 @@ def told_as(form: str, stain: str) -> str:
     units, findings = stained(found.units, stain), stained(found.findings, stain)
     stream = io.StringIO()
     shown = cast(TextIO, Shown(cast(TextIO, stream)))
+    checked = Checked(
+        units=units,
+        verifications=found.verifications,
+        findings=findings,
+        summary=found.summary,
+        promises=stained(found.promises, stain),
+        files=[f'{file}{stain}' for file in found.extraction.files_seen],
+        sources=found.sources,
+    )
     if form == 'text':
         console = console_for(shown)
         console.width = 10_000
-        verified = list(zip(units, found.verifications, strict=True))
-        print_check(verified, findings, found.summary, console, tables=True)
+        print_check(checked, console, Telling(detail=Detail.VERBOSE, verdicts=True))
     else:
-        checked = Checked(
-            units=units,
-            verifications=found.verifications,
-            findings=findings,
-            summary=found.summary,
-            files=[f'{file}{stain}' for file in found.extraction.files_seen],
-            sources=found.sources,
-        )
         shown.write(write(checked, form))
     return stream.getvalue()
 
@@ -210,7 +212,7 @@ def said(*arguments: object) -> Iterator[str]:
 
 FORMS: list[Callable[[Path], list[object]]] = [
     *(lambda p, f=f: ['check', '.', '--output-format', f] for f in ('text', *WRITERS)),
-    lambda p: ['check', '.', '--tables'],
+    lambda p: ['check', '.', '--verbose'],
     lambda p: ['check', '.', '-o', p / 'kept'],
     lambda p: ['check', '.', '--write-baseline', p / OBEYED[:6]],
     lambda p: ['check', p / f'missing{OBEYED[:-5]}'.replace('\x00', '')],

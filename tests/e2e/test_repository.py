@@ -61,7 +61,7 @@ def test_a_dead_lock_is_not_committed(run: Run, repository: Path, tmp_path: Path
     (repository / NODE).write_text(DEADLOCK)
     refused = commit(repository, 'plant a deadlock', PRE_COMMIT_HOME=home)
     assert refused.returncode == 1
-    assert f'{NODE}:44:9: CC101' in refused.stdout
+    assert f'{NODE}:44:9: error CC101' in refused.stdout
     (repository / NODE).write_text(MENDED)
     passed = commit(repository, 'mend it', PRE_COMMIT_HOME=home)
     assert passed.returncode == 0, passed.stdout
@@ -79,7 +79,7 @@ def test_a_dead_lock_is_not_pushed(run: Run, repository: Path, tmp_path: Path) -
     assert git(repository, 'commit', '--no-verify', '--message', 'hasty').returncode == 0
     refused = git(repository, 'push', '--quiet', 'origin', 'main', PRE_COMMIT_HOME=home)
     assert refused.returncode == 1
-    assert f'{NODE}:44:9: CC101' in refused.stdout
+    assert f'{NODE}:44:9: error CC101' in refused.stdout
     (repository / NODE).write_text(MENDED)
     commit(repository, 'mend it')
     assert (
@@ -136,7 +136,7 @@ def test_published_hooks_install_themselves(
     (repository / NODE).write_text(DEADLOCK)
     refused = commit(repository, 'plant a deadlock', **settings)
     assert refused.returncode == 1
-    assert f'{NODE}:44:9: CC101' in refused.stdout
+    assert f'{NODE}:44:9: error CC101' in refused.stdout
     (repository / NODE).write_text(MENDED)
     passed = commit(repository, 'mend it', **settings)
     assert passed.returncode == 0, passed.stdout

@@ -33,7 +33,9 @@ def shown_on(page: str) -> dict[str, dict[str, Path]]:
 
 
 def codes(name: str, path: Path) -> list[str]:
-    found = re.findall(rf'^{re.escape(name)}:\d+:\d+: (CC\d+)', printed(name, source(path)), re.M)
+    found = re.findall(
+        rf'^{re.escape(name)}:\d+:\d+: \w+ (CC\d+)', printed(name, source(path)), re.M
+    )
     return [str(code) for code in found]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -29,7 +30,7 @@ from ros2cc_extract.cli.shared.termination import Termination, termination_as_in
 if TYPE_CHECKING:
     from ros2cc_extract.pipeline.check import Job, Outcome
     from ros2cc_extract.pipeline.config import Config
-    from ros2cc_extract.report.formats import Checked
+    from ros2cc_extract.report.shared.checked import Checked
 
 DEFAULT_SECONDS = 20.0
 DEFAULT_MAX_SECONDS = 120.0
@@ -50,10 +51,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='exit 3 when a fact is unresolved or a wait undecided',
     )
     parser.add_argument('--output-format', choices=FORMATS, default='text')
-    parser.add_argument(
-        '--tables',
+    how_much = parser.add_mutually_exclusive_group()
+    how_much.add_argument(
+        '-q', '--quiet', action='store_true', help='text: one line for each finding, and the last'
+    )
+    how_much.add_argument(
+        '-v',
+        '--verbose',
         action='store_true',
-        help="text: every unit's verdicts, and every note with its line, however many",
+        help='text: every note with its line, whole runs, and all units with their groups',
+    )
+    parser.add_argument(
+        '--verdicts',
+        action='store_true',
+        help="text: every unit's table of queries and verdicts too, as verify prints it",
     )
     parser.add_argument(
         '--assume',
@@ -108,7 +119,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.write_baseline is not None:
         _write_baseline(args.write_baseline, outcome, job, stderr)
         return EXIT_CLEAN
-    _tell(args, outcome, job, stdout)
+    _tell(args, outcome, job, stdout, time.monotonic() - begun)
     if outcome.interrupted:
         print('interrupted: what was not verified by then is undecided', file=stderr)
         return termination.status
@@ -179,32 +190,53 @@ def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> N
     print(f'wrote {path}; use it with --baseline {path}', file=stderr)
 
 
-def _tell(args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO) -> None:
+def _tell(
+    args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO, seconds: float
+) -> None:
     form = args.output_format
+    checked = _checked(outcome, job)
     if form == 'text':
-        from ros2cc_extract.report.text.check import print_check
-        from ros2cc_extract.report.text.style import console_for
-
-        verified = list(zip(outcome.units, outcome.verifications, strict=True))
-        console = console_for(stdout)
-        print_check(verified, outcome.findings, outcome.summary, console, tables=args.tables)
+        _print_text(args, checked, stdout, seconds)
         return
-    from ros2cc_extract.report.formats import Checked, write
+    from ros2cc_extract.report.formats import write
 
-    checked = Checked(
+    stdout.write(write(checked, form))
+    if form == 'github':
+        _append_step_summary(checked)
+
+
+def _checked(outcome: Outcome, job: Job) -> Checked:
+    from ros2cc_extract.report.shared.checked import Checked
+
+    return Checked(
         units=outcome.units,
         verifications=outcome.verifications,
         findings=outcome.findings,
         summary=outcome.summary,
+        promises=outcome.promises,
         files=outcome.extraction.files_seen,
         sources=outcome.sources,
         root=job.root.as_posix(),
         package=job.root.name,
         docs_url=job.config.docs_url,
     )
-    stdout.write(write(checked, form))
-    if form == 'github':
-        _append_step_summary(checked)
+
+
+def _print_text(
+    args: argparse.Namespace, checked: Checked, stdout: TextIO, seconds: float
+) -> None:
+    from ros2cc_extract.report.text.check import Telling, print_check
+    from ros2cc_extract.report.text.findings import Detail
+    from ros2cc_extract.report.text.style import console_for
+
+    detail = Detail.QUIET if args.quiet else Detail.VERBOSE if args.verbose else Detail.USUAL
+    how = Telling(
+        detail=detail,
+        verdicts=args.verdicts,
+        paths=shlex.join(str(path) for path in args.paths),
+        seconds=seconds,
+    )
+    print_check(checked, console_for(stdout), how)
 
 
 def _tell_release(rclpy: str | None, stderr: TextIO) -> None:

@@ -22,6 +22,7 @@ from ros2cc_extract.report.html.parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html.unit import Numbered, unit_picture
 from ros2cc_extract.report.shared.closing import closing_lines
 from ros2cc_extract.report.shared.counts import counted
+from ros2cc_extract.report.shared.last_line import last_line
 from ros2cc_extract.report.shared.owners import is_about
 from ros2cc_extract.report.shared.run_lanes import Lane, lanes_of
 from ros2cc_extract.shown import one_line, printable
@@ -110,21 +111,14 @@ def _header(findings: Sequence[Finding], summary: Mapping[str, int]) -> str:
         )
         for severity, word in SEVERITY_WORDS.items()
     )
-    facts = ', '.join(
-        counted(number, what)
-        for what, number in summary.items()
-        if number and what.rstrip('s') not in _TILES
-    )
+    facts = escape(last_line(summary))
     return tag(
         'header',
-        tag('div', tag('h1', 'ros2cc-extract'), tag('p', escape(facts), class_='quiet')),
+        tag('div', tag('h1', 'ros2cc-extract'), tag('p', facts, class_='quiet')),
         tag('div', tiles, class_='tiles'),
         tag('button', '◐', class_='theme', title='light or dark'),
         class_='top',
     )
-
-
-_TILES = set(SEVERITY_WORDS.values())
 
 
 def _findings(cards: Sequence[tuple[Finding, str]]) -> str:

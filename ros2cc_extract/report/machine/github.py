@@ -15,6 +15,7 @@ from ros2cc_extract.findings.base.fingerprints import relative
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.counts import counted
+from ros2cc_extract.report.shared.last_line import last_line
 from ros2cc_extract.shown import printable
 
 SHOWN_PER_KIND = 10
@@ -44,10 +45,9 @@ def step_summary(
     Errors first; notes are folded. Of more rows than ``MOST_ROWS`` the last are counted only.
     """
     findings = printable(findings)
-    counts = ', '.join(counted(number, what) for what, number in summary.items())
-    lines = ['## ros2cc-extract', '', counts, '']
+    lines = ['## ros2cc-extract', '', last_line(summary), '']
     if not findings:
-        return '\n'.join([*lines, 'No findings.', ''])
+        return '\n'.join(lines)
     weight = list(Severity)
     ordered = sorted(findings, key=lambda finding: weight.index(finding.severity))
     told = [finding for finding in ordered if finding.severity is not Severity.NOTE]

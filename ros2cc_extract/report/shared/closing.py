@@ -13,4 +13,4 @@ def closing_lines(run: Evidence) -> Iterator[str]:
     if run.closing:
         yield run.closing
     if run.left_out:
-        yield f'({counted(run.left_out, "steps")} of others left out)'
+        yield f'({counted(run.left_out, "steps")} left out)'

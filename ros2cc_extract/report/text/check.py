@@ -1,110 +1,83 @@
-"""A whole check for people: each unit with its verdicts, then the findings, then one line."""
+"""A whole check for people: the findings, what was checked, what is not known, and one line."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
-from rich.padding import Padding
 
-from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
+from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.report.shared.counts import counted
-from ros2cc_extract.report.text.confidence import confidence_lines
-from ros2cc_extract.report.text.findings import print_findings, print_in_lines
-from ros2cc_extract.report.text.overview import print_overview
+from ros2cc_extract.report.shared.last_line import last_line
+from ros2cc_extract.report.text.findings import Detail, print_findings
+from ros2cc_extract.report.text.paths import Paths
 from ros2cc_extract.report.text.spec import print_spec
-from ros2cc_extract.report.text.style import table
+from ros2cc_extract.report.text.units import print_units, unknown_lines
 from ros2cc_extract.report.text.verdicts import print_digest, print_evidence, print_table
 from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.confidence import confidence_in
-from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
-MOST_TABLES = 3
-"""More units than this are shown as one row each."""
-MOST_NOTES = 10
-"""More notes than this are counted by file."""
-MOST_FILES = 10
-"""Of more files than this the notes are counted together."""
 LONGEST_TABLE = 40
-FINDINGS = ('errors', 'warnings', 'notes', 'undecided_waits', 'accepted')
-SIZES = ('files', 'units', 'callbacks')
-VERDICTS = ('satisfied', 'not_satisfied', 'undecided')
+LONGEST_ARGUMENTS = 40
 OF_NO_INTEREST = {'group_closed_while_running', 'group_always_open'}
 """Families whose runs show no more than that a callback can start."""
 OF_ANOTHER_EXECUTOR = ('paper', 'starvation')
 """Runs in which data vanishes that rclpy keeps: beside a finding they lead astray."""
 
 
-def print_check(
-    verified: Sequence[tuple[Spec, Verification]],
-    findings: Sequence[Finding],
-    summary: Mapping[str, int],
-    console: Console,
-    *,
-    tables: bool = False,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Telling:
     """
-    Print everything; the findings come last, where a terminal shows them.
+    How a check is told.
 
-    :param tables: every unit's verdicts, however many units there are.
+    :param verdicts: with the table of queries of each unit.
+    :param paths: what was checked, as the user wrote it.
+    :param seconds: how long it took; only a terminal gets it, so that logs stay the same.
     """
-    if len(verified) > MOST_TABLES and not tables:
-        print_overview(verified, findings, console)
-    else:
-        for unit, verification in verified:
+
+    detail: Detail = Detail.USUAL
+    verdicts: bool = False
+    paths: str = 'PATH'
+    seconds: float | None = None
+
+
+def print_check(checked: Checked, console: Console, how: Telling) -> None:
+    """Print everything, in the order in which it is read."""
+    is_quiet, is_verbose = how.detail is Detail.QUIET, how.detail is Detail.VERBOSE
+    print_findings(checked.findings, Paths(Path.cwd(), checked.root), console, how.detail)
+    if checked.findings and checked.units and not is_quiet:
+        console.print()
+    if is_verbose:
+        for unit in checked.units:
             print_spec(printable(unit), console)
             console.print()
-            _print_verification(verification, console)
+    if not is_quiet:
+        print_units(checked.units, checked.promises, console, all_rows=is_verbose)
+    if how.verdicts:
+        for unit, verification in zip(checked.units, checked.verifications, strict=True):
             console.print()
-    open_waits = [finding for finding in findings if finding.code == UNDECIDED_WAIT]
-    findings = [finding for finding in findings if finding not in open_waits]
-    notes = [finding for finding in findings if finding.severity is Severity.NOTE]
-    brief = len(notes) > MOST_NOTES and not tables
-    told = [finding for finding in findings if finding not in notes] if brief else findings
-    print_findings(told, Path.cwd(), console)
-    if brief:
-        _print_notes(notes, console)
-    print_in_lines(open_waits, console)
-    for line in confidence_lines(confidence_in(unit for unit, _ in verified), 0):
-        console.print(one_line(line))
-    console.print(_totals(summary), soft_wrap=True)
+            console.print(one_line(f'unit {unit.name}'), style='bold')
+            _print_verification(verification, console)
+        console.print()
+    if not is_quiet:
+        _print_unknown(checked, console, how.paths)
+    console.print(_end(checked, console, how.seconds), soft_wrap=True, style='bold')
 
 
-def _totals(summary: Mapping[str, int]) -> str:
-    """What decides the exit status stands first."""
-    kinds = [kind for kind in FINDINGS if summary[kind] or kind != 'undecided_waits']
-    found = f'{_counts(summary, kinds)} in {_counts(summary, SIZES)}'
-    return f'{found}; verdicts: {_counts(summary, VERDICTS)}' if summary['units'] else found
+def _print_unknown(checked: Checked, console: Console, paths: str) -> None:
+    summary = confidence_in(checked.units)
+    assumed = sum(sum(each.assumed.values()) for each in summary.of.values())
+    shown = paths if len(paths) <= LONGEST_ARGUMENTS else 'PATH'
+    for line in unknown_lines(len(summary.open), assumed, one_line(shown)):
+        console.print(line, soft_wrap=True)
 
 
-def _counts(summary: Mapping[str, int], kinds: Sequence[str]) -> str:
-    return ', '.join(counted(summary[what], what) for what in kinds)
-
-
-def _print_notes(notes: Sequence[Finding], console: Console) -> None:
-    """Count notes by file, the fullest first: they never change the exit status."""
-    files: dict[str, Counter[str]] = {}
-    for note in notes:
-        files.setdefault(note.place.file, Counter())[note.code] += 1
-    console.print(f'{len(notes)} notes, each with its line by --tables:')
-    rows = table('', '')
-    rows.show_header = False
-    fullest = sorted(files.items(), key=lambda item: (-item[1].total(), item[0]))
-    for file, codes in fullest[:MOST_FILES]:
-        rows.add_row(one_line(file), _times(codes))
-    if len(files) > MOST_FILES:
-        others = sum((codes for _, codes in fullest[MOST_FILES:]), Counter[str]())
-        rows.add_row(f'{len(files) - MOST_FILES} more files', _times(others))
-    console.print(Padding(rows, (0, 0, 0, 2)))
-
-
-def _times(codes: Counter[str]) -> str:
-    return ', '.join(f'{code} × {number}' for code, number in sorted(codes.items()))
+def _end(checked: Checked, console: Console, seconds: float | None) -> str:
+    line = last_line(checked.summary)
+    is_timed = seconds is not None and console.is_terminal
+    return f'{line} ({seconds:.1f} s)' if is_timed else line
 
 
 def _print_verification(verification: Verification, console: Console) -> None:

@@ -67,9 +67,9 @@ class Unpadded:
         return self._stream.encoding
 
 
-def table(*headers: str) -> Table:
+def table(*headers: str, gap: int = GAP) -> Table:
     """Make a table without frames, which survives copying into an issue."""
-    made = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0), header_style='bold')
+    made = Table(box=None, pad_edge=False, padding=(0, gap, 0, 0), header_style='bold')
     for header in headers:
         made.add_column(header, overflow='fold')
     return made

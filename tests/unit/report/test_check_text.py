@@ -1,18 +1,22 @@
-"""The text of a whole check: tables for a few units, rows for many; notes counted by file."""
+"""The text of a whole check: findings, what was checked, what is not known, and one line."""
 
 from __future__ import annotations
 
 import io
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
-from report_samples import CALL, NOTE, RACE
+from report_samples import CALL, NOTE, RACE, RUN
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.report.text.check import print_check
+from ros2cc_extract.findings.promises import Judgement, Mark, Promise
+from ros2cc_extract.places import Place
+from ros2cc_extract.report.shared.checked import Checked
+from ros2cc_extract.report.text.check import Telling, print_check
+from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
@@ -21,19 +25,20 @@ from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 EXAMPLE = Path(__file__).parents[3] / 'launch_free_examples' / 'service_deadlock' / 'node.py'
-SUMMARY = {
+NONE_FOUND = {
     'files': 1,
     'units': 4,
     'callbacks': 12,
     'satisfied': 44,
     'not_satisfied': 28,
     'undecided': 0,
-    'errors': 1,
+    'errors': 0,
     'warnings': 0,
-    'notes': 2,
-    'undecided_waits': 1,
-    'accepted': 3,
+    'notes': 0,
+    'undecided_waits': 0,
+    'accepted': 0,
 }
+KEPT = tuple(Judgement(promise, Mark.KEPT) for promise in Promise)
 
 
 @pytest.fixture(autouse=True)
@@ -41,197 +46,181 @@ def width_of_a_log(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv('COLUMNS', raising=False)
 
 
-@pytest.fixture(scope='module')
-def checked() -> tuple[Spec, Verification]:
+@cache
+def example() -> tuple[Spec, Verification]:
     [unit] = scan([EXAMPLE], root=EXAMPLE.parent).units
     return unit, verify_unit(close(unit, Policy()), Options())
 
 
 def told(
-    checked: tuple[Spec, Verification],
     findings: list[Finding],
     *,
-    units: int = 4,
-    tables: bool = False,
+    units: int = 1,
+    promises: tuple[Judgement, ...] = KEPT,
+    encoding: str = 'utf-8',
+    root: str = '',
+    how: Telling | None = None,
+    **counts: int,
 ) -> str:
-    stream = io.StringIO()
-    unit, verification = checked
-    many = [(replace(unit, name=f'unit_{n}'), verification) for n in range(units)]
-    print_check(many, findings, SUMMARY, console_for(stream), tables=tables)
-    return stream.getvalue()
-
-
-def without_executor(unit: Spec, name: str) -> Spec:
-    executor = replace(unit.executor, kind=Unknown('nobody spins it'), threads=('thread_0',))
-    return replace(unit, name=name, executor=executor, entry=None, sources=('arm/test/arm.py',))
-
-
-def test_many_units_are_a_row_each(checked: tuple[Spec, Verification]) -> None:
-    finding = replace(CALL, unit='unit_2')
-    text = told(checked, [finding, replace(RACE, unit='unit_2', run=None)])
-    assert text.splitlines()[0].split() == [
-        *('unit', 'entry', 'executor', 'callbacks', 'groups', 'overlapping', 'findings')
-    ]
-    rows = [line for line in text.splitlines() if line.startswith('unit_')]
-    assert [row.split()[0] for row in rows] == ['unit_0', 'unit_1', 'unit_2', 'unit_3']
-    assert rows[2].endswith('1 error, 1 warning')
-    assert rows[3].endswith('-')
-    assert 'counterexample' not in text
-
-
-def test_units_without_an_executor_are_rows_where_something_is_found(
-    checked: tuple[Spec, Verification],
-) -> None:
-    unit, verification = checked
-    open_units = [without_executor(unit, f'open_{n}') for n in range(4)]
-    units = [(each, verification) for each in (unit, *open_units)]
-    stream = io.StringIO()
-    finding = replace(CALL, unit='open_2')
-    print_check(units, [finding], SUMMARY, console_for(stream))
-    rows = [line.split() for line in stream.getvalue().splitlines()[1:4]]
-    assert [row[:2] for row in rows] == [
-        ['map_server_and_navigator', 'node.py:main'],
-        ['open_2', 'test/arm.py'],
-        ['3', 'units'],
-    ]
-    assert (
-        '3 units without an executor in sight, no error, no warning: see --tables\n'
-        in stream.getvalue()
+    unit, verification = example()
+    checked = Checked(
+        units=[replace(unit, name=f'unit_{n}', nodes=(f'node_{n}',)) for n in range(units)],
+        verifications=[verification] * units,
+        findings=findings,
+        summary=NONE_FOUND | {'units': units} | counts,
+        promises=[promises, *[KEPT] * (units - 1)][:units],
+        files=['node.py'],
+        sources={},
+        root=root,
     )
+    raw = io.BytesIO()
+    stream = io.TextIOWrapper(raw, encoding, 'backslashreplace')
+    print_check(checked, console_for(stream), how or Telling())
+    stream.flush()
+    return raw.getvalue().decode(encoding)
 
 
-def test_a_unit_without_an_entry_is_told_by_the_file_that_is_its_own(
-    checked: tuple[Spec, Verification],
-) -> None:
-    unit, verification = checked
-    names = ('one', 'two', 'three', 'four')
-    units = [
-        replace(unit, name=name, entry=None, sources=('test/common.py', f'test/test_{name}.py'))
-        for name in names
+def test_a_clean_unit_is_two_lines_and_the_last() -> None:
+    assert told([]).splitlines() == [
+        'checked node_0: MultiThreadedExecutor, 4 threads, 3 callbacks',
+        '  ✓ no deadlock  ✓ every wait ends  ✓ no starvation  ✓ no data race  '
+        '✓ settings have an effect',
+        'No problems found in 1 file',
     ]
-    stream = io.StringIO()
-    print_check([(each, verification) for each in units], [], SUMMARY, console_for(stream))
-    rows = [line.split()[:2] for line in stream.getvalue().splitlines()[1:5]]
-    assert rows == [[name, f'test/test_{name}.py'] for name in names]
 
 
-def test_the_last_line_begins_with_what_decides(checked: tuple[Spec, Verification]) -> None:
-    assert told(checked, []).splitlines()[-1] == (
-        '1 error, 0 warnings, 2 notes, 1 undecided wait, 3 accepted in 1 file, 4 units, '
-        '12 callbacks; verdicts: 44 satisfied, 28 not satisfied, 0 undecided'
+def test_what_is_undecided_has_its_reason() -> None:
+    is_open = (Promise.DEADLOCK, Promise.WAITS)
+    promises = tuple(
+        Judgement(each, Mark.OPEN, 'a limit was hit') if each in is_open else Judgement(each, mark)
+        for each, mark in zip(Promise, [Mark.BROKEN] * 3 + [Mark.KEPT, Mark.BROKEN], strict=True)
     )
+    assert told([], promises=promises).splitlines()[1:3] == [
+        '  ? no deadlock  ? every wait ends  ✗ no starvation  ✓ no data race  '
+        '✗ settings have an effect',
+        '  ? no deadlock, every wait ends: a limit was hit',
+    ]
 
 
-def test_an_undecided_wait_is_a_line_of_its_own_among_however_many_notes(
-    checked: tuple[Spec, Verification],
-) -> None:
-    wait = replace(NOTE, code='CC120', message='not decided: feed waits in Barrier.wait')
-    lines = told(checked, [NOTE] * 11 + [wait]).splitlines()
-    assert f'{NOTE.place}: CC120 not decided: feed waits in Barrier.wait' in lines
+def test_where_only_ascii_can_be_written_marks_are_words() -> None:
+    promises = (Judgement(Promise.DEADLOCK, Mark.BROKEN), *KEPT[1:])
+    text = told([], promises=promises, encoding='ascii')
+    assert '  NO no deadlock  ok every wait ends  ok' in text
 
 
-@pytest.mark.parametrize(('units', 'tables'), [(3, False), (4, True)])
-def test_a_few_units_have_their_tables(
-    checked: tuple[Spec, Verification], units: int, tables: bool
-) -> None:
-    text = told(checked, [], units=units, tables=tables)
-    assert text.count('  #  query') == units
+def test_many_units_are_a_row_each_the_worst_first() -> None:
+    promises = (*KEPT[:-1], Judgement(Promise.SETTINGS, Mark.OPEN, 'no executor found'))
+    lines = told([], units=4, promises=promises).splitlines()
+    assert [line.split() for line in lines] == [
+        ['checked', 'executor', 'callbacks', 'deadlock', 'waits', 'starve', 'races', 'settings'],
+        ['node_0', 'multi', '4', '3', '✓', '✓', '✓', '✓', '?'],
+        *([f'node_{n}', 'multi', '4', '3', '✓', '✓', '✓', '✓', '✓'] for n in (1, 2, 3)),
+        ['?', 'once:', 'no', 'executor', 'found'],
+        ['No', 'problems', 'found', 'in', '1', 'file'],
+    ]
 
 
-def test_many_notes_are_counted_by_file(checked: tuple[Spec, Verification]) -> None:
-    text = told(checked, [NOTE] * 11 + [CALL])
-    assert 'CC501 topic of tick' not in text
-    assert 'CC101 drive waits' in text
-    assert '11 notes, each with its line by --tables:\n  other.py  CC501 × 11\n' in text
+def test_of_very_many_units_the_last_are_counted() -> None:
+    lines = told([], units=40).splitlines()
+    assert lines[29] == '12 more units, 12 with every promise kept; --verbose shows them'
+    assert len(lines) == 31
 
 
-def test_notes_of_many_files_are_counted_together(checked: tuple[Spec, Verification]) -> None:
+@pytest.mark.parametrize(
+    ('counts', 'line'),
+    [
+        ({}, 'No problems found in 1 file'),
+        ({'errors': 1, 'notes': 2, 'files': 3}, 'Found 1 error, 2 notes in 3 files'),
+        ({'warnings': 1, 'undecided_waits': 1}, 'Found 1 warning, 1 undecided wait in 1 file'),
+        ({'accepted': 3}, 'No problems found in 1 file; 3 accepted'),
+        ({'undecided': 2}, 'No problems found in 1 file; 2 verdicts undecided'),
+        ({'units': 0}, 'Nothing to check in 1 file: no node with a callback'),
+    ],
+)
+def test_the_last_line_says_what_was_found(counts: dict[str, int], line: str) -> None:
+    assert told([], **counts).splitlines()[-1] == line
+
+
+def test_a_log_is_told_no_time() -> None:
+    assert told([], how=Telling(seconds=1.0)) == told([], how=Telling(seconds=2.0))
+
+
+def test_findings_come_first_and_notes_are_a_line_each() -> None:
+    lines = told([CALL, NOTE]).splitlines()
+    assert lines[:5] == [
+        'src/arm node.py:40:9: error CC101: drive waits for "plan": <for ever>, 100 %',
+        '  src/arm node.py:20:9: drive calls from here',
+        '  src/arm node.py:10:9: client is created here',
+        '  help: give the client a group',
+        'other.py: note CC501: topic of tick not resolved:\\na parameter\\x00',
+    ]
+    assert lines[5:7] == ['', 'checked node_0: MultiThreadedExecutor, 4 threads, 3 callbacks']
+
+
+def test_no_path_is_absolute_below_the_folder_of_the_reader_or_the_repository() -> None:
+    here = replace(CALL, place=Place(str(Path.cwd() / 'arm.py'), 3), chain=(), related=())
+    below = replace(here, place=Place('/robots/src/arm.py', 3))
+    assert told([here]).startswith('arm.py:3: error')
+    assert told([below], root='/robots').startswith('src/arm.py:3: error')
+    assert told([below]).startswith('/robots/src/arm.py:3: error')
+
+
+def test_quiet_tells_each_finding_in_a_line() -> None:
+    lines = told([CALL, RACE, NOTE], how=Telling(detail=Detail.QUIET)).splitlines()
+    assert [line.partition(': ')[2].partition(':')[0] for line in lines[:3]] == [
+        'error CC101',
+        'warning CC301',
+        'note CC501',
+    ]
+    assert lines[3:] == ['No problems found in 1 file']
+
+
+def test_a_run_has_eight_steps_and_verbose_tells_all() -> None:
+    moments = tuple(replace(RUN.moments[0], number=n) for n in range(1, 21))
+    long = replace(RACE, run=replace(RUN, moments=moments, cycle_from=None))
+    usual, verbose = told([long]), told([long], how=Telling(detail=Detail.VERBOSE))
+    assert usual.count('executor assigns tick') == 8
+    assert '(12 steps left out)' in usual
+    assert verbose.count('executor assigns tick') == 20
+
+
+def test_many_notes_are_counted_by_file() -> None:
+    text = told([NOTE] * 11 + [CALL])
+    assert 'CC501: topic of tick' not in text
+    assert 'CC101: drive waits' in text
+    assert '11 notes; --verbose shows each with its line:\n  other.py  CC501 × 11\n' in text
+
+
+def test_notes_of_many_files_are_counted_together() -> None:
     notes = [replace(NOTE, place=Place(f'node_{n:02}.py', 3)) for n in range(13)]
-    lines = told(checked, [*notes, notes[0]]).splitlines()
-    first = lines.index('14 notes, each with its line by --tables:') + 1
-    assert [line.split() for line in lines[first : first + 2]] == [
-        ['node_00.py', 'CC501', '×', '2'],
-        ['node_01.py', 'CC501', '×', '1'],
-    ]
-    assert lines[first + 10].split() == ['3', 'more', 'files', 'CC501', '×', '3']
+    lines = told([*notes, notes[0]]).splitlines()
+    assert lines[1:3] == ['  node_00.py  CC501 × 2', '  node_01.py  CC501 × 1']
+    assert lines[11] == '  3 more files  CC501 × 3'
 
 
-def test_many_related_places_are_cut(checked: tuple[Spec, Verification]) -> None:
+def test_many_related_places_are_cut() -> None:
     related = tuple(Remark(Place('node.py', line), 'waits here') for line in range(1, 12))
-    text = told(checked, [replace(CALL, chain=(), related=related)])
+    text = told([replace(CALL, chain=(), related=related)])
     assert text.count('waits here') == 8
     assert '  and 3 places more: see --output-format html\n' in text
 
 
-@pytest.mark.parametrize(('notes', 'tables'), [(10, False), (11, True)])
-def test_a_few_notes_are_told(
-    checked: tuple[Spec, Verification], notes: int, tables: bool
-) -> None:
-    text = told(checked, [NOTE] * notes, tables=tables)
-    assert text.count('CC501 topic of tick') == notes
+@pytest.mark.parametrize(
+    ('notes', 'detail'), [(10, Detail.USUAL), (11, Detail.QUIET), (11, Detail.VERBOSE)]
+)
+def test_a_few_notes_are_told_and_all_where_somebody_asks(notes: int, detail: Detail) -> None:
+    text = told([NOTE] * notes, how=Telling(detail=detail))
+    assert text.count('CC501: topic of tick') == notes
 
 
-def test_a_run_of_the_published_starvation_is_left_to_verify(
-    checked: tuple[Spec, Verification],
-) -> None:
-    lines = told(checked, [], units=1).splitlines()
+def test_tables_of_queries_are_told_where_somebody_asks() -> None:
+    assert '  #  query' not in told([], units=2)
+    assert told([], units=2, how=Telling(verdicts=True)).count('  #  query') == 2
+
+
+def test_a_run_of_the_published_starvation_is_left_to_verify() -> None:
+    lines = told([], how=Telling(verdicts=True)).splitlines()
     assert [line for line in lines if line.startswith('counterexample')] == [
         'counterexample for 5: on_map_ready and drive never run at the same time: not satisfied'
     ]
     assert '  3 more runs: ros2cc-extract verify shows them' in lines
-
-
-def test_programs_that_name_their_node_alike_have_the_findings_of_their_own_files(
-    checked: tuple[Spec, Verification],
-) -> None:
-    unit, verification = checked
-    many = [
-        (replace(unit, name='arm', sources=(f'{file}.py',), entry=f'{file}.py:main'), verification)
-        for file in ('old', 'new', 'newest', 'other')
-    ]
-    many[3] = (replace(many[3][0], name='other'), verification)
-    made = Remark(at('new.py'), 'made here')
-    about_new = replace(CALL, unit='arm', place=at('library.py'), chain=(), related=(made,))
-    stream = io.StringIO()
-    print_check(many, [about_new], SUMMARY, console_for(stream))
-    rows = {line.split()[1]: line for line in stream.getvalue().splitlines() if '.py:main' in line}
-    assert rows['new.py:main'].endswith('1 error')
-    assert all(rows[f'{name}.py:main'].endswith('-') for name in ('old', 'newest', 'other'))
-
-
-def test_namesakes_share_a_finding_that_shows_none_of_their_files(
-    checked: tuple[Spec, Verification],
-) -> None:
-    unit, verification = checked
-    many = [
-        (replace(unit, name='arm', sources=(f'{n}.py',), entry=f'{n}.py:main'), verification)
-        for n in range(4)
-    ]
-    nowhere = replace(CALL, unit='arm', place=at('library.py'), chain=(), related=())
-    stream = io.StringIO()
-    print_check(many, [nowhere], SUMMARY, console_for(stream))
-    assert stream.getvalue().count('1 error\n') == len(many)
-
-
-def test_of_namesakes_in_one_file_the_one_with_an_executor_has_the_finding(
-    checked: tuple[Spec, Verification],
-) -> None:
-    unit, verification = checked
-    spun = replace(unit, name='arm', sources=('arm/test/arm.py',))
-    many = [(spun, verification)]
-    many += [(without_executor(unit, 'arm'), verification) for _ in range(4)]
-    stream = io.StringIO()
-    print_check(
-        many,
-        [replace(CALL, unit='arm', place=at('arm/test/arm.py'))],
-        SUMMARY,
-        console_for(stream),
-    )
-    rows = [line for line in stream.getvalue().splitlines() if line.startswith('arm')]
-    assert [row.endswith('1 error') for row in rows][:1] == [True]
-    assert len([row for row in rows if '1 error' in row]) == 1
-    assert '4 units without an executor in sight' in stream.getvalue()
-
-
-def at(file: str) -> Place:
-    return Place(file, 3, 1)

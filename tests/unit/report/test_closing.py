@@ -15,6 +15,7 @@ from ros2cc_extract.report.html.page import html_report
 from ros2cc_extract.report.machine.json_report import check_data
 from ros2cc_extract.report.machine.sarif import sarif
 from ros2cc_extract.report.text.findings import print_findings
+from ros2cc_extract.report.text.paths import Paths
 
 ENDS = 'nothing moves any more: drive waits on thread_0 for client; no thread is left'
 FINDING = replace(RACE, run=replace(RUN, cycle_from=None, closing=ENDS, left_out=8))
@@ -22,11 +23,11 @@ FINDING = replace(RACE, run=replace(RUN, cycle_from=None, closing=ENDS, left_out
 
 def test_text() -> None:
     stream = io.StringIO()
-    print_findings([FINDING], Path(), Console(file=stream, width=70))
+    print_findings([FINDING], Paths(Path()), Console(file=stream, width=70))
     assert [line.split() for line in stream.getvalue().splitlines()[-3:]] == [
         ['3', 'on_reset', 'starts', 'on', 'thread_1', 'arm', 'node.py:35'],
         ENDS.split(),
-        ['(8', 'steps', 'of', 'others', 'left', 'out)'],
+        ['(8', 'steps', 'left', 'out)'],
     ]
 
 
@@ -34,7 +35,7 @@ def test_html() -> None:
     page = html_report([], [], [FINDING], {}, {})
     assert re.findall(r'<p class="closing">(.*?)</p>', page) == [
         ENDS,
-        '(8 steps of others left out)',
+        '(8 steps left out)',
     ]
 
 
@@ -42,7 +43,7 @@ def test_sarif() -> None:
     (run,) = json.loads(sarif([FINDING]))['runs']
     (flow,) = run['results'][0]['codeFlows']
     assert flow['message']['text'] == (
-        f'a run of the model that shows it; {ENDS}; (8 steps of others left out)'
+        f'a run of the model that shows it; {ENDS}; (8 steps left out)'
     )
 
 

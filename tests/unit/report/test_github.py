@@ -37,7 +37,7 @@ def test_ten_of_a_kind_the_most_important_first() -> None:
 def test_the_summary_holds_all_findings_with_the_notes_folded() -> None:
     assert step_summary([NOTE, RACE, CALL], {'files': 2, 'errors': 1}) == (
         '## ros2cc-extract\n\n'
-        '2 files, 1 error\n\n'
+        'Found 1 error in 2 files\n\n'
         'CC101: 1, CC301: 1\n\n'
         '| | code | place | what | help |\n'
         '|---|---|---|---|---|\n'
@@ -64,4 +64,4 @@ def test_a_summary_too_long_for_github_ends_with_a_number() -> None:
 
 
 def test_the_summary_says_when_there_is_nothing() -> None:
-    assert step_summary([], {'files': 2}).endswith('No findings.\n')
+    assert step_summary([], {'files': 2, 'units': 1}).endswith('No problems found in 2 files\n')

@@ -1,0 +1,236 @@
+"""
+What a check says of a unit in five promises: kept, broken, or not decided and why.
+
+A promise is kept only where the model of rclpy's executors proves it and nothing that it rests on
+is open. It is broken only where a finding says so. Everything else is undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
+from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
+from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
+from ros2cc_extract.findings.waits.workers import Workers, workers_of
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
+from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
+
+
+class Promise(Enum):
+    """What a developer wants to rely on, in the words of the report."""
+
+    DEADLOCK = 'no deadlock'
+    WAITS = 'every wait ends'
+    STARVATION = 'no starvation'
+    RACES = 'no data race'
+    SETTINGS = 'settings have an effect'
+
+
+class Mark(Enum):
+    """What is known of a promise."""
+
+    KEPT = 'kept'
+    BROKEN = 'broken'
+    OPEN = 'undecided'
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """
+    One promise of one unit.
+
+    :param reason: why it is undecided, or the codes of the findings that break it.
+    """
+
+    promise: Promise
+    mark: Mark
+    reason: str = ''
+
+
+DEADLOCK, SERIAL = 'deadlock', 'serial'
+RCLPY = 'rclpy'
+"""The profile that models rclpy's own executors."""
+_FOR_EVER = frozenset(f'CC{number}' for number in (*range(101, 120), 122))
+_CODES = {
+    Promise.DEADLOCK: {'CC101', 'CC102', 'CC103', 'CC104', 'CC105', 'CC106', 'CC111', 'CC115'},
+    Promise.WAITS: {*_FOR_EVER - {'CC107', 'CC117', 'CC119'}, 'CC204', 'CC205', 'CC206'},
+    Promise.STARVATION: {
+        *(f'CC20{number}' for number in range(1, 7)),
+        *('CC103', 'CC113', 'CC116', 'CC118', 'CC405', 'CC406', 'CC407'),
+    },
+    Promise.RACES: {'CC107', 'CC117', 'CC119', *(f'CC30{number}' for number in range(1, 6))},
+    Promise.SETTINGS: {f'CC40{number}' for number in range(1, 8)},
+}
+"""Rules whose findings break a promise."""
+_FAMILIES: dict[Promise, set[str]] = {
+    Promise.DEADLOCK: {DEADLOCK, 'pool_exhaustion'},
+    Promise.WAITS: {PROGRESS, 'answered_spin'},
+    Promise.STARVATION: {'starvation', NODE_KEPT},
+    Promise.RACES: set(),
+    Promise.SETTINGS: set(),
+}
+"""Claims of the model that have to hold for a promise."""
+_ON_WAITS = (Promise.DEADLOCK, Promise.WAITS, Promise.STARVATION)
+_ASSUMED_ENDS = {OUTSIDE_WAIT.code: 'is assumed to end', UNDECIDED.code: 'is not decided'}
+
+
+def judge(
+    unit: Spec,
+    verification: Verification,
+    own: Sequence[Finding],
+    near: Sequence[Finding] = (),
+) -> tuple[Judgement, ...]:
+    """
+    Judge each promise of ``unit``.
+
+    :param verification: by the model of rclpy's executors; by any other nothing is decided.
+    :param own: findings about the unit, also those that somebody has accepted.
+    :param near: findings in its files that may be about another unit.
+    """
+    judged = _Unit(unit, verification, own, near)
+    return tuple(judged.judgement(promise) for promise in Promise)
+
+
+@dataclass(frozen=True)
+class _Unit:
+    unit: Spec
+    verification: Verification
+    own: Sequence[Finding]
+    near: Sequence[Finding]
+
+    def judgement(self, promise: Promise) -> Judgement:
+        broken = sorted({f.code for f in self.own if _breaks(f, promise)})
+        if broken:
+            return Judgement(promise, Mark.BROKEN, ', '.join(broken))
+        stuck = sorted({f.code for f in self.own if _breaks(f, Promise.WAITS)})
+        if promise in _ON_WAITS and stuck and any(self._refuted(promise)):
+            return Judgement(promise, Mark.BROKEN, ', '.join(stuck))
+        reason = next(self._doubts(promise), '')
+        return Judgement(promise, Mark.OPEN if reason else Mark.KEPT, reason)
+
+    def _doubts(self, promise: Promise) -> Iterator[str]:
+        """Give what keeps a promise from being proven, what concerns all promises first."""
+        yield from self._gaps()
+        for finding in self.near:
+            if _breaks(finding, promise):
+                yield f'{finding.code} at {_at(finding)}, which may concern it'
+        for finding in self.own:
+            if finding.code in _CODES[promise]:
+                yield f'{finding.code} at {_at(finding)}'
+        yield from self._verdicts(promise)
+        if promise in _ON_WAITS:
+            yield from self._open_waits(promise)
+        if promise is Promise.STARVATION:
+            yield from _overload(self.unit)
+        if promise is Promise.SETTINGS:
+            yield from self._without_effect()
+
+    def _gaps(self) -> Iterator[str]:
+        if self.verification.defect:
+            yield 'an internal error'
+        elif self.verification.profile != RCLPY:
+            yield "only the embedded checker and the model of rclpy's executors decide it"
+        elif not any(r.family == DEADLOCK for r in self.verification.results):
+            yield 'it was not asked'
+        fact = open_facts(Context(self.unit))
+        if fact:
+            yield fact
+        for each in Context(self.unit).doers:
+            if each.unresolved is not None:
+                yield f'{each.display_name} is not followed ({each.unresolved.reason})'
+        for finding in (*self.own, *self.near):
+            if finding.code == 'CC500':
+                yield f'{finding.message} ({_at(finding)})'
+
+    def _verdicts(self, promise: Promise) -> Iterator[str]:
+        for result in self._results(promise):
+            if result.verdict is Verdict.UNDECIDED:
+                yield result.reason or 'a limit was hit'
+        for result in self._refuted(promise):
+            yield f'the model refutes "{result.words}", and no rule explains it: see --verdicts'
+
+    def _refuted(self, promise: Promise) -> Iterator[QueryResult]:
+        refuted = Verdict.NOT_SATISFIED
+        return (result for result in self._results(promise) if result.verdict is refuted)
+
+    def _results(self, promise: Promise) -> Iterator[QueryResult]:
+        families = _FAMILIES[promise]
+        return (result for result in self.verification.results if result.family in families)
+
+    def _open_waits(self, promise: Promise) -> Iterator[str]:
+        for finding in self.own:
+            words = _ASSUMED_ENDS.get(finding.code)
+            if words and (promise is not Promise.DEADLOCK or finding.code == UNDECIDED.code):
+                yield f'the wait at {_at(finding)} {words}'
+
+    def _without_effect(self) -> Iterator[str]:
+        workers = workers_of(self.unit.executor)
+        is_pool = isinstance(workers, Workers) and workers.count > 1
+        if self.unit.unresolved:
+            fact = self.unit.unresolved[0]
+            yield f'{fact.fact} of {fact.subject} is not known ({fact.reason})'
+        for result in self.verification.results:
+            if result.family == SERIAL and is_pool:
+                if result.verdict is Verdict.UNDECIDED:
+                    yield result.reason or 'a limit was hit'
+                elif result.verdict is Verdict.SATISFIED:
+                    yield 'no two callbacks ever run at the same time'
+
+
+def _breaks(finding: Finding, promise: Promise) -> bool:
+    """A note on settings is as certain as a warning; any other says that it may be no harm."""
+    is_sure = finding.severity is not Severity.NOTE or promise is Promise.SETTINGS
+    return is_sure and finding.code in _CODES[promise]
+
+
+def _overload(unit: Spec) -> Iterator[str]:
+    """Who may be kept waiting where more arrives than one run of each callback."""
+    demands = demands_of(unit)
+    for callback in unit.callbacks:
+        if callback.builtin:
+            continue
+        load = load_of(unit, callback, demands)
+        is_delay = load.kind is LoadKind.UNKNOWN and load.serving is not Serving.LEFTOVER
+        if load.kind is not LoadKind.FINE and not is_delay:
+            yield f'{callback.display_name}: {load.words}'
+
+
+def about(
+    findings: Iterable[Finding], unit: Spec, units: Sequence[Spec]
+) -> tuple[list[Finding], list[Finding]]:
+    """
+    Give the findings that are surely about ``unit``, and those that may be.
+
+    What the scan alone finds names a file and no unit; so does what several units find together.
+    """
+    own: list[Finding] = []
+    near: list[Finding] = []
+    by_name = {each.name: each for each in units}
+    for finding in findings:
+        named = by_name.get(finding.unit or '')
+        if named is None:
+            sharing = [each for each in units if finding.place.file in each.sources]
+            if any(each is unit for each in sharing):
+                (own if len(sharing) == 1 else near).append(finding)
+        elif finding.unit == unit.name:
+            own.append(finding)
+        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit):
+            near.append(finding)
+    return own, near
+
+
+def _names(finding: Finding, unit: Spec) -> bool:
+    return not {each.name for each in unit.callbacks}.isdisjoint(finding.subjects)
+
+
+def _at(finding: Finding) -> str:
+    place = finding.place
+    name = place.file.rpartition('/')[2]
+    return f'{name}:{place.line}' if place.line else name

@@ -1,0 +1,141 @@
+"""A promise is kept only where that is proven, and broken only where a finding says so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.promises import Judgement, Mark, Promise, about, judge
+from ros2cc_extract.generator.build import Family, Profile
+from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.spec.close import close
+from ros2cc_extract.spec.model import Spec, Unresolved
+from ros2cc_extract.verify.results.results import Verdict, Verification
+from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.unit import verify_unit
+
+NODE = """\
+import rclpy
+from rclpy.node import Node
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_timer(0.1, self.move)
+
+    def move(self):
+        pass
+
+
+rclpy.init()
+rclpy.spin(Arm())
+"""
+FINDING = Finding(code='CC101', severity=Severity.ERROR, place=Place('arm.py', 8, 9), message='it')
+
+
+@cache
+def clean() -> tuple[Spec, Verification]:
+    [unit] = scan_text(NODE, 'arm.py').units
+    return unit, verify_unit(close(unit), Options(profile=Profile.RCLPY))
+
+
+def marks(*own: Finding, near: tuple[Finding, ...] = (), **changes: object) -> dict[str, str]:
+    unit, verification = clean()
+    judged = judge(unit, replace(verification, **changes), own, near)
+    return {each.promise.name: each.mark.name for each in judged if each.mark is not Mark.KEPT}
+
+
+def all_open(judged: tuple[Judgement, ...]) -> bool:
+    return [each.mark for each in judged] == [Mark.OPEN] * len(Promise)
+
+
+def test_a_clean_node_keeps_all() -> None:
+    assert marks() == {}
+
+
+@pytest.mark.parametrize(
+    ('code', 'broken'),
+    [
+        ('CC101', {'DEADLOCK', 'WAITS'}),
+        ('CC112', {'WAITS'}),
+        ('CC201', {'STARVATION'}),
+        ('CC301', {'RACES'}),
+        ('CC405', {'STARVATION', 'SETTINGS'}),
+    ],
+)
+def test_a_finding_breaks_what_its_rule_is_about(code: str, broken: set[str]) -> None:
+    assert marks(replace(FINDING, code=code)) == dict.fromkeys(broken, 'BROKEN')
+
+
+def test_a_note_decides_nothing_but_that_a_setting_has_no_effect() -> None:
+    assert marks(replace(FINDING, code='CC301', severity=Severity.NOTE)) == {'RACES': 'OPEN'}
+    assert marks(replace(FINDING, code='CC403', severity=Severity.NOTE)) == {'SETTINGS': 'BROKEN'}
+
+
+def test_what_may_be_about_another_unit_leaves_it_open() -> None:
+    assert marks(near=(FINDING,)) == {'DEADLOCK': 'OPEN', 'WAITS': 'OPEN'}
+
+
+@pytest.mark.parametrize('code', ['CC120', 'CC121'])
+def test_a_wait_that_is_not_decided_leaves_open_what_rests_on_it(code: str) -> None:
+    own = replace(FINDING, code=code, severity=Severity.NOTE)
+    wanted = {'WAITS', 'STARVATION', *({'DEADLOCK'} if code == 'CC120' else ())}
+    assert marks(own) == dict.fromkeys(wanted, 'OPEN')
+
+
+@pytest.mark.parametrize('verdict', [Verdict.UNDECIDED, Verdict.NOT_SATISFIED])
+def test_a_verdict_that_is_no_proof_leaves_it_open(verdict: Verdict) -> None:
+    _, verification = clean()
+    results = tuple(
+        replace(result, verdict=verdict) if result.family == Family.DEADLOCK.value else result
+        for result in verification.results
+    )
+    assert marks(results=results) == {'DEADLOCK': 'OPEN'}
+
+
+def test_another_model_decides_nothing() -> None:
+    unit, verification = clean()
+    assert all_open(judge(unit, replace(verification, profile='paper'), ()))
+    assert all_open(judge(unit, replace(verification, results=()), ()))
+    assert all_open(judge(unit, replace(verification, defect='KeyError'), ()))
+
+
+def test_what_is_not_known_of_the_unit_leaves_all_open() -> None:
+    unit, verification = clean()
+    executor = replace(unit.executor, kind=Unknown('nobody spins it'))
+    fact = Unresolved(subject='arm', fact='entities', reason='passed to a library')
+    [callback, *others] = unit.callbacks
+    hidden = replace(callback, unresolved=Unknown('a parameter'))
+    for open_unit in (
+        replace(unit, executor=executor),
+        replace(unit, unresolved=(fact,)),
+        replace(unit, callbacks=(hidden, *others)),
+    ):
+        assert all_open(judge(open_unit, verification, ()))
+    unread = replace(FINDING, code='CC500')
+    assert all_open(judge(unit, verification, (unread,)))
+
+
+def test_a_finding_of_the_scan_is_about_the_units_of_its_file() -> None:
+    unit, _ = clean()
+    other = replace(unit, name='other', sources=('other.py',))
+    twin = replace(unit, name='twin')
+    assert about([FINDING], unit, [unit, other]) == ([FINDING], [])
+    assert about([FINDING], other, [unit, other]) == ([], [])
+    assert about([FINDING], unit, [unit, twin]) == ([], [FINDING])
+
+
+def test_a_finding_of_one_unit_is_not_about_its_neighbours() -> None:
+    unit, _ = clean()
+    other = replace(unit, name='other', entry='other.py:main')
+    beside = replace(unit, name='beside')
+    named = replace(FINDING, unit='arm', subjects=(unit.callbacks[0].name,))
+    assert about([named], unit, [unit, other, beside]) == ([named], [])
+    assert about([named], other, [unit, other, beside]) == ([], [])
+    assert about([named], beside, [unit, other, beside]) == ([], [named])
