@@ -77,3 +77,26 @@ def test_a_taker_of_another_group_may_come_between() -> None:
 @pytest.mark.parametrize('how', [THREAD, AWAIT, SPIN])
 def test_threads_awaits_and_spins_let_others_between(how: dict[str, str]) -> None:
     assert waits_in_get(SINGLE, 'other', **how)
+
+
+def is_full(program: str) -> str:
+    """The same of a queue of two that is asked whether it is full."""
+    bounded = program.replace('queue.Queue()', 'queue.Queue(2)')
+    return bounded.replace('if not self.stock.empty()', 'if self.stock.full()')
+
+
+def waits_of_first(executor: str, group: str, program: str) -> list[str]:
+    text = program.format(executor=executor, group=group, **NOT_BETWEEN)
+    (unit,) = scan_text(text).units
+    first = next(c for c in unit.callbacks if (c.function or '').endswith('first'))
+    return [block.call for block in first.blocking]
+
+
+def test_what_is_full_holds_something() -> None:
+    assert waits_of_first(SINGLE, 'one', is_full(PROGRAM)) == []
+    other = is_full(PROGRAM).replace('if self.stock.full()', 'if not self.stock.full()')
+    assert waits_of_first(SINGLE, 'one', other) == ['Queue.get']
+
+
+def test_another_taker_may_come_between() -> None:
+    assert waits_of_first(POOL, 'other', is_full(PROGRAM)) == ['Queue.get']

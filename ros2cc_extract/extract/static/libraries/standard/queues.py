@@ -6,7 +6,7 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
-from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer
+from ros2cc_extract.extract.static.python.machine.path_facts import Word, answer, full
 from ros2cc_extract.extract.static.python.machine.waitable_objects import INITIAL
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -95,7 +95,7 @@ def _is_empty(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _is_full(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    return answer(receiver, Word.GET, call, if_true=False)
+    return full(receiver, call)
 
 
 def _size(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:

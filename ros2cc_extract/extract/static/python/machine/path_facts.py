@@ -51,6 +51,8 @@ class Told:
 
     :param holds: what has surely happened where it is true, ``fails`` where it is false.
     :param makes: what may make it true when it happens, ``breaks`` false.
+    :param knows: what has surely happened too where it is true, ``knows_not`` where it is false,
+        though it takes more than that to make it so: what is full holds something.
     :param is_either: one of several objects is asked, depending on a branch.
     """
 
@@ -58,11 +60,21 @@ class Told:
     fails: Facts = NOTHING
     makes: Facts = NOTHING
     breaks: Facts = NOTHING
+    knows: Facts = NOTHING
+    knows_not: Facts = NOTHING
     is_either: bool = False
 
     def negated(self) -> Told:
         """The same of ``not``."""
-        return Told(self.fails, self.holds, self.breaks, self.makes, self.is_either)
+        return Told(
+            holds=self.fails,
+            fails=self.holds,
+            makes=self.breaks,
+            breaks=self.makes,
+            knows=self.knows_not,
+            knows_not=self.knows,
+            is_either=self.is_either,
+        )
 
 
 class Answer(Mystery):
@@ -82,6 +94,13 @@ def answer(thing: Value, word: Word, call: Call, *, if_true: bool = True) -> Ans
     return Answer(
         Unknown(_ASKED, call.place), call.text or '', told if if_true else told.negated()
     )
+
+
+def full(queue: Value, call: Call) -> Answer:
+    """Whether ``queue`` has no room left; it holds something then."""
+    got, put = (frozenset({(queue, word)}) for word in (Word.GET, Word.PUT))
+    told = Told(fails=got, breaks=got, knows=put)
+    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
 
 
 def cancelled(future: Value, call: Call) -> Answer:
@@ -152,16 +171,20 @@ def _all(told: Sequence[Told]) -> Told:
         fails=of_all(each.fails for each in told),
         makes=NOTHING.union(*(each.makes for each in told)),
         breaks=NOTHING.union(*(each.breaks for each in told)),
+        knows=NOTHING.union(*(each.knows for each in told)),
+        knows_not=of_all(each.knows_not for each in told),
         is_either=any(each.is_either for each in told),
     )
 
 
 def _both(one: Told, other: Told) -> Told:
     return Told(
-        one.holds | other.holds,
-        one.fails | other.fails,
-        one.makes | other.makes,
-        one.breaks | other.breaks,
+        holds=one.holds | other.holds,
+        fails=one.fails | other.fails,
+        makes=one.makes | other.makes,
+        breaks=one.breaks | other.breaks,
+        knows=one.knows & other.knows,
+        knows_not=one.knows_not & other.knows_not,
         is_either=True,
     )
 

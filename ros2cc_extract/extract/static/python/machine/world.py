@@ -211,7 +211,7 @@ class World:
     def assume(self, told: Told | None, *, holds: bool) -> None:
         """From here on a test has come out so."""
         if told is not None:
-            self.ready |= told.holds if holds else told.fails
+            self.ready |= told.holds | told.knows if holds else told.fails | told.knows_not
 
     def assume_picked(self, collection: Value, item: Value) -> None:
         """An item is taken out of a collection into which it was picked for what it answered."""
