@@ -34,7 +34,7 @@ def nothing(folder: Path) -> None:
         ({'status': None}, 'crash'),
         ({'status': 130}, 'crash'),
         ({'err': 'ros2cc-extract: internal error: KeyError'}, 'internal error'),
-        ({'out': 'node.py:1:1: CC500 cannot be followed: KeyError'}, 'internal error'),
+        ({'out': 'node.py:1:1: error CC500: cannot be followed: KeyError'}, 'internal error'),
         ({'left': ['child']}, 'leftover'),
         ({'seconds': 10.5}, 'too dear'),
         ({'megabytes': 1_001.0}, 'too dear'),

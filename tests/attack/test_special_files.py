@@ -182,7 +182,8 @@ def test_an_unreadable_folder_is_told_and_weighs(mode: int, barred: bool, folder
     of_spec = run_tool('spec', '.', '--strict', cwd=folder, prefix=prefix)
     alone = run_tool('check', 'hidden', cwd=folder, prefix=prefix)
     hidden.chmod(0o700)
-    told = 'hidden: CC500 cannot be looked into' if barred else 'hidden/node.py: CC500 cannot be'
+    folder_is, file_is = 'hidden: error CC500: cannot be looked into', 'hidden/node.py: error CC500: '
+    told = folder_is if barred else file_is
     assert told in plain.out
     assert (plain.status, strict.status, of_spec.status, alone.status) == (0, 2, 2, 2)
 
@@ -199,7 +200,7 @@ def test_the_linter_fails_on_an_unreadable_folder(folder: Path) -> None:
         text=True,
         check=False,
     )
-    assert (done.returncode, 'hidden: CC500 cannot be looked into' in done.stdout) == (1, True)
+    assert (done.returncode, 'hidden: error CC500: cannot be looked into' in done.stdout) == (1, True)
 
 
 @pytest.fixture
@@ -222,7 +223,7 @@ def abyss(folder: Path) -> Iterator[Path]:
 def test_a_path_that_is_too_long_is_told_and_weighs(abyss: Path) -> None:
     plain = run_tool('check', '.', cwd=abyss)
     strict = run_tool('check', '.', '--strict', cwd=abyss)
-    assert 'CC500 cannot be looked into: File name too long' in plain.out
+    assert 'CC500: cannot be looked into: File name too long' in plain.out
     assert (plain.status, strict.status) == (0, 2)
 
 

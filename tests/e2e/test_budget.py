@@ -65,7 +65,7 @@ def test_whoever_is_asked_to_end_tells_what_is_done(
     assert child.returncode == status
     assert 'short.py:' in out
     assert 'CC101' in out
-    assert ' 13 units, ' in out.splitlines()[-1]
+    assert ' in 13 files; ' in out.splitlines()[-1]
     assert 'undecided' in out.splitlines()[-1]
     assert err == 'interrupted: what was not verified by then is undecided\n'
 
@@ -112,7 +112,7 @@ def test_whoever_is_asked_to_end_while_scanning_tells_what_is_done(
     assert child.returncode == status
     assert 'files are not followed to their end: interrupted' in out
     assert 'a_short.py:' in out
-    assert ' in 41 files, ' in out.splitlines()[-1]
+    assert ' in 41 files' in out.splitlines()[-1]
     assert err == 'interrupted: what was not verified by then is undecided\n'
 
 

@@ -108,4 +108,4 @@ def test_distro_says_which_consequence_holds(
 ) -> None:
     _, out, _ = run(node, '--distro', distro)
     assert told in out
-    assert [code for code in ('CC118',) if f': {code} ' in out] == found
+    assert [code for code in ('CC118',) if f' {code}: ' in out] == found

@@ -42,7 +42,7 @@ def test_the_other_units_go_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) 
     monkeypatch.chdir(tmp_path)
     out, err = io.StringIO(), io.StringIO()
     assert main(['check', '.', '--no-cache'], out, err) == 1
-    assert f'CC500 unit {broken.name} is not verified: {DEFECT}' in out.getvalue()
+    assert f'CC500: unit {broken.name} is not verified: {DEFECT}' in out.getvalue()
     assert 'this is a defect of the tool' in out.getvalue()
     assert 'CC101' in out.getvalue()
 
