@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile, Text
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -15,6 +15,13 @@ from types import MappingProxyType
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from ros2cc_extract.generator.executor_kinds import (
+    GUARD_RANK,
+    QUEUED_TWICE,
+    TASK_RANK,
+    ExecutorKind,
+    task_order,
+)
 from ros2cc_extract.generator.queries import (
     IN_DOUBT,
     Family,
@@ -24,14 +31,7 @@ from ros2cc_extract.generator.queries import (
     with_doubts,
     write_query_file,
 )
-from ros2cc_extract.generator.serving import (
-    GUARD_RANK,
-    QUEUED_TWICE,
-    TASK_RANK,
-    ExecutorKind,
-    task_order,
-)
-from ros2cc_extract.generator.sources import PUBLISHED, Profile, Text, choose_sources
+from ros2cc_extract.generator.template_files import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
 
-from ros2cc_extract.generator.spins import Spun
+from ros2cc_extract.generator.nested_spins import Spun
 from ros2cc_extract.generator.unit import Unit, UnitActivity, UnitCallback, UnitGroup
 
 

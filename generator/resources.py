@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.spins import is_part_of_spin
-from ros2cc_extract.generator.steps import NamedWait, Resource, WaitKind
-from ros2cc_extract.once import once
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs, Waker
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
+from ros2cc_extract.generator.nested_spins import is_part_of_spin
+from ros2cc_extract.generator.program_steps import NamedWait, Resource, WaitKind
+from ros2cc_extract.identity_memo import once
+from ros2cc_extract.spec.client_server_pairs import client_before
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
-from ros2cc_extract.spec.partners import client_before
 
 Actor = Callback | Activity
 #: Whose names stand for nobody of the unit.

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.generator.left_out import (
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, rank_of
+from ros2cc_extract.generator.nested_spins import Refusal, Spun
+from ros2cc_extract.generator.omissions import (
     is_entered_unseen,
     left_out_of_models,
     unexplained_runs,
 )
+from ros2cc_extract.generator.program_steps import Lock, NamedWait, Resource, gives
 from ros2cc_extract.generator.resources import start_of
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
-from ros2cc_extract.generator.spins import Refusal, Spun
-from ros2cc_extract.generator.steps import Lock, NamedWait, Resource, gives
 from ros2cc_extract.generator.unit_waits import SpinForm, UnitWait
 from ros2cc_extract.generator.waits import (
     actors_of,
@@ -21,10 +21,10 @@ from ros2cc_extract.generator.waits import (
     modelled_activities,
     waits_of,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import server_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Activity, Callback, Spec
-from ros2cc_extract.spec.partners import server_of
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.generator.spins import NestedSpin
-from ros2cc_extract.generator.steps import WaitKind
+from ros2cc_extract.generator.nested_spins import NestedSpin
+from ros2cc_extract.generator.program_steps import WaitKind
 
 
 @dataclass(frozen=True, kw_only=True)

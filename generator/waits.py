@@ -11,6 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
+from ros2cc_extract.generator.nested_spins import is_open, is_part_of_spin, is_spin, nested_spins
+from ros2cc_extract.generator.program_steps import Lock, NamedWait, WaitKind
 from ros2cc_extract.generator.resources import (
     Actor,
     all_actors,
@@ -21,13 +24,10 @@ from ros2cc_extract.generator.resources import (
     resource_waits,
     signals_of,
 )
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
-from ros2cc_extract.generator.spins import is_open, is_part_of_spin, is_spin, nested_spins
-from ros2cc_extract.generator.steps import Lock, NamedWait, WaitKind
-from ros2cc_extract.once import known_of, once
-from ros2cc_extract.spec.deeds import RE_ENTRANT, TURN, Blocking
+from ros2cc_extract.identity_memo import known_of, once
+from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
+from ros2cc_extract.spec.effects import RE_ENTRANT, TURN, Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
-from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.spec.releases.table import FUTURE_YIELDS_ITSELF
 
 _ASKS_THE_GRAPH = ('wait_for_service', 'wait_for_server')

@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from enum import Enum
 
-from ros2cc_extract.places import Place, shown_name
+from ros2cc_extract.source_locations import Place, shown_name
 
 
 class Severity(Enum):

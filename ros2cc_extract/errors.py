@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class Ros2ccError(Exception):

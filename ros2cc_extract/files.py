@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import BinaryIO, Protocol
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 Walked = tuple[str, list[str], list[str]]
 """A folder, and the names of the folders and of the other files in it."""

@@ -10,9 +10,9 @@ from ros2cc_extract.checker.engines.limits import Limits, Progress, peak_mb
 from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Fairness, Reductions, Verdict
 from ros2cc_extract.checker.network.network import Property
 from ros2cc_extract.checker.runs.answers import Answer, CheckResult
+from ros2cc_extract.checker.runs.complementary_queries import twins_of, with_twins
 from ros2cc_extract.checker.runs.replay import Replayer
 from ros2cc_extract.checker.runs.run import EdgeRef, Run, StateView, Step
-from ros2cc_extract.checker.runs.twins import twins_of, with_twins
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import (
     Model,
@@ -22,7 +22,7 @@ from ros2cc_extract.checker.uppaal.model import (
     read_queries,
     too_deep,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 __all__ = [
     'Answer',

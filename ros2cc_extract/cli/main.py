@@ -22,8 +22,8 @@ from ros2cc_extract.cli.shared.termination import (
     termination_as_interrupt,
 )
 from ros2cc_extract.errors import InputError, Ros2ccError, did_you_mean
-from ros2cc_extract.places import Place
-from ros2cc_extract.shown import Shown, raw
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import Shown, raw
 from ros2cc_extract.version import PROGRAM, __version__
 
 DEFAULT_COMMAND = 'check'

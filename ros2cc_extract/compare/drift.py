@@ -13,8 +13,8 @@ from dataclasses import dataclass, fields
 from enum import Enum
 from typing import TypeVar
 
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec
 
 PLACES = frozenset({'source', 'defined', 'chain', 'threads_source'})

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from math import inf
 
-from ros2cc_extract.conform.model import Move, ObservedModel
+from ros2cc_extract.conform.observable_model import Move, ObservedModel
 from ros2cc_extract.conform.observations import Act, Observation
 
 #: How far observations of different threads may be out of order, in time and past how many others:

@@ -10,8 +10,8 @@ from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named
-from ros2cc_extract.jsontext import read_json
-from ros2cc_extract.places import Place
+from ros2cc_extract.json_text import read_json
+from ros2cc_extract.source_locations import Place
 
 MOST_BYTES = 1_000_000_000
 FORMAT = 'ros2cc trace'

@@ -9,9 +9,8 @@ from operator import attrgetter
 
 from ros2cc_extract.checker.api import read_model
 from ros2cc_extract.conform.arrivals import Arrival, with_arrivals
-from ros2cc_extract.conform.gaps import Gap, gaps
-from ros2cc_extract.conform.matching import match, with_copies
-from ros2cc_extract.conform.model import ObservedModel
+from ros2cc_extract.conform.entity_matching import match, with_copies
+from ros2cc_extract.conform.observable_model import ObservedModel
 from ros2cc_extract.conform.observations import (
     TASKS,
     Act,
@@ -22,6 +21,7 @@ from ros2cc_extract.conform.observations import (
 )
 from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
+from ros2cc_extract.conform.unobserved_facts import Gap, gaps
 from ros2cc_extract.generator.build import Freedom, Profile, render
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.spec.joined import Joined
+from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 
 

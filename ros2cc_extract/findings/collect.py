@@ -6,15 +6,15 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.base.assumptions import with_assumptions
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.rules.reading.diagnostics import UNREADABLE
 from ros2cc_extract.findings.rules.reading.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.findings.rules.registry import BY_SLUG, RULES
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verification

@@ -14,7 +14,7 @@ from itertools import product
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.rules.reading.requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 

@@ -9,8 +9,8 @@ from enum import Enum
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.findings.waits.workers import EVENTS, MULTI, SINGLE
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.assume import DEFAULT_COUNT
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (

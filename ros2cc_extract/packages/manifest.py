@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import DISK, OnError, read_regular, real_path
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MANIFEST = 'package.xml'
 MOST_BYTES = 1_000_000

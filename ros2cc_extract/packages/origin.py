@@ -12,7 +12,7 @@ from importlib import metadata
 from typing import Any
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.jsontext import read_json
+from ros2cc_extract.json_text import read_json
 
 DISTRIBUTION = 'ros2cc-extract'
 MEND = (

@@ -8,28 +8,28 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TextIO
 
-from ros2cc_extract.cachefile import default_cache_folder
+from ros2cc_extract.cache_file import default_cache_folder
 from ros2cc_extract.deadline import Deadline, Patience, deadline_in
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES
 from ros2cc_extract.files import DISK, Files
-from ros2cc_extract.findings.across import findings_across
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import all_findings, is_unread
 from ros2cc_extract.findings.filters.baseline import compare
 from ros2cc_extract.findings.filters.selection import select
 from ros2cc_extract.findings.filters.suppress import suppress
-from ros2cc_extract.findings.joined import without_what_is_told
 from ros2cc_extract.findings.promises import Judgement, about, judge
+from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
+from ros2cc_extract.findings.waits_across_executors import without_what_is_told
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.sources import scan_sources
 from ros2cc_extract.pipeline.unit_jobs import Examined, Task, examine_all, joined_task
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.assume import Assumptions, assume
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.assumptions import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.rates import with_arrivals

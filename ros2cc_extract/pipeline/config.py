@@ -14,8 +14,8 @@ from ros2cc_extract.files import DISK, read_named
 from ros2cc_extract.findings.filters.selection import Selection
 from ros2cc_extract.findings.requirements import Requirement, read_requirements
 from ros2cc_extract.findings.rules.registry import BY_CODE
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.assume import Assumptions, read_assumptions
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.assumptions import Assumptions, read_assumptions
 from ros2cc_extract.version import PROGRAM
 
 FILE = 'pyproject.toml'

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from time import monotonic
 from typing import TYPE_CHECKING, TextIO
 
-from ros2cc_extract.shown import one_line, raw
+from ros2cc_extract.text_escaping import one_line, raw
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Drawn

@@ -14,7 +14,7 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.files import DISK, Files, read_named, read_stream, real_path
 from ros2cc_extract.pipeline.progress import bar
-from ros2cc_extract.places import Place, shown_name
+from ros2cc_extract.source_locations import Place, shown_name
 from ros2cc_extract.spec.model import Spec
 
 SPEC_SUFFIXES = ('.yaml', '.yml')
@@ -85,7 +85,7 @@ def scan_sources(
 
 def _cache_folder(stderr: TextIO) -> Path | None:
     """Where earlier results are kept; nothing is read from where others could have put it."""
-    from ros2cc_extract.cachefile import default_cache_folder, who_can_change
+    from ros2cc_extract.cache_file import default_cache_folder, who_can_change
 
     folder = default_cache_folder()
     others = who_can_change(folder) if folder is not None else None

@@ -14,17 +14,17 @@ from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
 
-from ros2cc_extract.cachefile import load_value, store_value, tidy, tool_version
-from ros2cc_extract.crew import Crew, usable_cores
+from ros2cc_extract.cache_file import load_value, store_value, tidy, tool_version
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of_unit
-from ros2cc_extract.findings.joined import findings_of_joined
+from ros2cc_extract.findings.waits_across_executors import findings_of_joined
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.packing import Packer
 from ros2cc_extract.pipeline.progress import Meter
+from ros2cc_extract.plain_data import Packer
+from ros2cc_extract.process_pool import Crew, usable_cores
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
-from ros2cc_extract.spec.joined import Joined
+from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.evidence import LOST, Evidence
 from ros2cc_extract.verify.results.results import NotKept, QueryResult, Verification

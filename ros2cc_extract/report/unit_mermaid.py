@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.text.spec import describe_executor
-from ros2cc_extract.shown import printable
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec
+from ros2cc_extract.text_escaping import printable
 
 CHANGED = 'stroke:#c62828,stroke-width:3px'
 """Style of what is not the same on both sides."""

@@ -16,8 +16,8 @@ from pathlib import Path
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import DISK, OnError, Walked, too_large
-from ros2cc_extract.places import Place
 from ros2cc_extract.revision.git import Repository, objects
+from ros2cc_extract.source_locations import Place
 
 MOST_ENTRIES = 1_000_000
 MOST_LINKS = 40

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ros2cc_extract.errors import IncompleteSpecError
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
     Activity,

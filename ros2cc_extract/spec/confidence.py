@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Executor, Spec, Unresolved
 
 DEFAULT_COUNT = 'default_cpu_count'

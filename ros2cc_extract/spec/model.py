@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.errors import SpecFormatError
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking, Waker
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Act, Blocking, Waker
 
 
 class CallbackType(Enum):

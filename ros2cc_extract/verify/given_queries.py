@@ -18,7 +18,7 @@ from ros2cc_extract.checker.uppaal.model import MOST_MODEL_BYTES
 from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.evidence import Names
 from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
@@ -30,7 +30,7 @@ from ros2cc_extract.verify.search.model_search import (
     result_of,
 )
 from ros2cc_extract.verify.search.options import DEFAULTS, Checker, OnProgress, Options
-from ros2cc_extract.verify.search.reading import limited_reading
+from ros2cc_extract.verify.search.reading_deadline import limited_reading
 
 
 def ask_unit(

@@ -10,7 +10,7 @@ from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.search.options import Options

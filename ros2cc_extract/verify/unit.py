@@ -20,7 +20,6 @@ from ros2cc_extract.verify.arrivals.structural_starvation import structural_verd
 from ros2cc_extract.verify.results.caveats import caveats_of, left_out_of_deadlocks
 from ros2cc_extract.verify.results.load import demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
-from ros2cc_extract.verify.search.found import Found, key_of
 from ros2cc_extract.verify.search.known_answers import Shelf
 from ros2cc_extract.verify.search.model_search import (
     refute_by_chance,
@@ -28,6 +27,7 @@ from ros2cc_extract.verify.search.model_search import (
     search,
 )
 from ros2cc_extract.verify.search.options import DEFAULTS, Checker, OnProgress, Options
+from ros2cc_extract.verify.search.search_results import Found, key_of
 from ros2cc_extract.verify.slices.narrowing import Refuters, joined, narrow
 
 

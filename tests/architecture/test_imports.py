@@ -19,17 +19,17 @@ ROOT = Path(__file__).parents[2]
 PACKAGE = 'ros2cc_extract'
 LEAVES = {
     'errors',
-    'places',
+    'source_locations',
     'diagnostics',
     'version',
-    'crew',
-    'cachefile',
+    'process_pool',
+    'cache_file',
     'files',
-    'jsontext',
-    'packing',
-    'shown',
-    'trust',
-    'once',
+    'json_text',
+    'plain_data',
+    'text_escaping',
+    'file_ownership',
+    'identity_memo',
     'deadline',
 }
 ALLOWED = {
@@ -121,8 +121,8 @@ DOORS = {
     'scan': ('scanning',),
 }
 """How the modules begin that others may import of a room of the scanner."""
-SPEC_OF_PYTHON = {'spec.deeds', 'spec.model'}
-"""The interpreter records deeds, and when they happen, in the words of the specification."""
+SPEC_OF_PYTHON = {'spec.effects', 'spec.model'}
+"""The interpreter records effects, and when they happen, in the words of the specification."""
 WORDS_OF_ROS = re.compile(
     r'rclpy|\bros|EntityKind|GroupType|(Entity|Node|Group|Executor)State', re.I
 )

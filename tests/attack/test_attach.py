@@ -19,8 +19,8 @@ import pytest
 from ros2cc_extract.errors import InputError, Ros2ccError
 from ros2cc_extract.extract.live import attach
 from ros2cc_extract.extract.live.attach import attach_process
-from ros2cc_extract.extract.live.entering import Injector, private_folder
-from ros2cc_extract.trust import open_to_others, user_of_process
+from ros2cc_extract.extract.live.injection import Injector, private_folder
+from ros2cc_extract.file_ownership import open_to_others, user_of_process
 from tests.attack.conftest import Tally
 from tests.attack.rename import replace_scripts
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract import cachefile
+from ros2cc_extract import cache_file
 from tests.attack.conftest import Tally
 from tests.attack.running import Ended
 from tests.attack.test_attach import NOBODY, as_root
@@ -29,11 +29,11 @@ EVIL, EVIL_OF_RECORD = 12, 1_000
 # Many runs in one process: to start it takes longer than a run, and the caches are read each time.
 RUN_MANY = """
 import functools, io, json, sys
-from ros2cc_extract import cachefile
+from ros2cc_extract import cache_file
 from ros2cc_extract.checker.uppaal.language import parsing
 from ros2cc_extract.cli.main import main
 for line in sys.stdin:
-    cachefile._own_folder.cache_clear()
+    cache_file._own_folder.cache_clear()
     parsing._parser.cache_clear()
     parsing._tree.cache_clear()
     told, complaints = io.StringIO(), io.StringIO()
@@ -142,7 +142,7 @@ def behind_its_content(entry: Path, evil: bytes) -> None:
 
 def with_a_right_checksum(entry: Path, evil: bytes) -> None:
     """As only the user could write it."""
-    cachefile.store_content(entry, evil)
+    cache_file.store_content(entry, evil)
 
 
 def under_an_old_name(entry: Path, evil: bytes) -> None:
@@ -153,7 +153,7 @@ def under_an_old_name(entry: Path, evil: bytes) -> None:
         'lark.cache',
     ):
         (entry.parent / name).write_bytes(evil)
-        cachefile.store_content(entry.parent / name, evil)
+        cache_file.store_content(entry.parent / name, evil)
 
 
 PUTS = (instead, behind_its_header, behind_its_content, with_a_right_checksum, under_an_old_name)
@@ -220,12 +220,12 @@ def test_a_file_that_is_not_ours_alone_is_not_read(
     change: Callable[[Path], None], home: Path
 ) -> None:
     for entry in entries(home):
-        content = cachefile.load_content(entry)
+        content = cache_file.load_content(entry)
         assert content
         change(entry)
-        assert cachefile.load_content(entry) is None
-        cachefile.store_content(entry, content)
-        assert cachefile.load_content(entry) == content
+        assert cache_file.load_content(entry) is None
+        cache_file.store_content(entry, content)
+        assert cache_file.load_content(entry) == content
 
 
 @pytest.mark.parametrize(

@@ -27,8 +27,8 @@ from ros2cc_extract.report.text.check import Telling, print_check
 from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
-from ros2cc_extract.shown import Shown, json_text, one_line, printable
 from ros2cc_extract.spec.yaml.yaml_io import read_specs, write_specs
+from ros2cc_extract.text_escaping import Shown, json_text, one_line, printable
 
 CLASS = 'texts of strangers'
 

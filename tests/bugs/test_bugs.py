@@ -13,7 +13,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.generator.build import Profile, Text
-from ros2cc_extract.spec.assume import Assumptions, assume
+from ros2cc_extract.spec.assumptions import Assumptions, assume
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

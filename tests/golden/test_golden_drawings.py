@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.generator.serving import ExecutorKind
+from ros2cc_extract.generator.executor_kinds import ExecutorKind
 from ros2cc_extract.generator.svg import draw
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 IMAGES = Path(__file__).parents[2] / 'docs' / 'images'

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ros2cc_extract.errors import Ros2ccError
-from ros2cc_extract.extract.live.standing.judge import Explanation, Verdict
+from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Verdict
 from ros2cc_extract.extract.live.why import explain_process
 from tests.support.cells import Cell, all_cells
 from tests.support.domains import free_domain

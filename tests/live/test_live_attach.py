@@ -17,8 +17,8 @@ from held import of_spec, without_unknown_keys
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.attach import attach_process
-from ros2cc_extract.extract.live.entering import inject, injectors
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.extract.live.injection import inject, injectors
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import load_specs
 

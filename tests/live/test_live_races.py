@@ -1,7 +1,7 @@
 """
 Two races of ``tests/bugs`` happen on real rclpy, each time; in the mended twins they do not.
 
-The second callback runs while the first stands between its question and its deed (``meeting.py``).
+The second callback runs while the first stands between question and effect (``meeting.py``).
 What is found in their sources is compared in ``tests/bugs/test_bugs.py``.
 """
 

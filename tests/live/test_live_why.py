@@ -10,7 +10,7 @@ import pytest
 from interpreters import EVERY_RELEASE, interpreter_of
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live import entering, why
+from ros2cc_extract.extract.live import injection, why
 from ros2cc_extract.extract.live.why import explain_process
 from tests.live.standing import awaited, program, told
 from tests.support.cells import all_cells
@@ -68,7 +68,7 @@ SAME_ORDER = LOCKS.replace(
 @pytest.fixture(autouse=True)
 def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """On a busy machine an answer takes longer than a user is to wait."""
-    for module in (entering, why):
+    for module in (injection, why):
         monkeypatch.setattr(module, 'PATIENCE_S', 60.0)
 
 

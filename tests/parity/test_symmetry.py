@@ -25,7 +25,7 @@ from ros2cc_extract.checker.api import (
 )
 from ros2cc_extract.checker.engines.search import Symmetry, formulas_of
 from ros2cc_extract.checker.network.semantics import Semantics, State
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from tests.support.crowds import random_crowd
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')

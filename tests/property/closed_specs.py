@@ -7,9 +7,9 @@ from random import Random
 
 from hypothesis import strategies
 
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking, Needs, Waker
+from ros2cc_extract.spec.effects import RE_ENTRANT, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
     Activity,
     ActivityKind,

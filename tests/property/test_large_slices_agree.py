@@ -14,13 +14,13 @@ from closed_specs import random_waking_unit
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import Blocking, Waker
+from ros2cc_extract.spec.effects import Blocking, Waker
 from ros2cc_extract.spec.model import GroupType
 from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search import model_search
-from ros2cc_extract.verify.search.found import Key, key_of
 from ros2cc_extract.verify.search.known_answers import Shelf
 from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.search.search_results import Key, key_of
 from ros2cc_extract.verify.slices.guided_runs import refute_by_hunts
 from ros2cc_extract.verify.slices.relaxed_units import is_loose, loosened
 from ros2cc_extract.verify.slices.separate_waits import prove_apart

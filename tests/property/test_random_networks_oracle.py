@@ -14,7 +14,7 @@ import pytest
 from ros2cc_extract.checker.api import EngineKind, Query, check, read_model
 from ros2cc_extract.checker.network.network import Expr, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Semantics, State
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from tests.support.networks import random_model
 
 SEEDS = range(10_000, 10_040)

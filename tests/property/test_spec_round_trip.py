@@ -7,8 +7,8 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -14,7 +14,7 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.spec.deeds import Blocking, Waker
+from ros2cc_extract.spec.effects import Blocking, Waker
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 
 _ASKS = re.compile(r'self\.client_(\d+)\.call')

@@ -1,4 +1,4 @@
-"""Deeds: an Event.wait with and without time-out, and the callback that sets it."""
+"""EffectLog: an Event.wait with and without time-out, and the callback that sets it."""
 
 import threading
 

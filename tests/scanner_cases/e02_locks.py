@@ -1,4 +1,4 @@
-"""Deeds: locks held by with, by acquire and release, nested."""
+"""EffectLog: locks held by with, by acquire and release, nested."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: globals that functions change are read and written."""
+"""EffectLog: globals that functions change are read and written."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: what a callback publishes and makes."""
+"""EffectLog: what a callback publishes and makes."""
 
 import rclpy
 from rclpy.node import Node

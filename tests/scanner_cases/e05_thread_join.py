@@ -1,4 +1,4 @@
-"""Deeds: joining a thread; what the thread does is no deed of the callback."""
+"""EffectLog: joining a thread; what the thread does is no effect of the callback."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: a loop that waits for a future."""
+"""EffectLog: a loop that waits for a future."""
 
 import time
 

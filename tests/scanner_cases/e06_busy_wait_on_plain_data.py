@@ -1,4 +1,4 @@
-"""Deeds: a callback spins until another one has written a flag; a loop that only sleeps."""
+"""EffectLog: a callback spins until another one has written a flag; a loop that only sleeps."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Deeds: a loop that waits for a future and gives its thread back meanwhile."""
+"""EffectLog: a loop that waits for a future and gives its thread back meanwhile."""
 
 import time
 

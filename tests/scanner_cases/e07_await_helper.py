@@ -1,4 +1,4 @@
-"""Deeds: an await through a coroutine helper: the chain, not an await of the helper."""
+"""EffectLog: an await through a coroutine helper: the chain, not an await of the helper."""
 
 import rclpy
 from rclpy.node import Node

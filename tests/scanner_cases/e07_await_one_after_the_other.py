@@ -1,4 +1,4 @@
-"""Deeds: a coroutine awaits one future after the other, kept in one place; others find each there."""
+"""EffectLog: a coroutine awaits one future after the other, kept in one place; others find each there."""
 
 import rclpy
 from rclpy.node import Node

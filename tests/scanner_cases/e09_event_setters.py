@@ -1,4 +1,4 @@
-"""Deeds: an event that two callbacks set, one that other code sets, a future, a done-callback."""
+"""EffectLog: an event that two callbacks set, one that other code sets, a future, a done-callback."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: the usual loop around wait_for_service, in set-up and in a callback."""
+"""EffectLog: the usual loop around wait_for_service, in set-up and in a callback."""
 # live: no, waits for a service that nobody offers
 
 import rclpy

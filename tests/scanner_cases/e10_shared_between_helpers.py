@@ -1,4 +1,4 @@
-"""Deeds: attributes of a helper object, written by one callback and read by another."""
+"""EffectLog: attributes of a helper object, written by one callback and read by another."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: a callback that adds a node to an executor."""
+"""EffectLog: a callback that adds a node to an executor."""
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor

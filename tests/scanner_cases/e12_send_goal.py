@@ -1,4 +1,4 @@
-"""Deeds: the blocking calls of an action client."""
+"""EffectLog: the blocking calls of an action client."""
 # live: no, no action type among the wheels
 
 import rclpy

@@ -1,4 +1,4 @@
-"""Deeds: a function of add_on_set_parameters_callback runs in a service of rclpy itself, in the default group."""
+"""EffectLog: a function of add_on_set_parameters_callback runs in a service of rclpy itself, in the default group."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: a loop that is unrolled does the same at one place; other targets count apart."""
+"""EffectLog: a loop that is unrolled does the same at one place; other targets count apart."""
 
 import threading
 import time

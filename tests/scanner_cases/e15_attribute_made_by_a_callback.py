@@ -1,4 +1,4 @@
-"""Deeds: an attribute that only callbacks make is shared data too."""
+"""EffectLog: an attribute that only callbacks make is shared data too."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: a module, class or function in a global is no shared data."""
+"""EffectLog: a module, class or function in a global is no shared data."""
 
 import os
 

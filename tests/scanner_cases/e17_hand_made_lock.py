@@ -1,4 +1,4 @@
-"""Deeds: a class of the program that holds a lock; between its acquire and release, inside with."""
+"""EffectLog: a class of the program that holds a lock; between its acquire and release, inside with."""
 
 import threading
 

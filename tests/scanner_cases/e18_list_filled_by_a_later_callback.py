@@ -1,4 +1,4 @@
-"""Deeds: a list that is empty at first and filled by a callback that is made after this one."""
+"""EffectLog: a list that is empty at first and filled by a callback that is made after this one."""
 
 import rclpy
 from rclpy.node import Node

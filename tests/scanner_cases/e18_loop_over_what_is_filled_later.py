@@ -1,4 +1,4 @@
-"""Deeds: a loop over, and the length of, what is empty at first and filled by a later callback."""
+"""EffectLog: a loop over, and the length of, what is empty at first and filled by a later callback."""
 
 import rclpy
 from rclpy.node import Node

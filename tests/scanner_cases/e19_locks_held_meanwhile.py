@@ -1,4 +1,4 @@
-"""Deeds: what is held while a lock is taken; two locks of one name; branches that give it back."""
+"""EffectLog: what is held while a lock is taken; two locks of one name; branches that give it back."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: a loop over a collection that another callback changes; a loop over a copy is none."""
+"""EffectLog: a loop over a collection that another callback changes; a loop over a copy is none."""
 
 from collections import deque
 

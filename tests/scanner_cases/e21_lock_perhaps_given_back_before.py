@@ -1,4 +1,4 @@
-"""Deeds: a release in a try of its own fails where the lock is free; other calls fail anywhere."""
+"""EffectLog: a release in a try of its own fails where the lock is free; other calls fail anywhere."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: what a callback hands to the loop of asyncio is not done by the callback."""
+"""EffectLog: what a callback hands to the loop of asyncio is not done by the callback."""
 
 import asyncio
 import threading

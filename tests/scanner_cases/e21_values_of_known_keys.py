@@ -1,4 +1,4 @@
-"""Deeds: storing under a key of the set-up changes no size; under a new one it does."""
+"""EffectLog: storing under a key of the set-up changes no size; under a new one it does."""
 
 import rclpy
 from rclpy.node import Node

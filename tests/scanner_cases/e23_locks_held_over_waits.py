@@ -1,4 +1,4 @@
-"""Deeds: which locks are held over a wait; a condition gives its own back, a try is none."""
+"""EffectLog: which locks are held over a wait; a condition gives its own back, a try is none."""
 
 import threading
 import time

@@ -1,4 +1,4 @@
-"""Deeds: threads, pools and timers of a node's own, with what they wait for, read and write."""
+"""EffectLog: threads, pools and timers of a node's own, with what they wait for, read and write."""
 
 import threading
 from concurrent.futures import ThreadPoolExecutor

@@ -1,4 +1,4 @@
-"""Deeds: conditions and queues; who notifies and who puts, and a queue that is asked first."""
+"""EffectLog: conditions and queues; who notifies and who puts, and a queue that is asked first."""
 
 import queue
 import threading

@@ -1,4 +1,4 @@
-"""Deeds: the main program beside a thread that spins: it waits, reads, and sets an event."""
+"""EffectLog: the main program beside a thread that spins: it waits, reads, and sets an event."""
 
 import threading
 

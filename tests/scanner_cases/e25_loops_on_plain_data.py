@@ -1,4 +1,4 @@
-"""Deeds: loops that wait for data which others write, or nobody, or somebody not in sight."""
+"""EffectLog: loops that wait for data which others write, or nobody, or somebody not in sight."""
 
 import time
 

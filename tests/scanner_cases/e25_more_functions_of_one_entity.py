@@ -1,4 +1,4 @@
-"""Deeds: what several functions do that one subscription runs, of filters and parameter events."""
+"""EffectLog: what several functions do that one subscription runs, of filters and parameter events."""
 # live: no, the subscriptions are of libraries
 
 import message_filters

@@ -1,4 +1,4 @@
-"""Deeds: waits for what is outside of the program, and for what could not be followed."""
+"""EffectLog: waits for what is outside of the program, and for what could not be followed."""
 # live: no, the module tools is not there
 import socket
 import subprocess

@@ -1,4 +1,4 @@
-"""Deeds: parameter callbacks run in services of rclpy, and where the node sets parameters itself."""
+"""EffectLog: parameter callbacks run in services of rclpy, and where the node sets parameters itself."""
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult

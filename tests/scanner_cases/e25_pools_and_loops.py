@@ -1,4 +1,4 @@
-"""Deeds: tasks of pools and of a loop of asyncio, and all the ways to wait for them."""
+"""EffectLog: tasks of pools and of a loop of asyncio, and all the ways to wait for them."""
 
 import asyncio
 import concurrent.futures

@@ -1,4 +1,4 @@
-"""Deeds: semaphores that others give back or who takes them, barriers, a message, a clock."""
+"""EffectLog: semaphores that others give back or who takes them, barriers, a message, a clock."""
 
 import queue
 import threading

@@ -1,4 +1,4 @@
-"""Deeds: what waits for the end of a context runs in whoever shuts that down."""
+"""EffectLog: what waits for the end of a context runs in whoever shuts that down."""
 
 import threading
 

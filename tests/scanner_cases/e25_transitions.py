@@ -1,4 +1,4 @@
-"""Deeds: transitions run in a service of rclpy; one that the program asks for runs in its caller."""
+"""EffectLog: transitions run in a service of rclpy; one that the program asks for runs in its caller."""
 
 import rclpy
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn

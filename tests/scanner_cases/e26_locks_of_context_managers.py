@@ -1,4 +1,4 @@
-"""Deeds: a lock held by a ``@contextmanager`` of one's own, in helpers of it, and on an exit stack."""
+"""EffectLog: a lock held by a ``@contextmanager`` of one's own, in helpers of it, and on an exit stack."""
 
 import threading
 from contextlib import ExitStack, contextmanager

@@ -1,4 +1,4 @@
-"""Deeds: which writes rest on what was read before, which uses on a test, which item is meant."""
+"""EffectLog: which writes rest on what was read before, which uses on a test, which item is meant."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: a flag that is found down and put up is held like a lock until it is put down again."""
+"""EffectLog: a flag that is found down and put up is held like a lock until it is put down again."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Deeds: how often a run waits at one place, where the rounds of the loops are known."""
+"""EffectLog: how often a run waits at one place, where the rounds of the loops are known."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Deeds: what ends a wait is handed on in a function that nobody in sight calls."""
+"""EffectLog: what ends a wait is handed on in a function that nobody in sight calls."""
 # live: no, it needs a library that is not there
 
 import rclpy

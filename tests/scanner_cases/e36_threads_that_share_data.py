@@ -1,4 +1,4 @@
-"""Deeds: threads that share data: one the set-up joins, one behind a branch, and a flag."""
+"""EffectLog: threads that share data: one the set-up joins, one behind a branch, and a flag."""
 
 import os
 import threading

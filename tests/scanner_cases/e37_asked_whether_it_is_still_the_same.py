@@ -1,4 +1,4 @@
-"""Deeds: who compares shared data with a name of its own asks whether others have stored there."""
+"""EffectLog: who compares shared data with a name of its own asks whether others have stored there."""
 
 import rclpy
 from rclpy.node import Node

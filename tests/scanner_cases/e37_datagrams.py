@@ -1,4 +1,4 @@
-"""Deeds: connecting a datagram socket asks nobody, so that it does not wait."""
+"""EffectLog: connecting a datagram socket asks nobody, so that it does not wait."""
 
 import socket
 

@@ -1,4 +1,4 @@
-"""Deeds: a flag that is asked for beside something else is found down, and put up by execute too."""
+"""EffectLog: a flag that is asked for beside something else is found down, and put up by execute too."""
 
 import rclpy
 from rclpy.action import ActionServer, GoalResponse

@@ -1,4 +1,4 @@
-"""Deeds: a function that gives a lock back and takes it again keeps what its caller holds."""
+"""EffectLog: a function that gives a lock back and takes it again keeps what its caller holds."""
 
 import threading
 import time

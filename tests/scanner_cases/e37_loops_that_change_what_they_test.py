@@ -1,4 +1,4 @@
-"""Deeds: loops whose own rounds change what they test wait for nobody, whosever the object is."""
+"""EffectLog: loops whose own rounds change what they test wait for nobody, whosever the object is."""
 
 import rclpy
 from rclpy.node import Node

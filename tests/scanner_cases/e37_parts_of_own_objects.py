@@ -1,4 +1,4 @@
-"""Deeds: an object that a callback makes, and what is part of it, is no shared data."""
+"""EffectLog: an object that a callback makes, and what is part of it, is no shared data."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Deeds: a poll without an end and a wait for a key wait; with a time-out they end."""
+"""EffectLog: a poll without an end and a wait for a key wait; with a time-out they end."""
 # live: no, zmq and cv2 are in no environment
 
 import cv2

@@ -1,4 +1,4 @@
-"""Deeds: what a function reads for a log line or for another attribute does not decide its result."""
+"""EffectLog: what a function reads for a log line or for another attribute does not decide its result."""
 
 import rclpy
 from rclpy.node import Node

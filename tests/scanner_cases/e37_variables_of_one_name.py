@@ -1,4 +1,4 @@
-"""Deeds: who ends a wait is not the variable of the same name in a function nobody calls."""
+"""EffectLog: who ends a wait is not the variable of the same name in a function nobody calls."""
 
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup

@@ -1,4 +1,4 @@
-"""Deeds: how long a callback sleeps is the default of a parameter, and that is said."""
+"""EffectLog: how long a callback sleeps is the default of a parameter, and that is said."""
 
 import time
 

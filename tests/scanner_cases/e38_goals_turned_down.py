@@ -1,4 +1,4 @@
-"""Deeds: which reads of a goal callback decide whether a goal is let in."""
+"""EffectLog: which reads of a goal callback decide whether a goal is let in."""
 
 import rclpy
 from rclpy.action import ActionServer, GoalResponse

@@ -1,4 +1,4 @@
-"""Deeds: what main destroys behind a wait is there while it waits."""
+"""EffectLog: what main destroys behind a wait is there while it waits."""
 
 import threading
 import time

@@ -1,4 +1,4 @@
-"""Deeds: who asks first whether there is something to read does not wait for it."""
+"""EffectLog: who asks first whether there is something to read does not wait for it."""
 
 import os
 import select

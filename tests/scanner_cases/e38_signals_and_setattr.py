@@ -1,4 +1,4 @@
-"""Deeds: ``setattr`` stores, a handler of a signal ends loops, ``ord`` and ``chr`` are known."""
+"""EffectLog: ``setattr`` stores, a handler of a signal ends loops, ``ord`` and ``chr`` are known."""
 
 import signal
 import threading

@@ -1,4 +1,4 @@
-"""Deeds: a loop that takes from a heap until it is empty waits for nobody."""
+"""EffectLog: a loop that takes from a heap until it is empty waits for nobody."""
 
 import heapq
 

@@ -1,4 +1,4 @@
-"""Deeds: an item under an index or a key that changes is one of the objects that are there."""
+"""EffectLog: an item under an index or a key that changes is one of the objects that are there."""
 
 import time
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.compare.drift import Drift, drift
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ros2cc_extract.compare.merge import Difference, Kind, diff, match_units, merge_units
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -13,7 +13,7 @@ from ros2cc_extract.errors import ModelFormatError, ToolNotFoundError
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.pipeline import unit_jobs
 from ros2cc_extract.pipeline.unit_jobs import Task, examine
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 INT32 = (-(2**31), 2**31 - 1)
 #: Loop passes, and calls inside it, in one call of a function from an edge or query, after which

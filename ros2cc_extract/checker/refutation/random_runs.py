@@ -32,7 +32,7 @@ from ros2cc_extract.checker.runs.answers import Answer, CheckResult
 from ros2cc_extract.checker.runs.replay import Replayer
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import Model
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 LONGEST_DIVE = 4_000
 MOST_DIVES = 1_000

@@ -28,7 +28,7 @@ from ros2cc_extract.checker.runs.answers import Answer, CheckResult
 from ros2cc_extract.checker.runs.replay import Replayer
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import Model
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _FROM_HERE = 'nothing refutes it from the last waypoint on'
 _UNNAMED = Place('query', 1)

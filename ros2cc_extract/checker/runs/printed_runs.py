@@ -18,7 +18,7 @@ from ros2cc_extract.checker.runs.run import Run
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import Model
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _MEND = 'the run must be one of this very model and query'
 

@@ -9,7 +9,7 @@ from ros2cc_extract.checker.network.interpreter import Interpreter, Memory
 from ros2cc_extract.checker.network.network import Expr, Network
 from ros2cc_extract.checker.network.semantics import State
 from ros2cc_extract.checker.uppaal.elaboration.elaborate import Elaboration
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 @dataclass(eq=False)

@@ -16,7 +16,7 @@ from ros2cc_extract.checker.uppaal.files.query_file import (
 )
 from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.files import read_named
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MOST_MODEL_BYTES = 64_000_000
 

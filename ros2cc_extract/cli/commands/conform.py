@@ -53,8 +53,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.conform.unit import compare, pair_units
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.pipeline.sources import load_units
-    from ros2cc_extract.places import Place
-    from ros2cc_extract.shown import one_line
+    from ros2cc_extract.source_locations import Place
+    from ros2cc_extract.text_escaping import one_line
 
     traces = read_traces(args.trace)
     units = load_units(args.spec, stderr)
@@ -106,7 +106,7 @@ def _reordering(answer: Answer) -> str:
 
 
 def _divergence(comparison: Comparison, trace: Trace, shown: int) -> Iterator[str]:
-    from ros2cc_extract.conform.words import say_allowed, say_state
+    from ros2cc_extract.conform.wording import say_allowed, say_state
 
     answer, spec, model = comparison.answer, comparison.unit.spec, comparison.model
     begun = comparison.observations[0].clock_ns
@@ -124,7 +124,7 @@ def _divergence(comparison: Comparison, trace: Trace, shown: int) -> Iterator[st
 
 
 def _event(observation: Observation, begun_ns: int, trace: Trace, spec: Spec) -> str:
-    from ros2cc_extract.conform.words import say_observation
+    from ros2cc_extract.conform.wording import say_observation
 
     time_ms = (observation.clock_ns - begun_ns) / 1e6
     thread = trace.threads.get(observation.thread, str(observation.thread))

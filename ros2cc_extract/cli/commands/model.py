@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import add_model_arguments, add_unit_arguments, policy_of
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
-from ros2cc_extract.shown import one_line
+from ros2cc_extract.text_escaping import one_line
 
 if TYPE_CHECKING:
     from ros2cc_extract.generator.build import RenderedModel

@@ -142,7 +142,7 @@ def _verified(
 
 def _queries(args: argparse.Namespace) -> list[Query]:
     from ros2cc_extract.checker.api import Query
-    from ros2cc_extract.places import Place
+    from ros2cc_extract.source_locations import Place
     from ros2cc_extract.verify.given_queries import load_queries
 
     given = [Query(formula, '', Place('--query')) for formula in args.query]
@@ -183,7 +183,7 @@ def _print_text(
 ) -> None:
     from ros2cc_extract.report.text.style import console_for
     from ros2cc_extract.report.text.verdicts import print_evidence, print_table
-    from ros2cc_extract.shown import printable
+    from ros2cc_extract.text_escaping import printable
 
     console = console_for(stdout)
     for verification in map(printable, verifications):

@@ -24,8 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.extract.live.standing.judge import Verdict
-    from ros2cc_extract.extract.live.standing.telling import as_json, as_mermaid, as_text
+    from ros2cc_extract.extract.live.hang_analysis.formats import as_json, as_mermaid, as_text
+    from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Verdict
     from ros2cc_extract.extract.live.why import explain_process
 
     explanation = explain_process(args.pid)

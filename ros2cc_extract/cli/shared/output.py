@@ -9,7 +9,7 @@ from typing import TextIO
 
 from ros2cc_extract.cli.shared.streams import ESCAPED
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 def write_text(text: str, path: Path | None, stdout: TextIO) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import TextIO
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 UTF_8 = 'utf-8'
 ESCAPED = 'backslashreplace'

@@ -12,7 +12,7 @@ from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_UNDECIDED
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.sources import load_units
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.sweep import Sweep, points, run_sweep
 

@@ -2,7 +2,7 @@
 ``attach``: the specification of a process that already runs, without having started it.
 
 A few lines run in one of its threads, which write a recording and leave nothing behind;
-``entering.py`` is the way in.
+``injection.py`` is the way in.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TextIO
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.collect import specs_of
-from ros2cc_extract.extract.live.entering import (
+from ros2cc_extract.extract.live.injection import (
     Injector,
     check_process,
     inject,

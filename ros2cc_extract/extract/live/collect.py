@@ -17,7 +17,7 @@ from ros2cc_extract.extract.live.recording import (
     Stay,
 )
 from ros2cc_extract.extract.names import Names, Wanted, unique_names
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
     Callback,

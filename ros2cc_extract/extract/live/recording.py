@@ -14,9 +14,9 @@ from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named, real_path
-from ros2cc_extract.jsontext import read_json
-from ros2cc_extract.packing import Packer
-from ros2cc_extract.places import Place
+from ros2cc_extract.json_text import read_json
+from ros2cc_extract.plain_data import Packer
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Distribution, Measured
 
 FORMAT = 'ros2cc live recording'

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import TextIO
 
 from ros2cc_extract.errors import InputError, Ros2ccError
-from ros2cc_extract.extract.live.child import deaf_to_ctrl_c, end_alike, run_child
-from ros2cc_extract.extract.live.chrome import write_chrome
+from ros2cc_extract.extract.live.child_process import deaf_to_ctrl_c, end_alike, run_child
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.recording import Recording, read_recording
 from ros2cc_extract.extract.live.trace import Trace, read_trace, write_lines
-from ros2cc_extract.places import Place
+from ros2cc_extract.extract.live.trace_event_format import write_chrome
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import write_specs
 

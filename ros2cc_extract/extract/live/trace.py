@@ -30,7 +30,7 @@ from ros2cc_extract.extract.live.recorder.events import (
 )
 from ros2cc_extract.extract.live.recording import Recording
 from ros2cc_extract.files import open_regular
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 FORMAT = 'ros2cc trace'
 VERSION = 1

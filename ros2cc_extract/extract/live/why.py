@@ -7,15 +7,15 @@ import time
 from pathlib import Path
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live.entering import (
+from ros2cc_extract.extract.live.hang_analysis.samples import look_of
+from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, explain
+from ros2cc_extract.extract.live.injection import (
     check_process,
     inject,
     injectors,
     private_folder,
     user_to_enter,
 )
-from ros2cc_extract.extract.live.standing.judge import Explanation, explain
-from ros2cc_extract.extract.live.standing.looks import look_of
 from ros2cc_extract.files import read_regular
 
 PATIENCE_S = 2.0
@@ -57,7 +57,7 @@ def explain_process(pid: int) -> Explanation:
     ways = tuple(sorted(ways, key=lambda way: way.name == 'sys.remote_exec'))
     with private_folder() as folder:
         answer, script = folder / 'looks.json', folder / 'look.py'
-        probe = Path(__file__).parent / 'standing' / 'probe.py'
+        probe = Path(__file__).parent / 'hang_analysis' / 'probe.py'
         script.write_text(_LINES.format(path=str(answer), probe=str(probe)), encoding='utf-8')
         inject(pid, script, ways)
         told = _await(answer, pid)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ros2cc_extract.crew import usable_cores
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 from ros2cc_extract.extract.static.scan.scanning import Progress, scan_project
 from ros2cc_extract.files import DISK, Files
+from ros2cc_extract.process_pool import usable_cores
 
 
 def scan(
@@ -30,7 +30,7 @@ def scan(
 
     :param root: places are shown relative to it; the current directory by default.
     :param progress: called with the number of files done and of all files.
-    :param cache: folder of earlier results, see ``cachefile.default_cache_folder``.
+    :param cache: folder of earlier results, see ``cache_file.default_cache_folder``.
     :param processes: at most so many share the work; by default one for each core.
     :param lists_builtin: also list what rclpy makes by itself for every node; never cached.
     :param files: those of the disk, or of another revision.

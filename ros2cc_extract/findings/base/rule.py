@@ -13,7 +13,7 @@ from functools import cached_property
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.verify.results.evidence import Evidence

@@ -15,9 +15,9 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.jsontext import read_json
-from ros2cc_extract.places import Place
-from ros2cc_extract.shown import json_text
+from ros2cc_extract.json_text import read_json
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import json_text
 
 VERSION = 1
 _MEND = 'write it anew by --write-baseline'

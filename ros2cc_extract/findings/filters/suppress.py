@@ -17,7 +17,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.rules.reading.diagnostics import UNUSED_IGNORE
 from ros2cc_extract.findings.rules.registry import BY_CODE, BY_SLUG
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _MARK = 'ros2cc:'
 _COMMENT = re.compile(r'#\s*ros2cc:\s*ignore\[([^\]]*)\]\s*(.*)')

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ros2cc_extract.once import known_of, once
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import SHARED, Access
+from ros2cc_extract.identity_memo import known_of, once
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import SHARED, Access
 from ros2cc_extract.spec.model import Activity, Callback
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 def is_other_item(one: Access, other: Access) -> bool:
@@ -39,13 +39,13 @@ def kept_between(first: Access, last: Access, callback: Callback | Activity) -> 
     )
 
 
-def read_for(deed: Access, doer: Callback | Activity) -> Access | None:
-    """The last read before a deed that rests on one; ``None`` if the doer has stored since."""
+def read_for(effect: Access, doer: Callback | Activity) -> Access | None:
+    """The last read before a effect that rests on one; ``None`` if the doer has stored since."""
     known = known_of(doer).setdefault(read_for, {})
-    if id(deed) not in known:
-        # Kept with its deed, lest another one gets its number.
-        known[id(deed)] = deed, _read_for(deed, doer)
-    found: Access | None = known[id(deed)][1]
+    if id(effect) not in known:
+        # Kept with its effect, lest another one gets its number.
+        known[id(effect)] = effect, _read_for(effect, doer)
+    found: Access | None = known[id(effect)][1]
     return found
 
 
@@ -70,17 +70,17 @@ def waits(first: Access, last: Access, doer: Callback | Activity) -> bool:
     return any(steps(first) < steps(block) < steps(last) for block in doer.blocking)
 
 
-def _read_for(deed: Access, doer: Callback | Activity) -> Access | None:
-    end = steps(deed)
+def _read_for(effect: Access, doer: Callback | Activity) -> Access | None:
+    end = steps(effect)
     reads = [
         (at, read)
-        for at, read in reads_of(doer).get(deed.name, ())
-        if at < end or is_operand(read, deed)
+        for at, read in reads_of(doer).get(effect.name, ())
+        if at < end or is_operand(read, effect)
     ]
     if not reads:
         return None
     begin, last = max(reads, key=lambda pair: pair[0])
-    stored = (write for write in writes_of(doer).get(deed.name, ()) if not write.in_place)
+    stored = (write for write in writes_of(doer).get(effect.name, ()) if not write.in_place)
     return None if any(begin < steps(write) < end for write in stored) else last
 
 

@@ -15,7 +15,7 @@ from typing import TypeVar
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races.critical_sections import kept_between, read_for
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.deeds import FLAG, FOUND_NONE, FOUND_OTHER, FOUND_THIS, Access
+from ros2cc_extract.spec.effects import FLAG, FOUND_NONE, FOUND_OTHER, FOUND_THIS, Access
 from ros2cc_extract.spec.model import Activity, Callback, Executor
 
 _Doer = TypeVar('_Doer', Callback, Activity)

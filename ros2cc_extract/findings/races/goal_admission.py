@@ -14,9 +14,9 @@ from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races.critical_sections import is_operand, kept_between
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
-from ros2cc_extract.spec.deeds import FLAG, SHARED, Access
+from ros2cc_extract.spec.effects import FLAG, SHARED, Access
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.findings.base.rule import Context
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 def meeting(doer: Callback, other: Callback, context: Context) -> Callback:

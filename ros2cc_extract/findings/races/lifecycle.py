@@ -8,9 +8,9 @@ A node that is configured once more has destroyed what it made the first time. S
 
 from __future__ import annotations
 
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, EntityKind, When
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 _FIRST = 'on_configure'
 

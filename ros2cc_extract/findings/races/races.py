@@ -16,7 +16,7 @@ from itertools import combinations
 
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.words import called, listing
+from ros2cc_extract.findings.base.wording import called, listing
 from ros2cc_extract.findings.races import happens_before
 from ros2cc_extract.findings.races.critical_sections import (
     is_operand,
@@ -39,11 +39,11 @@ from ros2cc_extract.findings.waits.concurrent_threads import (
 )
 from ros2cc_extract.findings.waits.overlap import Overlap, interleaves, overlap
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
-from ros2cc_extract.once import once
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
+from ros2cc_extract.identity_memo import once
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
 from ros2cc_extract.spec.model import Activity, Callback
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
 from ros2cc_extract.verify.results.evidence import Evidence
 

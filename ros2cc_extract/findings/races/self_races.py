@@ -20,9 +20,9 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.races import Use
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 class SelfRaceKind(Enum):

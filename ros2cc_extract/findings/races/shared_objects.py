@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from ros2cc_extract.findings.base.rule import Doer
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Callback, Spec
 
 

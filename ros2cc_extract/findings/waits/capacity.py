@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.one_shot_timers import cancels_too_late
-from ros2cc_extract.spec.claims import admits_one, lets_one_wait
 from ros2cc_extract.spec.model import Callback, EntityKind, When
+from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
 
 Key = tuple[str, str, int]
 Matching = dict[Key, tuple[Key, int]]

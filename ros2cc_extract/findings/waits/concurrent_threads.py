@@ -14,10 +14,10 @@ from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.overlap import overlap, overlaps_itself
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import workers_of
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, Access, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, EntityKind
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 def sharing(context: Context) -> tuple[Activity, ...]:

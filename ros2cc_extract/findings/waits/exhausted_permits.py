@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.waits import Wait, kind_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.deeds import BY_ITSELF, POLLING_LOOP, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import BY_ITSELF, POLLING_LOOP, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity, Callback
 
 # What they ask for may be there already, for all runs of the thread.

@@ -9,7 +9,7 @@ from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.concurrent_threads import beside
 from ros2cc_extract.findings.waits.overlap import overlap
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
-from ros2cc_extract.spec.deeds import FLAG, RE_ENTRANT, SHARED, Act
+from ros2cc_extract.spec.effects import FLAG, RE_ENTRANT, SHARED, Act
 from ros2cc_extract.spec.model import Callback
 
 LONG_ROUND_S = 0.1

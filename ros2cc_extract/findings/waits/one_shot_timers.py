@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
-from ros2cc_extract.spec.deeds import CANCELS, Act, Blocking
+from ros2cc_extract.spec.effects import CANCELS, Act, Blocking
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.rates import least_slept_s
 
 

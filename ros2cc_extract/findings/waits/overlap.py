@@ -13,7 +13,7 @@ from ros2cc_extract.findings.waits.capacity import can_overlap_itself
 from ros2cc_extract.findings.waits.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread, runs_in_parallel
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.rates import demand_of

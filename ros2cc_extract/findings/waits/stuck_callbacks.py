@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.words import called, group_words, listing, plural
+from ros2cc_extract.findings.base.wording import called, group_words, listing, plural
 from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import is_one_thread
-from ros2cc_extract.spec.deeds import Blocking, Needs
+from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
+from ros2cc_extract.spec.effects import Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Callback
-from ros2cc_extract.spec.partners import client_before, is_client, server_of
 from ros2cc_extract.verify.results.caveats import block_at, taking_at
 from ros2cc_extract.verify.results.evidence import Evidence
 

@@ -16,11 +16,16 @@ from typing import TypeVar
 
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.words import called, listing, shown
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.findings.base.wording import called, listing, shown
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.client_server_pairs import (
+    client_before,
+    is_client,
+    is_done_callback,
+    server_of,
+)
+from ros2cc_extract.spec.effects import TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
-from ros2cc_extract.spec.partners import client_before, is_client, is_done_callback, server_of
 
 
 class WaitKind(Enum):

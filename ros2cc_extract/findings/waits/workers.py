@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Executor
 
 SINGLE = 'SingleThreadedExecutor'

@@ -20,13 +20,13 @@ from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.report.html.findings import finding_card
 from ros2cc_extract.report.html.parts import SEVERITY_WORDS, Sources, span, tag
 from ros2cc_extract.report.html.unit import Numbered, unit_picture
-from ros2cc_extract.report.shared.closing import closing_lines
 from ros2cc_extract.report.shared.counts import counted
+from ros2cc_extract.report.shared.finding_units import is_about
 from ros2cc_extract.report.shared.last_line import last_line
-from ros2cc_extract.report.shared.owners import is_about
+from ros2cc_extract.report.shared.run_endings import closing_lines
 from ros2cc_extract.report.shared.run_lanes import Lane, lanes_of
-from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.text_escaping import one_line, printable
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 from ros2cc_extract.version import __version__

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from html import escape
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 Sources = Mapping[str, str]
 """Text of the source files, by the path that places name."""

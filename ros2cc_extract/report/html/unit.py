@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.html.parts import (
     SEVERITY_WORDS,
     items,
@@ -16,7 +15,8 @@ from ros2cc_extract.report.html.parts import (
     tag,
 )
 from ros2cc_extract.report.text.spec import describe_executor
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind, GroupType, Spec, When
 
 Numbered = Sequence[tuple[int, Finding]]

@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.fingerprints import relative
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.shared.last_line import last_line
-from ros2cc_extract.shown import printable
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import printable
 
 SHOWN_PER_KIND = 10
 MOST_ROWS = 500

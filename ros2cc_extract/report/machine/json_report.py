@@ -7,10 +7,10 @@ from typing import Any
 
 from ros2cc_extract.compare.merge import Difference
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.shown import json_text
 from ros2cc_extract.spec.confidence import Summary, confidence_in
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import spec_to_data
+from ros2cc_extract.text_escaping import json_text
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.load import Load
 from ros2cc_extract.verify.results.results import QueryResult, Verification, with_fewer_runs

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.shown import printable, without_commands
+from ros2cc_extract.text_escaping import printable, without_commands
 
 _NOT_XML = re.compile('[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]')
 """What XML 1.0 does not allow even as a reference."""

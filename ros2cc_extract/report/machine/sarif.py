@@ -18,9 +18,9 @@ from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.base.rule import Rule
 from ros2cc_extract.findings.explain import page
 from ros2cc_extract.findings.rules.registry import RULES
-from ros2cc_extract.places import Place
-from ros2cc_extract.report.shared.closing import closing_lines
-from ros2cc_extract.shown import json_text
+from ros2cc_extract.report.shared.run_endings import closing_lines
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import json_text
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.version import __version__
 

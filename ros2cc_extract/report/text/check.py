@@ -15,8 +15,8 @@ from ros2cc_extract.report.text.paths import Paths
 from ros2cc_extract.report.text.spec import print_spec
 from ros2cc_extract.report.text.units import print_units, unknown_lines
 from ros2cc_extract.report.text.verdicts import print_digest, print_evidence, print_table
-from ros2cc_extract.shown import one_line, printable
 from ros2cc_extract.spec.confidence import confidence_in
+from ros2cc_extract.text_escaping import one_line, printable
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
 LONGEST_TABLE = 40

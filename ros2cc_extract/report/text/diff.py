@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from rich.console import Console
 
 from ros2cc_extract.compare.merge import Difference
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.text.style import table
-from ros2cc_extract.shown import printable
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import printable
 
 
 def print_differences(

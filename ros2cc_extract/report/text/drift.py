@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from rich.console import Console
 
 from ros2cc_extract.compare.drift import Drift
-from ros2cc_extract.shown import printable
+from ros2cc_extract.text_escaping import printable
 
 
 def print_drift(found: Sequence[Drift], committed: str, console: Console) -> None:

@@ -15,12 +15,12 @@ from rich.text import Text
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.files import read_regular
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.shared.short_runs import shortened
 from ros2cc_extract.report.text.paths import Paths
 from ros2cc_extract.report.text.verdicts import print_run
-from ros2cc_extract.shown import one_line
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.text_escaping import one_line
 
 MOST_RELATED = 8
 MOST_STEPS = 8

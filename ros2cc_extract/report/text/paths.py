@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 @dataclass(frozen=True)

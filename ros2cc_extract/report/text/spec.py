@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from rich.console import Console
 from rich.padding import Padding
 
-from ros2cc_extract.places import Place, Unknown
 from ros2cc_extract.report.text.style import table
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -13,7 +13,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ros2cc_extract.shown import Shown, printable
+from ros2cc_extract.text_escaping import Shown, printable
 from ros2cc_extract.verify.results.results import Verdict
 
 LOG_WIDTH = 160

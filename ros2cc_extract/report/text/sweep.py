@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ros2cc_extract.report.text.style import table
-from ros2cc_extract.shown import printable
+from ros2cc_extract.text_escaping import printable
 from ros2cc_extract.verify.results.results import Verdict
 from ros2cc_extract.verify.sweep import Point, Sweep
 

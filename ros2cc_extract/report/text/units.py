@@ -10,11 +10,11 @@ from rich.console import Console
 from rich.text import Text
 
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.text.style import table
-from ros2cc_extract.shown import one_line, printable
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Executor, Spec
+from ros2cc_extract.text_escaping import one_line, printable
 
 MOST_BLOCKS = 3
 """More units than this are a row each."""

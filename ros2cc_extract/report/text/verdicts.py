@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 
-from ros2cc_extract.report.shared.closing import closing_lines
+from ros2cc_extract.report.shared.run_endings import closing_lines
 from ros2cc_extract.report.text.spec import short
 from ros2cc_extract.report.text.style import print_rows, table, verdict_text
-from ros2cc_extract.shown import one_line
+from ros2cc_extract.text_escaping import one_line
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 

@@ -10,7 +10,7 @@ from typing import TypeVar, cast
 import yaml
 
 from ros2cc_extract.errors import SpecFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 _TAG = 'tag:yaml.org,2002:'

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from enum import Enum
 from typing import Any, Protocol
 
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.yaml.codecs import FLAG, PLACE, TEXT, Codec, JsonSchema, optional
 from ros2cc_extract.spec.yaml.cursor import Cursor
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Access, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.identifiers import complaint, complaint_of_executor
 from ros2cc_extract.spec.model import (
     Activity,

@@ -16,8 +16,8 @@ import yaml
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.files import read_named
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Activity,
     Callback,

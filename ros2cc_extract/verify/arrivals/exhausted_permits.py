@@ -16,11 +16,11 @@ from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Query
 from ros2cc_extract.generator.resources import FOR_RUNS, Actor, all_actors
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking, Needs
+from ros2cc_extract.spec.effects import BY_ITSELF, Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Spec
 from ros2cc_extract.verify.arrivals.filled_threads import OF_ENDS
 from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
-from ros2cc_extract.verify.search.found import Found, Key, key_of, total
+from ros2cc_extract.verify.search.search_results import Found, Key, key_of, total
 
 #: Loops that go round more often are not counted.
 MOST_ROUNDS = 8

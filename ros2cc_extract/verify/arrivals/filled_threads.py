@@ -14,7 +14,7 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import Found, key_of, total, weighs_more
+from ros2cc_extract.verify.search.search_results import Found, key_of, total, weighs_more
 
 Ask = Callable[[Sequence[Query], ClosedSpec, Limits], Found]
 #: The second search is the last one: it may take what is left of the time of the unit.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ros2cc_extract.generator.build import Family, Profile, Query
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
 from ros2cc_extract.generator.waits import waits_of
-from ros2cc_extract.spec.claims import admits_one, lets_one_wait
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
+from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
 
 TWO_ARRIVALS = 2
 

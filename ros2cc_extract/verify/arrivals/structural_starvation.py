@@ -30,7 +30,7 @@ from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.results.evidence import LOST, Evidence, Names, tell
 from ros2cc_extract.verify.results.load import served_before
 from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
-from ros2cc_extract.verify.slices.shapes import outline_of
+from ros2cc_extract.verify.slices.slice_shapes import outline_of
 
 #: The member of a group that is served first starves by two others, not by one.
 RIVALS = 2

@@ -14,10 +14,10 @@ from typing import Any
 
 from ros2cc_extract.checker.api import EdgeRef, Run, StateView
 from ros2cc_extract.generator.events import Annotation, FieldText, read_annotation
-from ros2cc_extract.generator.steps import gives
+from ros2cc_extract.generator.program_steps import gives
 from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import actors_of, waits_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.events import WORDS, Event
 from ros2cc_extract.verify.uppaal.run import UppaalRun

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from math import ceil
 
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, rank_of
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.verify.results.rates import Demand, demand_of
 

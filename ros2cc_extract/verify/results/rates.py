@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
 
 _PAUSES = ('time.sleep', 'asyncio.sleep', 'Clock.sleep_for', 'Clock.sleep_until')

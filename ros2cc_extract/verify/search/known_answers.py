@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ros2cc_extract.cachefile import load_value, store_value
+from ros2cc_extract.cache_file import load_value, store_value
 from ros2cc_extract.checker.api import CheckResult, Verdict
-from ros2cc_extract.packing import Packer
+from ros2cc_extract.plain_data import Packer
 
 Question = tuple[object, ...]
 Role = tuple[str, tuple[int, ...], tuple[int, ...]]

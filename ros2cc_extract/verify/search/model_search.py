@@ -24,15 +24,15 @@ from ros2cc_extract.checker.api import (
 from ros2cc_extract.checker.refutation.random_runs import dive
 from ros2cc_extract.checker.refutation.waypoints import refute
 from ros2cc_extract.generator import build
-from ros2cc_extract.once import known_of
+from ros2cc_extract.identity_memo import known_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results.doubts import doubts_in
 from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import Found, Key, key_of, unasked
+from ros2cc_extract.verify.results.undecided_reasons import doubts_in
 from ros2cc_extract.verify.search.options import Checker, OnProgress, Options
-from ros2cc_extract.verify.search.reading import NotReadError, read_in_time
+from ros2cc_extract.verify.search.reading_deadline import NotReadError, read_in_time
+from ros2cc_extract.verify.search.search_results import Found, Key, key_of, unasked
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta
 from ros2cc_extract.verify.uppaal.verifyta_check import check_by_verifyta

@@ -15,8 +15,8 @@ from ros2cc_extract.checker.api import Limits
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import GroupType
-from ros2cc_extract.verify.search.found import Found, Key, key_of
-from ros2cc_extract.verify.slices.full_pools import MOST_CALLBACKS, Refute, added
+from ros2cc_extract.verify.search.search_results import Found, Key, key_of
+from ros2cc_extract.verify.slices.pool_exhaustion import MOST_CALLBACKS, Refute, added
 from ros2cc_extract.verify.slices.slicer import Slicer
 
 MOST_HUNTS = 12

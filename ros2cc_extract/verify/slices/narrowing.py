@@ -15,10 +15,17 @@ from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import Found, Search, key_of, total, unasked, weighs_more
 from ros2cc_extract.verify.search.known_answers import Shelf
-from ros2cc_extract.verify.slices.full_pools import Refute, refute_by_crowds
+from ros2cc_extract.verify.search.search_results import (
+    Found,
+    Search,
+    key_of,
+    total,
+    unasked,
+    weighs_more,
+)
 from ros2cc_extract.verify.slices.guided_runs import refute_by_hunts
+from ros2cc_extract.verify.slices.pool_exhaustion import Refute, refute_by_crowds
 from ros2cc_extract.verify.slices.relaxed_units import Loosened, is_loose, loosened
 from ros2cc_extract.verify.slices.separate_waits import prove_apart
 from ros2cc_extract.verify.slices.slice_queries import Slicing

@@ -14,14 +14,14 @@ from dataclasses import dataclass, replace
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Query
-from ros2cc_extract.generator.steps import NamedWait, WaitKind
+from ros2cc_extract.generator.program_steps import NamedWait, WaitKind
 from ros2cc_extract.generator.waits import actors_of, waits_of
+from ros2cc_extract.spec.client_server_pairs import is_client, server_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
-from ros2cc_extract.spec.partners import is_client, server_of
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import Key
+from ros2cc_extract.verify.search.search_results import Key
 
 #: Claims about runs, and the verdict that says that something never happens.
 _NEVER: Mapping[Family, Verdict] = {

@@ -17,10 +17,10 @@ from dataclasses import replace
 
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
-from ros2cc_extract.generator.steps import NamedWait, WaitKind
+from ros2cc_extract.generator.program_steps import NamedWait, WaitKind
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Search, key_of
+from ros2cc_extract.verify.search.search_results import SLICE_STATES, Found, Search, key_of
 from ros2cc_extract.verify.slices.slicer import Slicer
 from ros2cc_extract.verify.slices.wait_relations import Names
 

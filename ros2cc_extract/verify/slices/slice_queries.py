@@ -16,7 +16,8 @@ from ros2cc_extract.generator.build import Profile, Query, queries_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import (
+from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
+from ros2cc_extract.verify.search.search_results import (
     SLICE_STATES,
     Found,
     Key,
@@ -25,8 +26,7 @@ from ros2cc_extract.verify.search.found import (
     total,
     weighs_more,
 )
-from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
-from ros2cc_extract.verify.slices.shapes import Outline, Shape
+from ros2cc_extract.verify.slices.slice_shapes import Outline, Shape
 from ros2cc_extract.verify.slices.slicer import Slicer
 from ros2cc_extract.verify.slices.wait_relations import Names
 

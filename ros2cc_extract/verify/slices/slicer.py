@@ -14,19 +14,19 @@ from enum import Enum
 from functools import cached_property
 
 from ros2cc_extract.generator.build import Family, Query
-from ros2cc_extract.generator.serving import ExecutorKind, executor_kind, runs_of_an_arrival
-from ros2cc_extract.generator.spins import Refusal, SpinEnd, Spun
-from ros2cc_extract.generator.steps import WaitKind
+from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, runs_of_an_arrival
+from ros2cc_extract.generator.nested_spins import Refusal, SpinEnd, Spun
+from ros2cc_extract.generator.program_steps import WaitKind
 from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
-from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.spec.partners import (
+from ros2cc_extract.spec.client_server_pairs import (
     client_before,
     is_client,
     is_done_callback,
     server_of,
 )
-from ros2cc_extract.verify.slices.shapes import (
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.spec.model import Callback, Spec
+from ros2cc_extract.verify.slices.slice_shapes import (
     Facts,
     Outline,
     Setting,

@@ -15,7 +15,7 @@ from xml.sax.saxutils import escape, quoteattr
 from ros2cc_extract.checker.runs.printed_runs import NamedState
 from ros2cc_extract.checker.uppaal.files.document import EdgeNode
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.uppaal.run import UppaalRun, location_names
 
 ZERO, TIME = 'sys.#t(0)', 'sys.#time'

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from ros2cc_extract.checker.api import EdgeRef, Model
 from ros2cc_extract.checker.runs.printed_runs import NamedState
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.uppaal.run import UppaalRun, location_names
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from ros2cc_extract.checker.api import Answer, CheckResult, Fairness, Model, Query, Run, Verdict
 from ros2cc_extract.checker.runs.printed_runs import replay_named
 from ros2cc_extract.errors import CoreMismatchError, InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.uppaal.verifyta import Runs, VerifytaAnswer, run_verifyta
 
 

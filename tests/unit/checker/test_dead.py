@@ -7,7 +7,7 @@ import pytest
 from ros2cc_extract.checker.analyses.dead_variables import forgettings
 from ros2cc_extract.checker.api import EngineKind, Fairness, Model, Query, check, read_model
 from ros2cc_extract.checker.engines.search import formulas_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from tests.support.published import Case, formulas, one_group, published_model
 from tests.support.small import ask, automaton, network, single
 

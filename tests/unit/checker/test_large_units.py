@@ -7,12 +7,12 @@ from unittest import mock
 import pytest
 
 from ros2cc_extract.checker.api import Limits, Query, Verdict, check
-from ros2cc_extract.checker.runs.twins import twins_of
+from ros2cc_extract.checker.runs.complementary_queries import twins_of
 from ros2cc_extract.checker.uppaal.elaboration.constant_calls import ConstantCalls
 from ros2cc_extract.checker.uppaal.elaboration.elaborate import Elaboration
 from ros2cc_extract.checker.uppaal.language.parsing import Start, parse, parse_query
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from tests.support.small import single
 
 WALK = 'a b c\na -> b; do: x = 1\nb -> c; do: x = 2\n'

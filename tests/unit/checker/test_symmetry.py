@@ -18,7 +18,7 @@ from ros2cc_extract.checker.api import (
     read_model,
 )
 from ros2cc_extract.checker.engines.search import Symmetry, formulas_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from tests.support.published import formulas, one_group, published_model
 from tests.support.small import automaton, network
 

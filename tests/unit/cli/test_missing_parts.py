@@ -57,7 +57,9 @@ def test_it_is_said_once_for_many_units() -> None:
     stdout, stderr = io.StringIO(), io.StringIO()
     # What the native core has found out before is no worse.
     main(
-        ['--no-cache', '--verdicts', str(NODE), str(NODE.parents[1] / 'two_nodes_one_executor')], stdout, stderr
+        ['--no-cache', '--verdicts', str(NODE), str(NODE.parents[1] / 'two_nodes_one_executor')],
+        stdout,
+        stderr,
     )
     assert (stdout.getvalue() + stderr.getvalue()).count('not built') == 1
     assert 'reference checker' in stdout.getvalue()

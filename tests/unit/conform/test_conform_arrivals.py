@@ -10,7 +10,7 @@ from ros2cc_extract.conform.arrivals import Arrival
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Event, Subject, Trace
 from ros2cc_extract.conform.unit import Comparison, compare
-from ros2cc_extract.conform.words import say_observation
+from ros2cc_extract.conform.wording import say_observation
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

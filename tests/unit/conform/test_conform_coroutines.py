@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Event, Subject, Trace
 from ros2cc_extract.conform.unit import compare
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from ros2cc_extract.conform.matching import match, with_copies
+from ros2cc_extract.conform.entity_matching import match, with_copies
 from ros2cc_extract.conform.trace import Event, Subject, Trace
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Blocking, Waker
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking, Waker
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

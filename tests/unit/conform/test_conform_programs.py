@@ -35,5 +35,5 @@ def test_requests_from_outside_leave_room_for_those_of_callbacks_that_spin() -> 
 def test_nobody_publishes_requests_in_a_program_that_spins() -> None:
     for seed in range(SPINS_FIRST + 420, SPINS_FIRST + 430):
         program = draw(seed)
-        fed = [d.on for e in program.entities for d in e.deeds if d.what == 'publish']
+        fed = [d.on for e in program.entities for d in e.effects if d.what == 'publish']
         assert all(program.entities[number].kind != SERVICE for number in fed)

@@ -7,8 +7,8 @@ from typing import Any
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.waits.workers import DEFAULT_COUNT, EVENTS, MULTI, SINGLE
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

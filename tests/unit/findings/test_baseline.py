@@ -12,7 +12,7 @@ from ros2cc_extract.findings.base.fingerprints import fingerprints, relative
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.filters.baseline import compare, read_baseline, write_baseline
 from ros2cc_extract.findings.filters.selection import Selection, select
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 CALL = Finding(
     code='CC101',

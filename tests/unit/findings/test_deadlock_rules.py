@@ -32,8 +32,8 @@ from finding_units import (
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.waits.workers import SINGLE
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
 
 

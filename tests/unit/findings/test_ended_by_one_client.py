@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from finding_units import at, callback, found, threads, timer, unit
 
-from ros2cc_extract.spec.deeds import Blocking, Waker
+from ros2cc_extract.spec.effects import Blocking, Waker
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 

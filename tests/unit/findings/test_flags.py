@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from finding_units import at, callback, found, outside, service, threads, timer, unit, updates
 
-from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, Access, Act, Blocking
+from ros2cc_extract.spec.effects import FLAG, FOUND_FALSE, FOUND_NONE, Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 BUSY = 'Arm.busy' + FLAG

@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 from finding_units import ONE_THREAD, at, found, only, threads, timer, unit
 
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Callback, Executor
 
 

@@ -8,7 +8,7 @@ from finding_units import at, callback, threads, unit
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind, Spec, Unresolved
 
 TOO_LONG = 'set-up is too long to be followed to its end'

@@ -12,7 +12,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise, about, judge
 from ros2cc_extract.generator.build import Family, Profile
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec, Unresolved
 from ros2cc_extract.verify.results.results import Verdict, Verification

@@ -30,8 +30,8 @@ from finding_units import (
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.static.api import scan
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Act
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 from ros2cc_extract.verify.results.results import QueryResult, Verification

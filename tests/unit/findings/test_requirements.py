@@ -12,7 +12,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.requirements import check_requirements, read_requirements
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult, Verification

@@ -21,7 +21,7 @@ from finding_units import (
 
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
 
 

@@ -31,8 +31,8 @@ from finding_units import (
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import (
     NO_EXECUTOR,
     Callback,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from finding_units import DEFAULT, at, exclusive, found, threads, timer, unit
 
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Callback, Spec
 
 

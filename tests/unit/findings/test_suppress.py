@@ -7,7 +7,7 @@ import pytest
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.filters.suppress import Ignore, ignores_in, suppress
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 TEXT = """\
 text = '# ros2cc: ignore[CC101] in a string'

@@ -22,8 +22,8 @@ from finding_units import (
 )
 
 from ros2cc_extract.extract.static.api import scan
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Access, Act, Blocking, Waker
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, Access, Act, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Executor, Spec
 
 KIND = ActivityKind

@@ -9,9 +9,9 @@ from finding_units import ONE_THREAD, at, calls, subscription, threads, timer, u
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Act, Blocking, Waker
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Spec
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options

@@ -8,7 +8,7 @@ import pytest
 from finding_units import DEFAULT, at, exclusive, found, threads, timer, unit
 
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Waker
 
 STATE = 'Arm.state'

@@ -17,8 +17,8 @@ from finding_units import (
     unit,
 )
 
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Act, Blocking, Needs, Waker
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 

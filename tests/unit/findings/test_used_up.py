@@ -8,8 +8,8 @@ import pytest
 from finding_units import ONE_THREAD, at, found, only, threads, timer, unit
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import BY_ITSELF, Blocking, Needs, Waker
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import BY_ITSELF, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Executor
 
 

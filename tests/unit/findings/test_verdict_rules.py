@@ -23,9 +23,9 @@ from finding_units import (
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.deeds import Blocking, Needs, Waker
+from ros2cc_extract.spec.effects import Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Executor, Spec, Unresolved
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.generator.serving import ExecutorKind
+from ros2cc_extract.generator.executor_kinds import ExecutorKind
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

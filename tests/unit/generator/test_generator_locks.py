@@ -14,9 +14,9 @@ from test_generator_waits import EVENTS, MULTI, SINGLE, stuck
 
 from ros2cc_extract.generator.build import Profile, render
 from ros2cc_extract.generator.unit import number_unit
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Act, Blocking, Waker
+from ros2cc_extract.spec.effects import RE_ENTRANT, Act, Blocking, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 
 CALLBACKS = 'ask:TMR:g reply:CLT:h take:TMR:'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ros2cc_extract.generator.serving import TaskOrder, task_order
+from ros2cc_extract.generator.executor_kinds import TaskOrder, task_order
 from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE
 
 NEWEST, OLDEST = TaskOrder.NEWEST_FIRST, TaskOrder.OLDEST_FIRST

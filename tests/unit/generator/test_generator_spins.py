@@ -13,9 +13,9 @@ from generator_units import closed_unit
 
 from ros2cc_extract.checker.api import Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, RenderedModel, render
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import Act, Blocking
+from ros2cc_extract.spec.effects import Act, Blocking
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'
 TWO_GROUPS = 'g:EXCLUSIVE h:EXCLUSIVE'

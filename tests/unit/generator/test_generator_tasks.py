@@ -8,7 +8,7 @@ import pytest
 
 from ros2cc_extract.checker.api import Verdict, check, read_model
 from ros2cc_extract.generator.build import Freedom, Profile, Text, render
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.model import (
     Blocking,

@@ -12,7 +12,7 @@ from generator_units import closed_unit
 from ros2cc_extract.checker.api import Limits, Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Family, Profile, render
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import EntityKind
 
 SINGLE, MULTI, EVENTS = 'SingleThreadedExecutor', 'MultiThreadedExecutor', 'EventsExecutor'

@@ -12,7 +12,7 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.yaml.yaml_io import read_specs
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit

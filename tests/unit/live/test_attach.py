@@ -12,7 +12,7 @@ import pytest
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.attach import attach_process
-from ros2cc_extract.extract.live.entering import Injector, inject, refuse_what_would_end
+from ros2cc_extract.extract.live.injection import Injector, inject, refuse_what_would_end
 
 SCRIPT = Path('record.py')
 

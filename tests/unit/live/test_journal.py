@@ -60,20 +60,22 @@ def test_what_is_no_step_is_refused_and_leaves_nothing(make: Make, step: Any) ->
 
 
 @given(st.integers(1, 3000), st.lists(DEEDS, max_size=30))
-def test_both_keep_and_give_the_same(kept: int, deeds: list[tuple[str, Any]]) -> None:
+def test_both_keep_and_give_the_same(kept: int, effects: list[tuple[str, Any]]) -> None:
     plain, fast = PlainJournal(kept), native.Journal(kept)
-    assert [_done(plain, *deed) for deed in deeds] == [_done(fast, *deed) for deed in deeds]
+    assert [_done(plain, *effect) for effect in effects] == [
+        _done(fast, *effect) for effect in effects
+    ]
     assert plain.take(kept) == fast.take(kept)
 
 
-def _done(journal: Journal, deed: str, given: Any) -> tuple[int, bytes]:
+def _done(journal: Journal, effect: str, given: Any) -> tuple[int, bytes]:
     taken = b''
-    if deed == 'put':
+    if effect == 'put':
         journal.put(*given)
-    elif deed == 'put many':
+    elif effect == 'put many':
         for number in range(given):
             journal.put(number, 1, BEGIN, number)
-    elif deed == 'take':
+    elif effect == 'take':
         taken = journal.take(given)
     else:
         journal.clear()

@@ -93,12 +93,12 @@ DEEDS = st.one_of(
 
 @pytest.mark.filterwarnings('ignore:coroutine .* was never awaited')
 @given(st.lists(DEEDS, max_size=25))
-def test_same_calls_come_to_the_same(deeds: list[tuple[Any, ...]]) -> None:
+def test_same_calls_come_to_the_same(effects: list[tuple[Any, ...]]) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        native = list(_World().live(deeds))
+        native = list(_World().live(effects))
         for module in (groups, journal, steps):
             patch.setattr(module, 'native', None)
-        plain = list(_World().live(deeds))
+        plain = list(_World().live(effects))
     assert native == plain
 
 
@@ -120,7 +120,7 @@ class _Recorder(Recorder):
 
 
 class _World:
-    """Classes of its own, wrapped, with what the deeds are done to."""
+    """Classes of its own, wrapped, with what the effects are done to."""
 
     def __init__(self) -> None:
         self.recorder = _Recorder(traced=True)
@@ -144,8 +144,8 @@ class _World:
         for index in range(2):
             self.do_collect(index, None, 'place')
 
-    def live(self, deeds: list[tuple[Any, ...]]) -> Iterator[Any]:
-        for name, *told in deeds:
+    def live(self, effects: list[tuple[Any, ...]]) -> Iterator[Any]:
+        for name, *told in effects:
             yield name, _outcome(getattr(self, f'do_{name.replace(" ", "_")}'), *told)
             events = [
                 (EVENT_NAMES[what], number)
@@ -244,9 +244,9 @@ class _World:
         self.executor.mark_raises = error
 
 
-def _outcome(deed: Callable[..., Any], *given: Any) -> Any:
+def _outcome(effect: Callable[..., Any], *given: Any) -> Any:
     try:
-        return 'gave', repr(deed(*given))
+        return 'gave', repr(effect(*given))
     except BaseException as error:
         return 'raised', _name(error), _name(error.__context__)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 
 

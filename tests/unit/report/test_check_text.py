@@ -13,11 +13,11 @@ from report_samples import CALL, NOTE, RACE, RUN
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.report.text.check import Telling, print_check
 from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import Verification

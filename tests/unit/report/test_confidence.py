@@ -5,7 +5,7 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.report.machine.json_report import confidence_data
 from ros2cc_extract.report.text.confidence import confidence_lines
-from ros2cc_extract.spec.assume import assume, read_assumptions
+from ros2cc_extract.spec.assumptions import assume, read_assumptions
 from ros2cc_extract.spec.confidence import Confidence, Subject, Summary, confidence_in
 from ros2cc_extract.spec.model import Spec
 

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from report_samples import CALL, FINDINGS, NOTE, RACE, RUN
 
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.html.page import html_report
 from ros2cc_extract.report.shared.run_lanes import Lane, Stay, lanes_of
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

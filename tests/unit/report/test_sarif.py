@@ -13,8 +13,8 @@ from report_samples import CALL, FINDINGS, NOTE, RACE, RUN
 
 from ros2cc_extract.findings.base.fingerprints import fingerprints
 from ros2cc_extract.findings.rules.registry import RULES
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.machine.sarif import MOST_STEPS, sarif
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.evidence import Evidence
 
 SCHEMA = Path(__file__).parents[3] / '.cache' / 'sarif-2.1.0.json'

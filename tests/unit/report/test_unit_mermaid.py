@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ros2cc_extract.places import Unknown
 from ros2cc_extract.report.unit_mermaid import sides_diagram, units_diagram
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

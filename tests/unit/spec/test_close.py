@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ros2cc_extract.errors import IncompleteSpecError
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import (
     Callback,

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, CallbackType, EntityKind
 
 CREATED = Place('arm.py', 20, 9)

@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 from ros2cc_extract.errors import SpecFormatError
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, Access, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

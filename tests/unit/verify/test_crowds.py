@@ -7,7 +7,7 @@ from dataclasses import replace
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.checker.api import Query, Run, check, read_model
-from ros2cc_extract.places import Place
 from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Names, Sentence, tell
 

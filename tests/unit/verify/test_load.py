@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Act, Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Act, Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

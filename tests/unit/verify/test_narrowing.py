@@ -10,7 +10,7 @@ import pytest
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Profile, Query, render
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,
@@ -20,7 +20,7 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.search.found import SLICE_STATES, Found, Key
+from ros2cc_extract.verify.search.search_results import SLICE_STATES, Found, Key
 from ros2cc_extract.verify.slices import narrowing
 from ros2cc_extract.verify.slices.narrowing import FIRST_LOOK_STATES, narrow
 

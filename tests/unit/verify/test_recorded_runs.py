@@ -9,7 +9,7 @@ import pytest
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -9,7 +9,7 @@ import pytest
 
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,
@@ -18,7 +18,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.slices.shapes import Shape, outline_of
+from ros2cc_extract.verify.slices.slice_shapes import Shape, outline_of
 from ros2cc_extract.verify.slices.slicer import Slicer
 
 KINDS = {

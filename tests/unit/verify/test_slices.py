@@ -6,9 +6,9 @@ import pytest
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Profile
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from ros2cc_extract.generator.build import Family, Profile, Query, render
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Callback,
     CallbackGroup,

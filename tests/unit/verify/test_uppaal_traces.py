@@ -11,7 +11,7 @@ import pytest
 from ros2cc_extract.checker.api import Model, Query, Run, check, read_model
 from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.evidence import Names, tell
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml, to_xml

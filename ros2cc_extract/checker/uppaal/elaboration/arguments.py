@@ -19,7 +19,7 @@ from ros2cc_extract.checker.uppaal.elaboration.types import (
 )
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 @dataclass(frozen=True)

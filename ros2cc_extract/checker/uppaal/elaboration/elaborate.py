@@ -44,7 +44,7 @@ from ros2cc_extract.checker.uppaal.files.document import Document, EdgeNode, Tem
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.checker.uppaal.language.parsing import Start, parse, parse_query
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MAX_EDGES = 250_000
 

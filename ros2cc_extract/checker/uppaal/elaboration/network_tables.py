@@ -16,7 +16,7 @@ from ros2cc_extract.checker.network.network import (
     Variable,
 )
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MAX_VARIABLES = 1_000_000
 

@@ -9,7 +9,7 @@ from enum import Enum
 from ros2cc_extract.checker.network.network import Const, Expr
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 #: Range of a plain ``int``. Source: UPPAAL documentation, page "Types".
 INT16 = (-32768, 32767)

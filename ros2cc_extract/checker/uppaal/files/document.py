@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MAX_DEPTH = 64
 _MEND_XML = 'save the model again from UPPAAL or give a .xml file that UPPAAL opens'

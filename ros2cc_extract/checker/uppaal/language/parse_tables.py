@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ros2cc_extract.cachefile import (
+from ros2cc_extract.cache_file import (
     default_cache_folder,
     load_content,
     store_content,

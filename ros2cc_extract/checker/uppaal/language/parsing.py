@@ -14,7 +14,7 @@ from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.checker.uppaal.language.precedence import MAX_DEPTH, NestingError
 from ros2cc_extract.checker.uppaal.language.query_shapes import Maker, maker_of, shape_of
 from ros2cc_extract.errors import ModelFormatError
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 if TYPE_CHECKING:
     from lark import Lark

@@ -16,7 +16,7 @@ from collections import deque
 from collections.abc import Iterator
 from typing import Any
 
-from .called import called_functions
+from .deduplication import fold_entities, fold_executors, fold_nodes
 from .entries import (
     WAITABLE_KINDS,
     EntityRecord,
@@ -30,9 +30,9 @@ from .entries import (
     thread_count,
 )
 from .events import BEGIN, END, SIZE, unpack
-from .folding import fold_entities, fold_executors, fold_nodes
 from .frames import Creation, RawPlace, is_node, name_function
 from .journal import new_journal
+from .service_functions import called_functions
 from .timings import Timings
 
 # Half a minute of 4 kHz, should the writer not get the processor for that long.

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import note_begun
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -35,20 +35,20 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     world = machine.world
     if world.retelling:
         return
-    saved = (world.in_thread, world.deeds, world.held, world.after_spin, world.count)
+    saved = (world.in_thread, world.effects, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
     tries, world.tries = world.tries, 0
     world.threads += 1
     world.thread = world.threads
-    world.in_thread, world.deeds, world.held, world.chain = True, None, (), ()
+    world.in_thread, world.effects, world.held, world.chain = True, None, (), ()
     world.times, world.round = 1, ()
     world.ready = frozenset()
     try:
         result = machine.call(target, call)
         machine.run_if_coroutine(result, call.place)
     finally:
-        world.in_thread, world.deeds, world.held, world.after_spin, world.count = saved
+        world.in_thread, world.effects, world.held, world.after_spin, world.count = saved
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
@@ -139,7 +139,7 @@ def _count(world: ConcurrentWorld, place: Place) -> int | Unknown:
 def _note_start(machine: ConcurrentMachine, state: ActivityState, runner: Value | None) -> None:
     world = machine.world
     doer = world.activity or world.current
-    behind = world.deeds.behind if world.deeds is not None else None
+    behind = world.effects.behind if world.effects is not None else None
     conditional = bool(doer) and world.path != world.callback_path
     place = state.place
     if not any(start.by is doer and start.place == place for start in state.starts):
@@ -153,12 +153,12 @@ def _note_start(machine: ConcurrentMachine, state: ActivityState, runner: Value 
 def _go_on_beside(machine: ConcurrentMachine, place: Place) -> None:
     """From here on the main program runs beside an executor that a thread of its own spins."""
     world = machine.world
-    is_main = world.current is None and world.activity is None and world.deeds is None
+    is_main = world.current is None and world.activity is None and world.effects is None
     if not is_main or world.when is not When.START or world.after_spin or not world.is_program:
         return
     state = ActivityState(ActivityKind.MAIN, place, path=world.path)
     world.activities.append(state)
-    world.activity, world.deeds, world.callback_path = state, state.deeds, world.path
+    world.activity, world.effects, world.callback_path = state, state.effects, world.path
 
 
 def spins(world: ConcurrentWorld, *, for_ever: bool) -> None:
@@ -169,7 +169,7 @@ def spins(world: ConcurrentWorld, *, for_ever: bool) -> None:
     activity.serves = True
     activity.is_executor = activity.is_executor or for_ever
     if for_ever and activity.kind is ActivityKind.MAIN:
-        world.activity = world.deeds = None
+        world.activity = world.effects = None
 
 
 def _code_of(target: Value | None, call: Call) -> object:
@@ -204,7 +204,7 @@ def followed(world: ConcurrentWorld) -> Iterator[ActivityState]:
 def begin_telling(world: ConcurrentWorld, state: ActivityState) -> None:
     """What is followed from here on is what ``state`` does."""
     starters = [start.by for start in state.starts]
-    world.activity, world.deeds = state, state.deeds
+    world.activity, world.effects = state, state.effects
     world.current = next((by for by in starters if by is not None and not is_activity(by)), None)  # type: ignore[assignment]
     world.when, world.count = When.CALLBACK, 1
     world.path = world.callback_path = state.path

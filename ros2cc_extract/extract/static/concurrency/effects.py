@@ -9,7 +9,7 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.accesses import (
     collection_aliases,
     flag_locks,
-    lost_notifies,
+    lost_notifications,
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
@@ -39,8 +39,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import FLAG, SHARED, Access, Act
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
@@ -59,9 +59,9 @@ class Effects(Waits):
         Methods, entities and locks are no shared data, and neither is an object that this
         callback has made.
         """
-        if self.world.deeds is None and kind is AccessKind.WRITE:
+        if self.world.effects is None and kind is AccessKind.WRITE:
             self._note_other_write(owner, name, place)
-        if self.world.deeds is None or not isinstance(owner, (Instance, Class)):
+        if self.world.effects is None or not isinstance(owner, (Instance, Class)):
             return
         if self.world.activity is not None and isinstance(owner, Instance):
             touch(self.world.activity, owner)
@@ -70,12 +70,12 @@ class Effects(Waits):
             return
         attribute = unmangled(name, cls.name)
         shown = f'{collection_aliases.object_name(owner, cls)}.{attribute}'
-        is_own = isinstance(owner, Instance) and owner.born is self.world.deeds
+        is_own = isinstance(owner, Instance) and owner.born is self.world.effects
         home = collection_aliases.home_of(self.world, owner, name) if kind in _OF_CONTENT else None
         if home is not None and home[1] != shown:
             shown, is_own = self._seen_at(home), False
         if kind is AccessKind.WITHIN or (is_own and kind is not AccessKind.READ):
-            self.world.deeds.own.append(shown)
+            self.world.effects.own.append(shown)
         elif not is_own:
             self._note_access(shown, kind, place, attribute)
 
@@ -110,8 +110,8 @@ class Effects(Waits):
     def _note_access(
         self, name: str, kind: AccessKind, place: Place, attribute: str | None = None
     ) -> None:
-        deeds = self.world.deeds
-        if deeds is None:
+        effects = self.world.effects
+        if effects is None:
             return
         is_read, reading = kind is AccessKind.READ, self.world.reading
         is_stored = kind is AccessKind.WRITE
@@ -150,7 +150,7 @@ class Effects(Waits):
             constant=is_stored and rests and isinstance(reading.stored, Const),
             chain=self.world.chain[1:],
         )
-        accesses = deeds.reads if is_read else deeds.writes
+        accesses = effects.reads if is_read else effects.writes
         if access.iterates is not None:
             plain = replace(access, iterates=None)
             if plain in accesses[-RECENT:]:
@@ -161,18 +161,18 @@ class Effects(Waits):
             reading.forget(name, self.world.path)
         if not is_read:
             is_open = self.world.path != self.world.callback_path
-            deeds.written.setdefault((name, place), (deeds.behind, is_open))
-            for hold in lost_notifies.holds_of(self.world):
-                deeds.stored.setdefault(hold, set()).add(name)
+            effects.written.setdefault((name, place), (effects.behind, is_open))
+            for hold in lost_notifications.holds_of(self.world):
+                effects.stored.setdefault(hold, set()).add(name)
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
-        if self.world.deeds is None:
+        if self.world.effects is None:
             return
         for target in _iterated(node):
-            noted, self.world.deeds = self.world.deeds, None
+            noted, self.world.effects = self.world.effects, None
             values = options_of(self.evaluate(target, frame))
-            self.world.deeds = noted
+            self.world.effects = noted
             kinds = [collection_class(v) for v in values if isinstance(v, Collection)]
             self.world.iterating = kinds[0] if kinds else None
             if kinds:
@@ -181,7 +181,7 @@ class Effects(Waits):
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
         """The object in a name or attribute gets a new content or value from its old one."""
-        if self.world.deeds is None:
+        if self.world.effects is None:
             return
         place = frame.place(target)
         if isinstance(target, ast.Subscript):
@@ -193,9 +193,9 @@ class Effects(Waits):
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
             self.note_global(frame.module, target.id, kind, place)
         elif isinstance(target, ast.Name) and kind in _OF_CONTENT and self.world.homes:
-            noted, self.world.deeds = self.world.deeds, None
+            noted, self.world.effects = self.world.effects, None
             held = self.evaluate(target, frame)
-            self.world.deeds = noted
+            self.world.effects = noted
             for home in collection_aliases.homes_of(self.world, held):
                 self._note_access(self._seen_at(home), kind, place, target.id)
 
@@ -228,10 +228,10 @@ class Effects(Waits):
 
     def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
         """A global is touched; only those count that some function changes."""
-        if self.world.deeds is None or name not in self.changed_globals(module):
+        if self.world.effects is None or name not in self.changed_globals(module):
             return
         if kind is AccessKind.WITHIN:
-            self.world.deeds.own.append(f'{module.name}.{name}')
+            self.world.effects.own.append(f'{module.name}.{name}')
             return
         value = module.slots.get(name)
         if isinstance(value, Instance) and value.state is not None:
@@ -263,9 +263,9 @@ class Effects(Waits):
                 )
                 self.world.held = (*self.world.held, name)
                 self.world.loops_at[name] = self.world.open_loops
-                lost_notifies.begin_hold(self.world, name)
-                if self.world.deeds is not None:
-                    note_once(self.world.deeds.locks, act)
+                lost_notifications.begin_hold(self.world, name)
+                if self.world.effects is not None:
+                    note_once(self.world.effects.locks, act)
 
     def _lock_name(self, lock: Instance, kind: str) -> str:
         """The name it is stored under; a second lock of that name gets a number."""

@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
     flag_locks,
-    lost_notifies,
+    lost_notifications,
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
@@ -24,7 +24,7 @@ from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 
 class Notes(Effects):
@@ -58,11 +58,11 @@ class Notes(Effects):
                 place,
                 lambda each: flag_locks.constant_text(self, each, frame),
             )
-        lost_notifies.note_test(self.world, node.test, place, reading.tests[place])
+        lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 
     def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:
         """A loop may ask for what somebody notifies of."""
-        return lost_notifies.note_test(self.world, node.test, place, names, repeats=True)
+        return lost_notifications.note_test(self.world, node.test, place, names, repeats=True)
 
     def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
         """A way out of a function: flags are held there, or a goal is turned down."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES, SourceFile
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.files import Files
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
 _SCRIPT_FILES = ('setup.py', 'setup.cfg', 'pyproject.toml')

@@ -13,7 +13,7 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.static.program.source import SourceFile
 from ros2cc_extract.extract.static.program.workspace import home_of
 from ros2cc_extract.files import DISK, Files, OnError
-from ros2cc_extract.places import Place, shown_name
+from ros2cc_extract.source_locations import Place, shown_name
 
 _SKIPPED = frozenset(
     {'__pycache__', 'build', 'install', 'log', 'node_modules', 'venv', '.venv', 'site-packages'}

@@ -6,13 +6,13 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from ros2cc_extract.cachefile import load_value, store_value, tidy, tool_version
+from ros2cc_extract.cache_file import load_value, store_value, tidy, tool_version
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.program.entry_points import script_files
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES, digest_of
 from ros2cc_extract.files import Files
-from ros2cc_extract.packing import Packer
+from ros2cc_extract.plain_data import Packer
 
 Kept = tuple[tuple[FollowedFile, ...], Extraction]
 _KEPT: Packer[Kept] = Packer(Kept)

@@ -16,7 +16,7 @@ from pathlib import Path
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.program.newer_syntax import WITHOUT_FILE, needs_newer_python
 from ros2cc_extract.files import DISK, Files
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 SIZE_LIMIT_BYTES = 8_000_000
 TOKEN_LIMIT = 900_000

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.values_during_waits import show_to_callbacks
-from ros2cc_extract.extract.static.libraries.rclpy.machine.held_by_callbacks import call_holding
+from ros2cc_extract.extract.static.libraries.rclpy.machine.inherited_locks import call_holding
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
 )
@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services imp
 from ros2cc_extract.extract.static.libraries.standard.done_callbacks import add_left
 from ros2cc_extract.extract.static.python.branching.open_tests import holds_objects
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.objects.reanalysis import both
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.exclusive_paths import IN_A_CALLBACK
@@ -31,7 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded, note_cut_run
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 
 _PARAMETERS = {
@@ -107,7 +107,9 @@ def _run_new_callbacks(machine: RosInterpreter) -> None:
         for entity in late:
             for callback in _functions(entity)[entity.ran :]:
                 entity.ran += 1
-                _run_callback(machine, entity, callback, entity.deeds or Deeds(), again=False)
+                _run_callback(
+                    machine, entity, callback, entity.effects or EffectLog(), again=False
+                )
         _run_new_entities(machine)
 
 
@@ -142,7 +144,7 @@ def _tell(machine: RosInterpreter, state: ActivityState) -> None:
             machine.run_if_coroutine(machine.call(option, call), state.place)
         _end_branch(machine, mark)
 
-    note_cut_run(state.deeds, guarded(machine, follow, state.place), state.place)
+    note_cut_run(state.effects, guarded(machine, follow, state.place), state.place)
 
 
 def _end_branch(machine: RosInterpreter, mark: int) -> None:
@@ -152,29 +154,34 @@ def _end_branch(machine: RosInterpreter, mark: int) -> None:
 
 
 def _run_again(machine: RosInterpreter, entity: EntityState) -> None:
-    before = entity.deeds or Deeds()
-    entity.deeds = both(before, _run_callbacks_of(machine, entity, again=True))
+    before = entity.effects or EffectLog()
+    entity.effects = both(before, _run_callbacks_of(machine, entity, again=True))
 
 
 def _run_callbacks_of(
     machine: RosInterpreter, entity: EntityState, *, again: bool = False
-) -> Deeds:
-    entity.deeds = Deeds()
+) -> EffectLog:
+    entity.effects = EffectLog()
     machine.world.met = machine.world.met_by[id(entity)] = {}
     functions = _functions(entity)
     entity.ran = len(functions)
     for callback in functions:
-        _run_callback(machine, entity, callback, entity.deeds, again=again)
-    return entity.deeds
+        _run_callback(machine, entity, callback, entity.effects, again=again)
+    return entity.effects
 
 
 def _run_callback(
-    machine: RosInterpreter, entity: EntityState, callback: Value, deeds: Deeds, *, again: bool
+    machine: RosInterpreter,
+    entity: EntityState,
+    callback: Value,
+    effects: EffectLog,
+    *,
+    again: bool,
 ) -> None:
     def follow() -> None:
         world = machine.world
         world.again, world.asked, world.ready = again, set(), frozenset()
-        world.deeds, world.current, world.after_spin = deeds, entity, False
+        world.effects, world.current, world.after_spin = effects, entity, False
         transition = _transition_of(entity, callback)
         if transition:
             world.when, world.shutting_down = When.CONFIGURE, is_closing(transition)
@@ -190,7 +197,7 @@ def _run_callback(
         if mark is not None:
             _end_branch(machine, mark)
 
-    note_cut_run(deeds, guarded(machine, follow, entity.place), entity.place)
+    note_cut_run(effects, guarded(machine, follow, entity.place), entity.place)
 
 
 def _transition_of(entity: EntityState, callback: Value) -> str:

@@ -8,12 +8,12 @@ from collections.abc import Callable
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.objects.reachable_texts import leads_nowhere
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import When
 
 TOO_LONG = 'set-up is too long to be followed to its end'
@@ -54,7 +54,7 @@ def guarded(
         machine.stack.clear()
         machine.depth = 0
         world.path, world.count, world.chain, world.held = (), 1, (), ()
-        world.stopped, world.deeds, world.current, world.looking = False, None, None, ()
+        world.stopped, world.effects, world.current, world.looking = False, None, None, ()
         world.shutting_down = False
         world.in_thread, world.when, world.thread = False, When.START, 0
         world.activity, world.again, world.retelling = None, False, False
@@ -64,11 +64,11 @@ def guarded(
     return why
 
 
-def note_cut_run(deeds: Deeds, why: str, place: Place) -> None:
+def note_cut_run(effects: EffectLog, why: str, place: Place) -> None:
     """A callback or thread was not followed to its end: it may wait for anything."""
     wait = Blocking(call=UNKNOWN_WAIT, source=place, on=Unknown(why, place))
-    if why and wait not in deeds.blocking:
-        deeds.blocking.append(wait)
+    if why and wait not in effects.blocking:
+        effects.blocking.append(wait)
 
 
 def _is_late(machine: RosInterpreter) -> bool:

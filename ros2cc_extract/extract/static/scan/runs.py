@@ -49,7 +49,7 @@ from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads im
 )
 from ros2cc_extract.extract.static.units.whole_program.taken_messages import note_taken
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import note_unanswered
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 _DESTROYING = 'on_deactivate'

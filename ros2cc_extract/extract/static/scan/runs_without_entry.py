@@ -32,7 +32,7 @@ from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.runs import UNCALLED, run_rest_of_instances
 from ros2cc_extract.extract.static.scan.test_programs import end_test
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 

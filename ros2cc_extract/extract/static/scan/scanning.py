@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from ros2cc_extract.crew import Crew
 from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
@@ -30,8 +29,9 @@ from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
 from ros2cc_extract.extract.static.units.entity_aliases import each_once
 from ros2cc_extract.extract.static.units.units import joined_of, specs_of
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.joined import Joined
+from ros2cc_extract.process_pool import Crew
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 
 Progress = Callable[[int, int], None]

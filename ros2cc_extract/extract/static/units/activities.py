@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.units.callback_names import FunctionFacts, describe
 from ros2cc_extract.extract.static.units.waits import UnitWaits
-from ros2cc_extract.spec.deeds import Access, Waker
+from ros2cc_extract.spec.effects import Access, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 _MAIN = 'main'
@@ -52,7 +52,7 @@ def activities_of(
 
 def _things(world: RosWorld, entity: EntityState) -> Iterable[int]:
     """What a callback waits on, or ends waits on."""
-    for block in (entity.deeds or Deeds()).blocking:
+    for block in (entity.effects or EffectLog()).blocking:
         if isinstance(block.resource, ResourceRef):
             yield block.resource.number
     for number, wakings in world.wakings.items():
@@ -62,8 +62,10 @@ def _things(world: RosWorld, entity: EntityState) -> Iterable[int]:
 
 def _is_executor(state: ActivityState) -> bool:
     """Whether it only sets up and spins an executor, or is a main program that does nothing."""
-    deeds = state.deeds
-    does = deeds.blocking or deeds.reads or deeds.writes or deeds.locks or deeds.publishes
+    effects = state.effects
+    does = (
+        effects.blocking or effects.reads or effects.writes or effects.locks or effects.publishes
+    )
     if state.kind is ActivityKind.MAIN:
         return not does
     return state.is_executor or (state.serves and not does)
@@ -83,7 +85,7 @@ def activity(
     facts = facts_of(state)
     receiver = state.target.receiver if isinstance(state.target, Bound) else None
     owner = receiver if isinstance(receiver, Instance) else None
-    deeds = state.deeds
+    effects = state.effects
     return Activity(
         name=names[id(state)],
         kind=state.kind,
@@ -100,11 +102,11 @@ def activity(
         source=state.place,
         defined=facts.defined,
         blocking=waits.of(state),
-        reads=tuple(deeds.reads),
-        writes=tuple(deeds.writes),
-        locks=tuple(deeds.locks),
-        publishes=tuple(deeds.publishes),
-        changes=tuple(deeds.changes),
+        reads=tuple(effects.reads),
+        writes=tuple(effects.writes),
+        locks=tuple(effects.locks),
+        publishes=tuple(effects.publishes),
+        changes=tuple(effects.changes),
         pieces=pieces,
     )
 

@@ -29,8 +29,8 @@ from ros2cc_extract.extract.static.units.set_up_waits import told
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
 from ros2cc_extract.extract.static.units.waits import UnitWaits
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
     Activity,
@@ -245,7 +245,7 @@ class UnitBuilder:
         node = entity.node
         path = beyond(entity.path, self._shared_path)
         alternative, branch = self._branches.mark_of(path)
-        deeds = entity.deeds
+        effects = entity.effects
         key, assumed = _key_of(entity)
         period, period_assumed = _period(entity.period)
         return Callback(
@@ -273,11 +273,11 @@ class UnitBuilder:
             assumed=assumed or period_assumed or entity.assumed,
             source=entity.place,
             defined=facts.defined,
-            reads=tuple(deeds.reads) if deeds else (),
-            writes=tuple(deeds.writes) if deeds else (),
-            locks=tuple(deeds.locks) if deeds else (),
-            publishes=tuple(deeds.publishes) if deeds else (),
-            changes=tuple(deeds.changes) if deeds else (),
+            reads=tuple(effects.reads) if effects else (),
+            writes=tuple(effects.writes) if effects else (),
+            locks=tuple(effects.locks) if effects else (),
+            publishes=tuple(effects.publishes) if effects else (),
+            changes=tuple(effects.changes) if effects else (),
             pieces=pieces_of(entity, self._world),
         )
 

@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Partial,
     Value,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, Spec
 
 

@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import SetUpWait
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, Spin
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.python.values.values import Class, Instance
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
 
 ASSUMED_THREADS = 2

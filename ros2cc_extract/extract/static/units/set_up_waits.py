@@ -21,8 +21,8 @@ from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
 from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Blocking, Needs
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
 _UNSPUN = 'nobody is seen to spin {node} meanwhile'
 _NOBODY = 'nobody in sight ends it'

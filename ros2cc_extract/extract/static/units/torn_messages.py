@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Piece
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Piece
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.spec.effects import Access
 
 
 def pieces_of(doer: EntityState | ActivityState, world: RosWorld) -> tuple[Access, ...]:
     """What ``doer`` publishes and others change piece by piece, or the other way round."""
-    mine = (doer.deeds or Deeds()).pieces
+    mine = (doer.effects or EffectLog()).pieces
     if not mine:
         return ()
     doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
-    others = [each.deeds.pieces for each in doers if each is not doer and each.deeds is not None]
+    others = [
+        each.effects.pieces for each in doers if each is not doer and each.effects is not None
+    ]
     sent = {piece.access.name for pieces in others for piece in pieces if not piece.part}
     changed = {name for pieces in others for name in _torn(pieces)}
     told = _torn(mine) & sent

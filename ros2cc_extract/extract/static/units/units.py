@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.units.executor import Unit, is_handed_over
 from ros2cc_extract.extract.static.units.pending_requests import with_askers
 from ros2cc_extract.extract.static.units.set_up_waits import share_out
 from ros2cc_extract.extract.static.units.whole_program.double_spins import are_concurrent
-from ros2cc_extract.spec.joined import KINDS, Joined, joined
+from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined
 from ros2cc_extract.spec.model import Executor, Spec, collect_unresolved
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
-from ros2cc_extract.extract.static.concurrency.machine.rises import MOST
+from ros2cc_extract.extract.static.concurrency.machine.counters import MOST
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ClockRef,
@@ -28,7 +28,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
@@ -56,8 +56,8 @@ from ros2cc_extract.extract.static.units.wakers.unsendable_messages import (
     sent_in_hold,
     unsent_before_end,
 )
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import (
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import (
     BY_ITSELF,
     OUTSIDE,
     POLLING_LOOP,
@@ -102,7 +102,7 @@ class UnitWaits(DataWriters):
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
         """Waits of code that no callback runs, each as it was met and as the unit tells it."""
-        doer = ActivityState(ActivityKind.MAIN, NOWHERE, deeds=Deeds(blocking=raws))
+        doer = ActivityState(ActivityKind.MAIN, NOWHERE, effects=EffectLog(blocking=raws))
         kept = self._kept[id(doer)] = self._keep(doer)
         named = self.of(doer)
         del self._kept[id(doer)]
@@ -111,7 +111,7 @@ class UnitWaits(DataWriters):
     def _keep(self, doer: Doer) -> Kept:
         """Waits for one of several that have no name here are alike."""
         kept = Kept()
-        for raw in (doer.deeds or Deeds()).blocking:
+        for raw in (doer.effects or EffectLog()).blocking:
             if not self._is_none(raw, doer) and not self._gives_back(raw, doer):
                 named = self._named(raw)
                 if named not in kept.named:
@@ -208,7 +208,7 @@ class UnitWaits(DataWriters):
         forked = self._world.forked
         if raw.call in OF_CHILDREN and forked is not None and raw.escapes is None:
             raw = replace(raw, escapes=Unknown(_OF_FORK, forked))
-        unread = child_pipes.unread_at(self._world, raw, doer.deeds or Deeds())
+        unread = child_pipes.unread_at(self._world, raw, doer.effects or EffectLog())
         named = replace(named, unread=unread)
         row = WAITS.get(raw.call, NO_ROW)
         wakers = [Waker(by=by) for by in row.always]

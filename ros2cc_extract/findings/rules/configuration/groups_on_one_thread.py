@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import listing, made_at
+from ros2cc_extract.findings.base.wording import listing, made_at
 from ros2cc_extract.findings.waits.waits import WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
 from ros2cc_extract.spec.model import CallbackGroup

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import plural
+from ros2cc_extract.findings.base.wording import plural
 from ros2cc_extract.findings.waits.capacity import capacity_of
 from ros2cc_extract.findings.waits.workers import Workers, workers_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -7,10 +7,10 @@ from pathlib import PurePath
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import listing, shown
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.findings.base.wording import listing, shown
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import is_client
 from ros2cc_extract.spec.model import NO_EXECUTOR
-from ros2cc_extract.spec.partners import is_client
 
 EXECUTOR = 'executor'
 _HIDING = frozenset({'entities', 'node', 'function'})

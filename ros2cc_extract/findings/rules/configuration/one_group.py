@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import group_words, made_at, plural
+from ros2cc_extract.findings.base.wording import group_words, made_at, plural
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 
 

@@ -9,11 +9,11 @@ from itertools import combinations
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
-from ros2cc_extract.findings.base.words import called, made_at
+from ros2cc_extract.findings.base.wording import called, made_at
 from ros2cc_extract.findings.waits.concurrent_threads import beside, node_of, repeats_freely
 from ros2cc_extract.findings.waits.overlap import overlap, overlaps_itself
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.verify.results.evidence import Evidence
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at, plural, shown
+from ros2cc_extract.findings.base.wording import made_at, plural, shown
 from ros2cc_extract.findings.waits.verdicts import (
     PROGRESS,
     is_of_repeated,
@@ -17,8 +17,8 @@ from ros2cc_extract.findings.waits.verdicts import (
 )
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import is_one_thread, workers_of
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import RE_ENTRANT, Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import RE_ENTRANT, Act
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Evidence

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at, served_at, shown
+from ros2cc_extract.findings.base.wording import made_at, served_at, shown
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, refuting_run
 from ros2cc_extract.findings.waits.waits import (
     Wait,
@@ -16,9 +16,9 @@ from ros2cc_extract.findings.waits.waits import (
     ways_of_others,
 )
 from ros2cc_extract.findings.waits.workers import SINGLE
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
-from ros2cc_extract.spec.moves import named_executor
+from ros2cc_extract.spec.node_moves import named_executor
 from ros2cc_extract.spec.releases.table import NODE_STAYS, SPIN_REFUSED_TWICE
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
-from ros2cc_extract.findings.base.words import called, listing, made_at, shown
+from ros2cc_extract.findings.base.wording import called, listing, made_at, shown
 from ros2cc_extract.findings.rules.deadlocks import (
     lock_over_wait,
     nested_spin,
@@ -37,8 +37,8 @@ from ros2cc_extract.findings.waits.waits import (
     who_waits,
 )
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import WORKING_LOOP
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 EXPLAINED = (

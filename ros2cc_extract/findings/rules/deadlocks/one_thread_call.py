@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at
+from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import BLOCKING, shut_out_by, what
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import (
@@ -21,7 +21,7 @@ from ros2cc_extract.findings.waits.waits import (
     who_waits,
 )
 from ros2cc_extract.findings.waits.workers import is_one_thread
-from ros2cc_extract.spec.partners import is_client, is_done_callback
+from ros2cc_extract.spec.client_server_pairs import is_client, is_done_callback
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import group_words, made_at
+from ros2cc_extract.findings.base.wording import group_words, made_at
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_for, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback
 
 

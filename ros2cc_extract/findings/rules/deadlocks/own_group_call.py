@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import group_words, listing, made_at
+from ros2cc_extract.findings.base.wording import group_words, listing, made_at
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import (
     Wait,
@@ -21,8 +21,8 @@ from ros2cc_extract.findings.waits.waits import (
     who_waits,
 )
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.client_server_pairs import is_client
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.spec.partners import is_client
 
 BLOCKING = (WaitKind.ANSWER, WaitKind.SIGNAL)
 

@@ -8,15 +8,15 @@ from dataclasses import replace
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import called, plural, shown
+from ros2cc_extract.findings.base.wording import called, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.capacity import Capacity, capacity_of
 from ros2cc_extract.findings.waits.verdicts import is_of_repeated, run_in_which_one_hangs
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, kind_of, waits_of
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.claims import admits_one, lets_one_wait
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, When
+from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
 
 _MADE_BY_CALLBACKS = (EntityKind.DONE_CALLBACK, EntityKind.TASK)
 _TASK = 'no group holds a task: do not wait in it'

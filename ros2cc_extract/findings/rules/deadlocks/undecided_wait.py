@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import listing, shown
+from ros2cc_extract.findings.base.wording import listing, shown
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
 from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
@@ -21,8 +21,8 @@ from ros2cc_extract.findings.waits.waits import (
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 from ros2cc_extract.verify.results.caveats import open_ends
 from ros2cc_extract.verify.results.results import Verdict

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at
+from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.waits.waits import ASYNCIO_SLEEP, Wait, waits_of
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at
+from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.waits.workers import EVENTS
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, EntityKind
 from ros2cc_extract.spec.releases.table import COROUTINES_IN_EVENTS
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at, served_at
+from ros2cc_extract.findings.base.wording import made_at, served_at
 from ros2cc_extract.findings.rules.deadlocks.nested_spin import is_executor_call, is_global
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import shown
+from ros2cc_extract.findings.base.wording import shown
 from ros2cc_extract.findings.races.goal_admission import LateClaim, late_claims
 from ros2cc_extract.findings.races.races import Race, races_of
 from ros2cc_extract.findings.rules.races.lost_update import OF_OTHER_RULES, hit_of

@@ -6,7 +6,7 @@ from collections.abc import Container, Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at
+from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.races.races import IN_ONE_PIECE, LOSING, RaceKind, races_of
 from ros2cc_extract.findings.races.self_races import (
@@ -23,8 +23,8 @@ from ros2cc_extract.findings.waits.one_shot_timers import (
 from ros2cc_extract.findings.waits.overlap import interleaves, is_quick, overlaps_itself
 from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Act
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind
 
 _TWICE = {

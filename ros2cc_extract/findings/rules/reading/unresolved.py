@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import listing
+from ros2cc_extract.findings.base.wording import listing
 from ros2cc_extract.findings.rules.configuration.not_served import EXECUTOR, is_not_served
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 ENTITIES = 'entities'
 """The fact that is missing where something was not followed to its end."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at, served_at
+from ros2cc_extract.findings.base.wording import made_at, served_at
 from ros2cc_extract.findings.waits.waits import (
     Wait,
     WaitKind,
@@ -18,8 +18,8 @@ from ros2cc_extract.findings.waits.waits import (
     who_waits,
 )
 from ros2cc_extract.findings.waits.workers import is_one_thread
+from ros2cc_extract.spec.client_server_pairs import server_of
 from ros2cc_extract.spec.model import Callback, EntityKind, When
-from ros2cc_extract.spec.partners import server_of
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import group_words, made_at, served_at
+from ros2cc_extract.findings.base.wording import group_words, made_at, served_at
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import is_one_thread
-from ros2cc_extract.spec.deeds import ABORTS, TURN
+from ros2cc_extract.spec.effects import ABORTS, TURN
 from ros2cc_extract.spec.model import Callback, EntityKind
-from ros2cc_extract.spec.order import steps
+from ros2cc_extract.spec.program_order import steps
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import group_words, made_at, shown
+from ros2cc_extract.findings.base.wording import group_words, made_at, shown
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import MULTI
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, CallbackGroup, Spec
 from ros2cc_extract.spec.releases.table import POOL_ORDER_VARIES
 from ros2cc_extract.verify.results.load import Load, LoadKind, load_of, served_before

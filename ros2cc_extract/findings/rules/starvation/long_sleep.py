@@ -10,7 +10,7 @@ from math import inf
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import (
+from ros2cc_extract.findings.base.wording import (
     called,
     group_words,
     made_at,

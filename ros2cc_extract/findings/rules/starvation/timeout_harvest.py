@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.words import made_at, shown
+from ros2cc_extract.findings.base.wording import made_at, shown
 from ros2cc_extract.findings.waits.waits import WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import SINGLE
 from ros2cc_extract.spec.releases.table import TIMEOUT_KEEPS_HARVEST

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 
 PROGRAM = """\
 import rclpy

@@ -6,7 +6,7 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.collect import findings_of_unit
-from ros2cc_extract.spec.deeds import TIME, Blocking, Waker
+from ros2cc_extract.spec.effects import TIME, Blocking, Waker
 from ros2cc_extract.spec.model import Spec
 
 PROGRAM = """\

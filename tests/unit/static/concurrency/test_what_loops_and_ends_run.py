@@ -9,7 +9,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.spec.deeds import TIME, Blocking
+from ros2cc_extract.spec.effects import TIME, Blocking
 
 HEAD = """\
 import atexit

@@ -27,7 +27,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 PROGRAM = """
 import kitchen

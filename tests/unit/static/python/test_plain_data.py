@@ -9,7 +9,7 @@ import pytest
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.extract.static.scan import guarded_runs
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 NAMES = [f'read_{number}' for number in range(20)]
 HEAD = 'import json\nimport rclpy\nfrom rclpy.node import Node\nfrom tools import notify\n\n'

@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.extract.static.python.language.assignments import MOST_UNSURE, drawn_together
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Value, options_of
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 ONE, OTHER = Const('one'), Const('other')
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, Access, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, Executor, Spec, When
 
 
@@ -30,10 +30,10 @@ def _unit(unit: Spec) -> Iterator[str]:
     yield from (f'  {_group(group)}' for group in unit.groups)
     for callback in unit.callbacks:
         yield f'  {_callback(callback, unit)}'
-        yield from (f'    {line}' for line in _deeds(callback))
+        yield from (f'    {line}' for line in _effects(callback))
     for activity in unit.activities:
         yield f'  {_activity(activity)}'
-        yield from (f'    {line}' for line in _deeds(activity))
+        yield from (f'    {line}' for line in _effects(activity))
     for fact in unit.unresolved:
         yield f'  ? {fact.subject} {fact.fact}'
 
@@ -136,7 +136,7 @@ def _activity(activity: Activity) -> str:
     return ' '.join(words)
 
 
-def _deeds(callback: Callback | Activity) -> Iterator[str]:
+def _effects(callback: Callback | Activity) -> Iterator[str]:
     for block in callback.blocking:
         yield _blocking(block)
         yield from (f'  {line}' for line in _ends(block))

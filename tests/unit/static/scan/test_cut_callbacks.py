@@ -8,9 +8,9 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.extract.static.scan import guarded_runs
 from ros2cc_extract.generator.build import Family, Profile
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 

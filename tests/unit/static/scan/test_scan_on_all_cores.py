@@ -13,12 +13,12 @@ from tests.support.trees import write_tree
 PROGRAM = """
 import sys
 from pathlib import Path
-from ros2cc_extract import crew
+from ros2cc_extract import process_pool
 from ros2cc_extract.extract.static.api import scan
 
 started = []
-start = crew.Crew._start_child
-crew.Crew._start_child = lambda self, *given: (started.append(1), start(self, *given))
+start = process_pool.Crew._start_child
+process_pool.Crew._start_child = lambda self, *given: (started.append(1), start(self, *given))
 print(scan([Path(p) for p in sys.argv[2:]], processes=int(sys.argv[1])))
 print(len(started), 'children', file=sys.stderr)
 """

@@ -8,7 +8,7 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Spec
 
 NODE = """\

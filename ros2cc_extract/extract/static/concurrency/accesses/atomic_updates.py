@@ -33,7 +33,7 @@ def noted(
 ) -> Iterator[None]:
     """While the statement is followed, its write is known to be in one piece, if it is."""
     reading = machine.world.reading
-    if machine.world.deeds is None:
+    if machine.world.effects is None:
         yield
         return
     reading.is_whole = _is_whole(machine, node, frame)
@@ -54,13 +54,13 @@ def _is_whole(machine: ConcurrentMachine, node: ast.AugAssign | ast.Assign, fram
         return False  # nothing that others write is read for it
     if computed_from(node.value, frame.sources):
         return False  # a copy of shared data that was read before
-    deeds, machine.world.deeds = machine.world.deeds, None
+    effects, machine.world.effects = machine.world.effects, None
     try:
         with machine.world.reading.apart():
             leaves = [leaf for part in parts for leaf in _leaves(part)]
             return all(_is_plain(machine, leaf, frame) for leaf in leaves)
     finally:
-        machine.world.deeds = deeds
+        machine.world.effects = effects
 
 
 def _as_read(target: ast.expr) -> ast.expr:

@@ -18,8 +18,8 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWo
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.values.values import NONE, Const, Value, options_of
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
 
 _THEN, _ELSE, _AFTER = 0, 1, -1
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
@@ -123,7 +123,7 @@ def put_up(world: ConcurrentWorld, name: str) -> None:
 
 def has_waited(world: ConcurrentWorld) -> bool:
     """Whether who is followed may have waited by now."""
-    return world.deeds is not None and world.deeds.behind is not None
+    return world.effects is not None and world.effects.behind is not None
 
 
 def put_down(world: ConcurrentWorld, name: str) -> None:

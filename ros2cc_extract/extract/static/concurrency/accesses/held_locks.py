@@ -15,7 +15,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.spec.deeds import RE_ENTRANT
+from ros2cc_extract.spec.effects import RE_ENTRANT
 
 GIVEN = '__given_lock__'
 """Slot of a condition for the lock that it was made with."""
@@ -31,7 +31,7 @@ def held_over(world: ConcurrentWorld, on: Value | None) -> tuple[str, ...]:
     Left out is who does not keep others out for certain: semaphores, locks of the program's own,
     locks that were taken with a time-out. A condition is given back while it is waited for.
     """
-    tried = {act.name for act in world.deeds.locks if act.tries} if world.deeds else set()
+    tried = {act.name for act in world.effects.locks if act.tries} if world.effects else set()
     return tuple(
         name + RE_ENTRANT * _RE_ENTRANT[kind]
         for name in dict.fromkeys(world.held)

@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import noted_on, unmangled, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Piece
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Piece
 from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -27,8 +27,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Access
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Access
 
 _SENDS = 'publish'
 _DEPTH = 8
@@ -38,7 +38,7 @@ def note_changed(
     machine: ConcurrentMachine, target: ast.expr, frame: Frame, how: str = ''
 ) -> None:
     """An attribute or item of an object is stored, or a collection in it changes in place."""
-    if machine.world.deeds is None or not isinstance(target, (ast.Attribute, ast.Subscript)):
+    if machine.world.effects is None or not isinstance(target, (ast.Attribute, ast.Subscript)):
         return
     whole = _whole(machine, target.value, frame)
     if whole is not None:
@@ -49,7 +49,7 @@ def note_changed(
 def note_sent(machine: ConcurrentMachine, function: Value, node: ast.Call, frame: Frame) -> None:
     """``publisher.publish(self.state)``: all of the object is read."""
     is_sent = isinstance(function, Native) and function.name.rpartition('.')[2] == _SENDS
-    if machine.world.deeds is None or not is_sent or len(node.args) != 1:
+    if machine.world.effects is None or not is_sent or len(node.args) != 1:
         return
     whole = _object(machine, node.args[0], frame)
     if whole is not None:
@@ -67,8 +67,8 @@ def note_held(
 def _note(
     machine: ConcurrentMachine, whole: str, place: Place, part: str, *, again: bool = False
 ) -> None:
-    world, deeds = machine.world, machine.world.deeds
-    assert deeds is not None
+    world, effects = machine.world, machine.world.effects
+    assert effects is not None
     access = Access(
         name=whole,
         source=place,
@@ -78,8 +78,8 @@ def _note(
         chain=world.chain[1:],
     )
     piece = Piece(access, part, world.path, again)
-    if piece not in deeds.pieces[-RECENT:]:
-        deeds.pieces.append(piece)
+    if piece not in effects.pieces[-RECENT:]:
+        effects.pieces.append(piece)
 
 
 def _object(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | None:
@@ -120,7 +120,7 @@ def _attribute(machine: ConcurrentMachine, node: ast.Attribute, frame: Frame) ->
         if isinstance(owner, Instance) and isinstance(owner.cls, Class):
             held = owner.slots.get(frame.attribute_name(node.attr))
             options = options_of(held) if isinstance(held, Value) else ()
-            is_own = owner.born is machine.world.deeds
+            is_own = owner.born is machine.world.effects
             if not is_own and any(isinstance(option, Mystery) for option in options):
                 name = unmangled(frame.attribute_name(node.attr), owner.cls.name)
                 return f'{collection_aliases.object_name(owner, owner.cls)}.{name}'
@@ -135,13 +135,13 @@ def _known(machine: ConcurrentMachine, node: ast.Name, frame: Frame) -> str | No
 
 
 def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> Value:
-    noted, machine.world.deeds = machine.world.deeds, None
+    noted, machine.world.effects = machine.world.effects, None
     before = machine.world.changing
     try:
         with machine.world.reading.apart():
             return machine.evaluate(node, frame)
     finally:
-        machine.world.deeds, machine.world.changing = noted, before
+        machine.world.effects, machine.world.changing = noted, before
 
 
 def _alias(node: ast.Name, frame: Frame) -> ast.expr | None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.values.values import Function
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
 Held = frozenset[bool]

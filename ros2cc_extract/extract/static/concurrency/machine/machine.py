@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Cl
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 
 class ConcurrentMachine(Machine, ABC):

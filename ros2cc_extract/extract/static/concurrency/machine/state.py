@@ -17,11 +17,11 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
 )
 from ros2cc_extract.extract.static.python.machine.library_state import BESIDE, LibraryState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Call, Heaped, Instance, Path, Value
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 
@@ -53,7 +53,7 @@ class ActivityState(Doer):
     call: Call | None = None
     runners: list[Value] = field(default_factory=list)
     starts: list[Waking] = field(default_factory=list)
-    deeds: Deeds = field(default_factory=Deeds)
+    effects: EffectLog = field(default_factory=EffectLog)
     path: Path = ()
     count: int | Unknown = 1
     daemon: bool = False
@@ -223,7 +223,7 @@ class ConcurrentWorld(World):
     flag_tests: dict[str, set[str]] = field(default_factory=dict)
     found_down: frozenset[str] = frozenset()
     still_down: frozenset[str] = frozenset()
-    readers: dict[Place, list[Deeds | None]] = field(default_factory=dict)
+    readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
     homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
     objects: dict[Value, str] = field(default_factory=dict)

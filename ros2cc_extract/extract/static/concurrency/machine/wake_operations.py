@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.concurrency.machine.rises import Rise
+from ros2cc_extract.extract.static.concurrency.machine.counters import Rise
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Hold
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
 from ros2cc_extract.extract.static.python.values.values import Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class EntityRef(str):
@@ -39,7 +39,7 @@ class SettableRef(EntityRef):
 @dataclass(frozen=True)
 class Guard:
     """
-    What a wait for a condition rests on, see ``lost_notifies.py``.
+    What a wait for a condition rests on, see ``lost_notifications.py``.
 
     :param hold: of the lock of the condition; ``None`` where that was not followed.
     :param names: of the data that was asked for in that hold.
@@ -90,7 +90,7 @@ class Waking:
 
     :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
         calls.
-    :param behind: the last wait of ``by`` before it, see ``Deeds.behind``.
+    :param behind: the last wait of ``by`` before it, see ``EffectLog.behind``.
     :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
         in which it stands itself.
     :param uncalled: in whose text, which nobody in sight calls, it stands.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
+from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
@@ -38,7 +38,11 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_end
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer, way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import (
+    Doer,
+    EffectLog,
+    way_of,
+)
 from ros2cc_extract.extract.static.python.machine.waitable_objects import (
     INITIAL,
     SETTABLE,
@@ -56,8 +60,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import TURN, Blocking, Needs
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -67,7 +71,7 @@ class Waits(ConcurrentMachine):
     def note_endless(self, node: ast.While, place: Place) -> None:
         """A loop was followed that nothing but the end of the program ends."""
         world = self.world
-        is_telling = world.activity is not None and world.deeds is not None
+        is_telling = world.activity is not None and world.effects is not None
         if is_telling and is_endless(node) and world.path == world.callback_path:
             state = world.activity
             assert state is not None
@@ -79,26 +83,26 @@ class Waits(ConcurrentMachine):
         self, name: str, on: Value | None, seconds: Value | None, place: Place
     ) -> None:
         """A call that can hold its thread."""
-        world, deeds = self.world, self.world.deeds
+        world, effects = self.world, self.world.effects
         row: WaitRow = self.model.waits.get(name, NO_ROW)
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
             return
-        if deeds is None or _is_main(world.activity):
+        if effects is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
         block, thing = self._block(name, on, seconds, place)
-        if deeds is None:
+        if effects is None:
             values_during_waits.note_met(world, thing)
             self._note_in_set_up(block, thing, place)
             return
         touch(world.activity, thing)
         if thing is not None:
             self.store.show(thing)
-        deeds.behind = way_of(block)
+        effects.behind = way_of(block)
         if world.open_loops:
-            deeds.looped.add(way_of(block))
-        _note_round(deeds, block, world.round)
+            effects.looped.add(way_of(block))
+        _note_round(effects, block, world.round)
 
     def _block(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -140,7 +144,7 @@ class Waits(ConcurrentMachine):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
-        world, deeds = self.world, self.world.deeds
+        world, effects = self.world, self.world.effects
         block = Blocking(
             call=name,
             source=place,
@@ -152,12 +156,12 @@ class Waits(ConcurrentMachine):
             escapes=on if isinstance(on, Unknown) else None,
             conditional=world.path != world.callback_path,
         )
-        if deeds is None:
+        if effects is None:
             self._note_in_set_up(block, None, place, spun)
             return
-        deeds.behind = way_of(block)
-        if block not in deeds.blocking[-RECENT:]:
-            deeds.blocking.append(block)
+        effects.behind = way_of(block)
+        if block not in effects.blocking[-RECENT:]:
+            effects.blocking.append(block)
 
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called, perhaps by the name of a wait."""
@@ -186,17 +190,17 @@ class Waits(ConcurrentMachine):
         reference.ended_by = row.ended_by
         reference.asked = asked
         reference.is_kept = row.needs is Needs.ONCE
-        if self.world.deeds is not None:
-            reference.sent = sent_before(self.world.deeds, thing)
-            answered = sent_before_clear(self.world.deeds, thing)
+        if self.world.effects is not None:
+            reference.sent = sent_before(self.world.effects, thing)
+            answered = sent_before_clear(self.world.effects, thing)
             reference.answered = answered if reference.is_kept else frozenset()
         reference.initial = _initial(thing, row)
         reference.made, reference.is_own = thing.place, thing.born is not None
         if Word.ARRIVE in row.ended_by:
             reference.parties = _number(thing.slots.get(INITIAL))
         reference.like = self._made_there(thing)
-        if name in lost_notifies.CONDITION_WAITS:
-            reference.guard = lost_notifies.guard_of(self.world, thing)
+        if name in lost_notifications.CONDITION_WAITS:
+            reference.guard = lost_notifications.guard_of(self.world, thing)
         return reference
 
     def _made_there(self, thing: Instance) -> list[int]:
@@ -217,7 +221,7 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
         self._note_outside(name, on, seconds, place, spun)
-        if on is not None and (self.world.deeds is None or _is_main(self.world.activity)):
+        if on is not None and (self.world.effects is None or _is_main(self.world.activity)):
             call = name if name in self.model.waits else SPIN_UNTIL
             block, thing = self._block(call, on, seconds, place)
             values_during_waits.note_met(self.world, thing)
@@ -274,14 +278,14 @@ class Waits(ConcurrentMachine):
 
     def note_turn(self, place: Place) -> None:
         """A coroutine lets the executor run others and goes on by itself."""
-        if self.world.deeds is not None and self.world.in_callback:
+        if self.world.effects is not None and self.world.in_callback:
             self.note_blocking(TURN, None, Const(0), place)
 
     def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
         world = self.world
         activity = world.activity
-        if activity is not None and world.deeds is None and not activity.is_executor:
+        if activity is not None and world.effects is None and not activity.is_executor:
             activity.wakes.append((thing, word, place))  # it may be followed once more
             return
         for option in options_of(thing):
@@ -295,13 +299,13 @@ class Waits(ConcurrentMachine):
 
     def _waking(self, thing: Value, word: Word, place: Place, *, is_sign: bool) -> Waking:
         world = self.world
-        doer = world.activity or (world.current if world.deeds is not None else None)
+        doer = world.activity or (world.current if world.effects is not None else None)
         is_uncalled = doer is None and world.when is When.LATER
         return Waking(
             word,
             doer,
             place,
-            behind=world.deeds.behind if world.deeds is not None else None,
+            behind=world.effects.behind if world.effects is not None else None,
             conditional=world.path != world.callback_path if doer else bool(world.path),
             after_spin=world.after_spin,
             spins=0 if world.spun_in_loop else world.main_spins,
@@ -311,8 +315,8 @@ class Waits(ConcurrentMachine):
             in_loop=world.open_loops > 0,
             unless_done=doer is not None and _only_unless_done(world, thing, word),
             repeats=bool(world.reading.loops),
-            told=frozenset(access.name for access in (world.deeds or Deeds()).writes),
-            holds=lost_notifies.holds_of(world),
+            told=frozenset(access.name for access in (world.effects or EffectLog()).writes),
+            holds=lost_notifications.holds_of(world),
             is_sign=is_sign,
         )
 
@@ -391,18 +395,18 @@ def _is_same_waking(one: Waking, other: Waking) -> bool:
     )
 
 
-def _note_round(deeds: Deeds, block: Blocking, current: tuple[int, ...]) -> None:
+def _note_round(effects: EffectLog, block: Blocking, current: tuple[int, ...]) -> None:
     """A wait that is met again in another round of a loop is waited once more."""
-    number = len(deeds.blocking)
+    number = len(effects.blocking)
     for known in range(number - 1, max(0, number - RECENT) - 1, -1):
-        other = deeds.blocking[known]
+        other = effects.blocking[known]
         if _is_same_wait(block, replace(other, times=block.times)):
-            rounds = deeds.rounds.setdefault(known, set())
+            rounds = effects.rounds.setdefault(known, set())
             rounds.add(current)
-            deeds.blocking[known] = replace(other, times=len(rounds) * block.times)
+            effects.blocking[known] = replace(other, times=len(rounds) * block.times)
             return
-    deeds.rounds[number] = {current}
-    deeds.blocking.append(block)
+    effects.rounds[number] = {current}
+    effects.blocking.append(block)
 
 
 def _is_same_wait(one: Blocking, other: Blocking) -> bool:

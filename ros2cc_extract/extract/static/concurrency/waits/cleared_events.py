@@ -7,27 +7,27 @@ Events that are cleared behind the message that brings who sets them.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 
 CLEAR, WAIT = 'clear', 'wait'
 _SEND = 'send'
 
 
-def note_sent(deeds: Deeds, topic: str) -> None:
+def note_sent(effects: EffectLog, topic: str) -> None:
     """A message is published."""
-    deeds.order.append((_SEND, topic.strip('/')))
+    effects.order.append((_SEND, topic.strip('/')))
 
 
-def note_cleared(deeds: Deeds | None, event: object) -> None:
+def note_cleared(effects: EffectLog | None, event: object) -> None:
     """An event is cleared."""
-    if deeds is not None:
-        deeds.order.append((CLEAR, id(event)))
+    if effects is not None:
+        effects.order.append((CLEAR, id(event)))
 
 
-def sent_before(deeds: Deeds, thing: object) -> frozenset[str]:
+def sent_before(effects: EffectLog, thing: object) -> frozenset[str]:
     """The topics on which was published since the last wait for ``thing``; a wait begins."""
     sent = set[str]()
-    for kind, what in reversed(deeds.order):
+    for kind, what in reversed(effects.order):
         if (kind, what) == (WAIT, id(thing)):
             break
         if kind == _SEND:
@@ -35,28 +35,28 @@ def sent_before(deeds: Deeds, thing: object) -> frozenset[str]:
     return frozenset(sent)
 
 
-def sent_up_to(deeds: Deeds, number: int) -> frozenset[str]:
+def sent_up_to(effects: EffectLog, number: int) -> frozenset[str]:
     """The topics on which was published by then, where nothing is behind that."""
-    is_last = all(kind != _SEND for kind, _ in deeds.order[number:])
-    sent = (str(what) for kind, what in deeds.order[:number] if kind == _SEND)
+    is_last = all(kind != _SEND for kind, _ in effects.order[number:])
+    sent = (str(what) for kind, what in effects.order[:number] if kind == _SEND)
     return frozenset(sent) if is_last else frozenset()
 
 
-def sent_by_now(deeds: Deeds) -> frozenset[str]:
+def sent_by_now(effects: EffectLog) -> frozenset[str]:
     """The topics on which the run that is followed has published so far."""
-    return frozenset(str(what) for kind, what in deeds.order if kind == _SEND)
+    return frozenset(str(what) for kind, what in effects.order if kind == _SEND)
 
 
-def sent_before_clear(deeds: Deeds, event: object) -> frozenset[str]:
+def sent_before_clear(effects: EffectLog, event: object) -> frozenset[str]:
     """The topics on which was published before the last clear, and not again; a wait begins."""
     sent: dict[bool, set[str]] = {False: set(), True: set()}
     is_before = False
-    for kind, what in reversed(deeds.order):
+    for kind, what in reversed(effects.order):
         if kind == _SEND:
             sent[is_before].add(str(what))
         elif what == id(event):
             if kind == WAIT:
                 break
             is_before = True
-    deeds.order.append((WAIT, id(event)))
+    effects.order.append((WAIT, id(event)))
     return frozenset(sent[True] - sent[False])

@@ -10,8 +10,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
+from ros2cc_extract.extract.static.concurrency.machine.counters import Rise, Step, is_number
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.machine.rises import Rise, Step, is_number
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
 
@@ -34,13 +34,13 @@ def rise_of(machine: ConcurrentMachine, tests: Sequence[ast.expr], frame: Frame)
 
 def note_step(machine: ConcurrentMachine, node: ast.Assign | ast.AugAssign, frame: Frame) -> None:
     """A number grows: ``self.arrived += 1``."""
-    deeds, added = machine.world.deeds, _added(node)
-    if deeds is None or added is None:
+    effects, added = machine.world.effects, _added(node)
+    if effects is None or added is None:
         return
     place = frame.place(node.target if isinstance(node, ast.AugAssign) else node.targets[0])
-    is_first = place not in deeds.steps and not deeds.loops and not machine.world.open_loops
+    is_first = place not in effects.steps and not effects.loops and not machine.world.open_loops
     if isinstance(added, ast.Constant) and isinstance(added.value, (int, float)):
-        deeds.steps[place] = Step(added.value, repeats=not is_first)
+        effects.steps[place] = Step(added.value, repeats=not is_first)
 
 
 def _added(node: ast.Assign | ast.AugAssign) -> ast.expr | None:

@@ -13,10 +13,10 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
 )
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import When
 
 JOIN = 'Thread.join'
@@ -119,7 +119,7 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
 
 def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     """The program, which no executor runs, waits for the end of ``thread``."""
-    is_set_up = world.deeds is None or world.activity is not None
+    is_set_up = world.effects is None or world.activity is not None
     if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
         is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))

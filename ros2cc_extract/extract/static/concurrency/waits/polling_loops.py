@@ -42,7 +42,7 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -53,8 +53,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
 
 POLL = POLLING_LOOP
 
@@ -71,11 +71,11 @@ class Mark:
 
 def mark(machine: ConcurrentMachine) -> Mark | None:
     """Before the loop; ``None`` where nothing is noted."""
-    deeds = machine.world.deeds
+    effects = machine.world.effects
     return (
         None
-        if deeds is None
-        else Mark(len(deeds.blocking), len(deeds.writes), len(deeds.own), len(deeds.order))
+        if effects is None
+        else Mark(len(effects.blocking), len(effects.writes), len(effects.own), len(effects.order))
     )
 
 
@@ -88,7 +88,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     :param told: what its test tells.
     """
     world = machine.world
-    if world.deeds is None and not is_idle(loop):
+    if world.effects is None and not is_idle(loop):
         return
     place = frame.place(loop)
     _note_rest(machine, loop, frame)
@@ -103,8 +103,8 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
 
 def _note_rest(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """A loop of asyncio runs others in each round that awaits."""
-    if machine.world.deeds is not None and awaits_each_round(loop):
-        machine.world.deeds.resting.update(map(frame.place, (loop, *exit_tests(loop))))
+    if machine.world.effects is not None and awaits_each_round(loop):
+        machine.world.effects.resting.update(map(frame.place, (loop, *exit_tests(loop))))
 
 
 def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
@@ -182,11 +182,11 @@ def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
 def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
     """What a test tells where it stands, without any note of what it reads."""
     world = machine.world
-    noted, ready, world.deeds = world.deeds, world.ready, Deeds()
+    noted, ready, world.effects = world.effects, world.ready, EffectLog()
     try:
         return told_by(machine.evaluate(test, frame))
     finally:
-        world.deeds, world.ready = noted, ready
+        world.effects, world.ready = noted, ready
 
 
 def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
@@ -200,16 +200,16 @@ def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) ->
 
 def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
     """After one round of ``loop``."""
-    deeds = machine.world.deeds
-    if before is None or deeds is None:
+    effects = machine.world.effects
+    if before is None or effects is None:
         _note_set_up(machine, loop, frame)
         _note_spinning(machine, loop, frame)
         return
-    _note_asked(machine, loop, deeds, before, frame)
-    _note_own_end(machine.world, loop, deeds, before, frame)
+    _note_asked(machine, loop, effects, before, frame)
+    _note_own_end(machine.world, loop, effects, before, frame)
     asked = machine.world.reading.asked.get(frame.place(loop))
-    inside = deeds.blocking[before.waits :]
-    if _is_told(machine, loop, deeds, before) or any(_is_guarded(b, asked) for b in inside):
+    inside = effects.blocking[before.waits :]
+    if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
         return
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):
@@ -222,25 +222,25 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
             machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
         return
     names = _read(machine, [test for test in tests if not asks_object(test)], frame)
-    written = {access.name for access in deeds.writes[before.writes :]}
-    if names & (written | set(deeds.own[before.own :])):
+    written = {access.name for access in effects.writes[before.writes :]}
+    if names & (written | set(effects.own[before.own :])):
         return
-    _note(machine, loop, frame, tests, names, sent_up_to(deeds, before.order))
+    _note(machine, loop, frame, tests, names, sent_up_to(effects, before.order))
 
 
 def _note_own_end(
-    world: ConcurrentWorld, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+    world: ConcurrentWorld, loop: ast.While, effects: EffectLog, before: Mark, frame: Frame
 ) -> None:
     """A thread that works until it has set itself what it tests waits for nobody."""
     place, lines = frame.place(loop), range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
-    for number, block in enumerate(deeds.blocking[before.waits :], before.waits):
+    for number, block in enumerate(effects.blocking[before.waits :], before.waits):
         if block.call != WORKING_LOOP or not isinstance(block.resource, ResourceRef):
             continue
         wakings = world.wakings.get(block.resource.number, ())
         own_places = [waking.place for waking in wakings if waking.by is world.activity]
         if any(each.file == place.file and each.line in lines for each in own_places):
             own = Unknown('the loop sets itself what ends it', place)
-            deeds.blocking[number] = replace(block, seconds=block.seconds or own)
+            effects.blocking[number] = replace(block, seconds=block.seconds or own)
 
 
 def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
@@ -301,13 +301,17 @@ def _holds(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
 
 
 def _note_asked(
-    machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark, frame: Frame
+    machine: ConcurrentMachine,
+    loop: ast.While,
+    effects: EffectLog,
+    before: Mark,
+    frame: Frame,
 ) -> None:
     """A condition is waited on only where the test of the loop has come out so."""
-    for number in range(before.waits, len(deeds.blocking)):
-        block = deeds.blocking[number]
+    for number in range(before.waits, len(effects.blocking)):
+        block = effects.blocking[number]
         if block.call == 'Condition.wait' and _read(machine, [loop.test], frame):
-            deeds.blocking[number] = replace(block, conditional=True)
+            effects.blocking[number] = replace(block, conditional=True)
 
 
 def _note(
@@ -324,13 +328,14 @@ def _note(
     ends_otherwise = any(_is_foreign(machine, test, loop, frame) for test in tests)
     if names:
         own = frozenset(
-            (access.name, access.source) for access in (machine.world.deeds or Deeds()).writes
+            (access.name, access.source)
+            for access in (machine.world.effects or EffectLog()).writes
         )
         reference = DataRef(sorted(names)[0])
         reference.names, reference.before = frozenset(names), own
         reference.rise = rise_of(machine, tests, frame)
         reference.sent = sent
-        reference.sent_by_now = sent_by_now(machine.world.deeds or Deeds())
+        reference.sent_by_now = sent_by_now(machine.world.effects or EffectLog())
         reason = Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
     elif (not ends_otherwise or only_sleeps(loop, tests)) and not any(
@@ -347,9 +352,11 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
     return guard is not None and asked is not None and guard.hold in asked.holds
 
 
-def _is_told(machine: ConcurrentMachine, loop: ast.While, deeds: Deeds, before: Mark) -> bool:
+def _is_told(
+    machine: ConcurrentMachine, loop: ast.While, effects: EffectLog, before: Mark
+) -> bool:
     """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
-    inside = deeds.blocking[before.waits :]
+    inside = effects.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(machine, block.call)]
     if any(block.call in ('busy wait', 'await') or 'spin' in block.call for block in others):
         return True
@@ -364,13 +371,13 @@ def _is_pause(machine: ConcurrentMachine, call: str) -> bool:
 def _read(machine: ConcurrentMachine, tests: list[ast.expr], frame: Frame) -> set[str]:
     """Names of the shared data that the tests read."""
     world = machine.world
-    noted, world.deeds = world.deeds, Deeds()
+    noted, world.effects = world.effects, EffectLog()
     try:
         for test in tests:
             machine.evaluate(test, frame)
-        return {access.name for access in world.deeds.reads}
+        return {access.name for access in world.effects.reads}
     finally:
-        world.deeds = noted
+        world.effects = noted
 
 
 def _is_foreign(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
@@ -393,11 +400,11 @@ def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> boo
     if not isinstance(part, ast.Call):
         return False
     world = machine.world
-    noted, world.deeds = world.deeds, Deeds()
+    noted, world.effects = world.effects, EffectLog()
     try:
         called = options_of(machine.evaluate(part.func, frame))
     finally:
-        world.deeds = noted
+        world.effects = noted
     functions = [each.function if isinstance(each, Bound) else each for each in called]
     return bool(functions) and all(map(_asks_nobody, functions))
 

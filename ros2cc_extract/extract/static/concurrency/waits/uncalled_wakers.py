@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 _METHODS: dict[str, Word] = {
     'set': Word.SET,

@@ -7,7 +7,7 @@ import ast
 from ros2cc_extract.extract.static.concurrency.waits.completed_futures import is_done_before
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Call, Const, Mystery, Value
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 NAME = 'unknown wait'
 """How they are called in a specification."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.spec.deeds import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
 
 SPIN_UNTIL = 'spin_until_future_complete'
 """How code that no callback runs waits for a future, and spins meanwhile."""

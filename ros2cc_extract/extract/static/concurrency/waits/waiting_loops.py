@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
-from ros2cc_extract.spec.deeds import WORKING_LOOP
+from ros2cc_extract.spec.effects import WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind
 
 _PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
+from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     make_node,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import add_task
-from ros2cc_extract.extract.static.libraries.standard.blocks import StandardBlocks
+from ros2cc_extract.extract.static.libraries.standard.context_exits import StandardBlocks
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.world import note_once
@@ -45,8 +45,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import ABORTS, Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import ABORTS, Act
 from ros2cc_extract.spec.model import EntityKind
 
 _ENTITY_ONLY = frozenset((*CREATE_CALLS, 'create_rate'))
@@ -169,11 +169,11 @@ class RosNotes(StandardBlocks, RosMachine):
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
         """``goal_handle.abort()`` of a goal that is not known: one that runs is told to stop."""
         super().note_call(function, node, frame)
-        deeds, called = self.world.deeds, node.func
+        effects, called = self.world.effects, node.func
         is_abort = isinstance(called, ast.Attribute) and called.attr == ABORTS
-        if deeds is not None and is_abort and isinstance(function, Mystery):
+        if effects is not None and is_abort and isinstance(function, Mystery):
             act = Act(name=ABORTS, source=frame.place(node), chain=self.world.chain[1:])
-            note_once(deeds.changes, act)
+            note_once(effects.changes, act)
 
     def note_clock_call(self, call: Call) -> bool:
         """The clock of a node is not followed: its methods wait by their names."""
@@ -184,15 +184,15 @@ class RosNotes(StandardBlocks, RosMachine):
 
     def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
         """Somebody waits for time that ``clock`` moves."""
-        if self.world.deeds is not None:
+        if self.world.effects is not None:
             reference = ClockRef('/clock')
             reference.number = id(clock)
             self.note_loop_on_data(name, reference, None, place)
 
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""
-        deeds = self.world.deeds
-        if deeds is None or not isinstance(publisher, Instance):
+        effects = self.world.effects
+        if effects is None or not isinstance(publisher, Instance):
             return
         key = publisher.state.key if isinstance(publisher.state, PlainState) else None
         name: str | Unknown = Unknown('topic that could not be followed', place)
@@ -201,16 +201,16 @@ class RosNotes(StandardBlocks, RosMachine):
         elif isinstance(key, Mystery):
             name = key.unknown
         is_open = self.world.path != self.world.callback_path
-        deeds.written.setdefault((name, place), (deeds.behind, is_open))
-        cleared_events.note_sent(deeds, str(name))
-        lost_notifies.note_begun(self.world, place)
-        note_once(deeds.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
+        effects.written.setdefault((name, place), (effects.behind, is_open))
+        cleared_events.note_sent(effects, str(name))
+        lost_notifications.note_begun(self.world, place)
+        note_once(effects.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))
 
     def note_change(self, what: str, node: Instance, place: Place) -> None:
         """A callback changes which executor serves ``node``."""
-        if self.world.deeds is not None:
+        if self.world.effects is not None:
             act = Act(name=what, source=place, chain=self.world.chain[1:])
-            note_once(self.world.deeds.changes, act)
+            note_once(self.world.effects.changes, act)
 
     def note_nested_spin(
         self,

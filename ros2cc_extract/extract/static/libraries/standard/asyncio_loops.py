@@ -59,7 +59,7 @@ def _by_loop(machine: ConcurrentMachine) -> Iterator[None]:
 def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) -> None:
     """Something of a loop is touched; which thread does that is told after the run."""
     world = machine.world
-    doer = world.activity or (world.current if world.deeds is not None else None)
+    doer = world.activity or (world.current if world.effects is not None else None)
     if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
         return
     touch = LoopTouch(how, thing, doer, call.place)
@@ -95,14 +95,14 @@ def _make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
     """The event loop runs it later: the callback that hands it over does none of it."""
     world = machine.world
     _note_touch(machine, receiver, 'create_task', call)
-    deeds, held, holds = world.deeds, world.held, world.holds
-    if deeds is None or (world.activity is not None and world.when is When.START):
+    effects, held, holds = world.effects, world.held, world.holds
+    if effects is None or (world.activity is not None and world.when is When.START):
         return _run_coroutine(machine, receiver, call)
-    world.deeds, world.held = None, ()
+    world.effects, world.held = None, ()
     try:
         _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
     finally:
-        world.deeds, world.held, world.holds = deeds, held, holds
+        world.effects, world.held, world.holds = effects, held, holds
     return machine.mystery('a task of asyncio', call.place, 'asyncio task')
 
 

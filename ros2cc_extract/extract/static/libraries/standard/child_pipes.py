@@ -9,10 +9,10 @@ asks for the stream before, or elsewhere in the program, counts as its reader.
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Library, Value
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Blocking
 
 _PIPE = 'subprocess.PIPE'
 _STREAMS = (('stdout', 4), ('stderr', 5))
@@ -33,23 +33,23 @@ def note_read(world: ConcurrentWorld, child: Value) -> None:
     """Somebody asks for a stream of ``child``, or lets ``communicate`` read them."""
     if isinstance(child, Instance):
         readers = world.readers.setdefault(child.place, [])
-        if not any(world.deeds is reader for reader in readers):
-            readers.append(world.deeds)
+        if not any(world.effects is reader for reader in readers):
+            readers.append(world.effects)
 
 
 def note_wait(world: ConcurrentWorld, child: Value, streams: list[str], place: Place) -> None:
     """The end of ``child`` is waited for without a time-out."""
-    deeds = world.deeds
-    if deeds is None or not streams or not isinstance(child, Instance):
+    effects = world.effects
+    if effects is None or not streams or not isinstance(child, Instance):
         return
-    if not any(deeds is reader for reader in world.readers.get(child.place, ())):
-        deeds.unread.setdefault((place, world.chain[1:]), (child.place, streams[0]))
+    if not any(effects is reader for reader in world.readers.get(child.place, ())):
+        effects.unread.setdefault((place, world.chain[1:]), (child.place, streams[0]))
 
 
-def unread_at(world: ConcurrentWorld, block: Blocking, deeds: Deeds) -> str | None:
+def unread_at(world: ConcurrentWorld, block: Blocking, effects: EffectLog) -> str | None:
     """The stream that nobody reads while ``block`` lasts, of a child that is waited for."""
-    child, stream = deeds.unread.get((block.source, block.chain), (None, None))
+    child, stream = effects.unread.get((block.source, block.chain), (None, None))
     if block.call != WAIT or child is None:
         return None
-    others = [reader for reader in world.readers.get(child, ()) if reader is not deeds]
+    others = [reader for reader in world.readers.get(child, ()) if reader is not effects]
     return None if others else stream

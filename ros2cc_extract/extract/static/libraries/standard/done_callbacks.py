@@ -32,7 +32,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import ActivityKind
 
 _OWN = 'future'
@@ -136,7 +136,7 @@ def add_left(machine: ConcurrentMachine) -> None:
         if id(each.future) not in world.completed or id(each.future) in world.given:
             _set_around(world, each.around)
             doer = world.activity or world.current
-            world.deeds = doer.deeds if doer is not None else None
+            world.effects = doer.effects if doer is not None else None
             machine.add_task(each.future, each.callback, each.place)
     _set_around(world, before)
 

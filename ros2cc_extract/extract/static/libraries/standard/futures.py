@@ -44,7 +44,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import ActivityKind
 
 LOOP = '__loop__'

@@ -43,7 +43,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _TIMEOUT = 'timeout'
 _LIMIT = '__timeout__'

@@ -12,9 +12,9 @@ from collections.abc import Callable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 WORKERS = '__workers__'
 """Slot of a pool for the number of its threads."""
@@ -55,10 +55,10 @@ def _may_fill(task: ActivityState, pool: Instance) -> bool:
 def _waits_for(starter: object, task: ActivityState) -> bool:
     """Whether who starts it goes on only when it has ended."""
     runners = {id(runner) for runner in task.runners}
-    deeds = getattr(starter, 'deeds', None) or Deeds()
+    effects = getattr(starter, 'effects', None) or EffectLog()
     return any(
         isinstance(block.resource, ResourceRef)
         and block.resource.number in runners
         and block.seconds is None
-        for block in deeds.blocking
+        for block in effects.blocking
     )

@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _PUT = 'it is put into a queue'
 _MOST = 24

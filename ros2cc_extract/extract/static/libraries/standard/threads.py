@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.accesses import lost_notifies
+from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_counter
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
@@ -31,7 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     choice,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import ActivityKind, When
 
 _IS_SET = '__set__'
@@ -145,10 +145,10 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """It asks its predicate before it waits, and each time that it is notified."""
     world, found = machine.world, set[str]()
     predicate = call.argument(0, 'predicate')
-    if world.deeds is not None and predicate is not None:
+    if world.effects is not None and predicate is not None:
         with world.reading.of(found):
             machine.call(predicate, Call(call.place))
-    asked = Asked(frozenset(found), lost_notifies.holds_of(world), is_open=True)
+    asked = Asked(frozenset(found), lost_notifications.holds_of(world), is_open=True)
     with world.reading.in_loop(asked):
         machine.note_blocking(
             'Condition.wait_for', receiver, call.argument(1, 'timeout'), call.place
@@ -188,7 +188,7 @@ def _is_set_up(machine: ConcurrentMachine) -> bool:
     """Whether this happens once and before anything else of the program runs."""
     world = machine.world
     is_first = world.when is When.START and not world.after_spin and not world.in_thread
-    return is_first and world.deeds is None
+    return is_first and world.effects is None
 
 
 def _waits_for_it(call: Call) -> bool:
@@ -270,7 +270,7 @@ def _clear(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     before = world.things_made
     world.cleared.setdefault(id(receiver), {}).setdefault((doer, call.place), before)
     _keep_flag(machine, receiver, Const(False))
-    note_cleared(world.deeds, receiver)
+    note_cleared(world.effects, receiver)
     return NONE
 
 
@@ -326,7 +326,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
 def _note_end(machine: ConcurrentMachine, thread: Value) -> None:
     """The set-up has waited for the end of a thread, before anything spins."""
     world = machine.world
-    if world.deeds is None and not world.after_spin:
+    if world.effects is None and not world.after_spin:
         for activity in world.activities:
             is_first = thread in activity.runners and activity.spins == world.main_spins
             activity.ends_first = activity.ends_first or is_first

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import options_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 

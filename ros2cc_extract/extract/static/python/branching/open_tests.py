@@ -37,7 +37,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 
@@ -52,7 +52,7 @@ def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
 
 def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -> bool | None:
     """As ``decide``, for the arms of ``outer``: what they do rests on what is read here."""
-    if machine.world.deeds is None:
+    if machine.world.effects is None:
         return decide(machine, node.test, frame)
     reading, found = machine.world.reading, set[str]()
     calls = reading.calls
@@ -105,7 +105,7 @@ def evaluate_copied(
 def _evaluate_for(
     machine: Machine, value: ast.expr, targets: Several[ast.expr], frame: Frame
 ) -> Value:
-    if machine.world.deeds is None:
+    if machine.world.effects is None:
         return machine.evaluate(value, frame)
     reading, found = machine.world.reading, set[str]()
     with reading.of(found):
@@ -122,7 +122,7 @@ def evaluate_argument(
     machine: Machine, argument: ast.expr, frame: Frame, call: Call, at: int | str | None
 ) -> Value:
     """The value of an argument; a parameter knows what it was computed from, as a name does."""
-    if machine.world.deeds is None or isinstance(argument, ast.Constant):
+    if machine.world.effects is None or isinstance(argument, ast.Constant):
         return machine.evaluate(argument, frame)
     found = set[str]()
     with machine.world.reading.of(found):
@@ -135,7 +135,7 @@ def evaluate_argument(
 
 def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> Value:
     """What a loop goes over; the names of its rounds are computed from what was read for it."""
-    if machine.world.deeds is None:
+    if machine.world.effects is None:
         return machine.evaluate(node.iter, frame)
     found = set[str]()
     with machine.world.reading.of(found):

@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.assumed_defaults import PARAMETER
 from ros2cc_extract.extract.static.python.values.values import Mystery, Value, source_text
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 def note_arms(

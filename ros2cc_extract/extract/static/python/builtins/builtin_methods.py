@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 _TEXT_LIMIT = 100_000
 _COPIED_A_STEP = 64

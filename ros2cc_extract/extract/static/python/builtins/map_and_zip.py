@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 _NEXT = 1
 

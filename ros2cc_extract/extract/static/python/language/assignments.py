@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     choice,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 MOST_UNSURE = 32
 """So many keys of a dictionary that could not be followed are kept apart."""

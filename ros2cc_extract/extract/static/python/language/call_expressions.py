@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.spec.deeds import ADDS, TAKES
+from ros2cc_extract.spec.effects import ADDS, TAKES
 
 _OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
 
@@ -44,7 +44,7 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
 def _called(machine: Machine, node: ast.expr, frame: Frame) -> Value:
     """The function of a call; a method that changes its owner in place is an update of it."""
     if (
-        machine.world.deeds is None
+        machine.world.effects is None
         or not isinstance(node, ast.Attribute)
         or node.attr not in CHANGING_METHODS
         or not isinstance(node.value, (ast.Attribute, ast.Name))
@@ -53,9 +53,9 @@ def _called(machine: Machine, node: ast.expr, frame: Frame) -> Value:
         _note_within(machine, node, frame)
         return function
     machine.note_part(node.value, frame, f'.{node.attr}')
-    noted, machine.world.deeds = machine.world.deeds, None
+    noted, machine.world.effects = machine.world.effects, None
     function = machine.evaluate(node, frame)
-    machine.world.deeds = noted
+    machine.world.effects = noted
     machine.world.moves = _MOVES.get(node.attr)
     machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
     machine.world.moves = None
@@ -71,7 +71,7 @@ _MOVES = {
 def _note_choice(machine: Machine, node: ast.Call, frame: Frame) -> None:
     """``self.free.remove(slot)``: which item is meant may have been looked up before."""
     function = node.func
-    if machine.world.deeds is None or not isinstance(function, ast.Attribute):
+    if machine.world.effects is None or not isinstance(function, ast.Attribute):
         return
     if function.attr in _OF_ONE_ITEM and node.args:
         sources, place = computed_from(node.args[0], frame.sources), frame.place(function.value)
@@ -82,7 +82,7 @@ def _note_heap(machine: Machine, node: ast.Call, frame: Frame) -> None:
     """``heapq.heappop(self.rows)`` changes its argument in place (``heapq``)."""
     function = node.func
     name = function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
-    if name.startswith('heap') and node.args and machine.world.deeds is not None:
+    if name.startswith('heap') and node.args and machine.world.effects is not None:
         machine.note_update(node.args[0], frame, AccessKind.UPDATE_IN_PLACE)
 
 

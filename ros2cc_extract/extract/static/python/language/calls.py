@@ -46,7 +46,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
     source_text,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 _CALL_DEPTH = 40
 _TOO_DEEP = f'what is called here, {_CALL_DEPTH} calls deep, is not followed'
@@ -123,7 +123,7 @@ class Calls(Machine):
     def run_shortly(self, function: Function, call: Call) -> Value:
         """Run a function; one that works on plain data alone is left after some steps."""
         world = self.world
-        is_short = self.steps < plain_data_calls.LONG or self.in_plain or world.deeds is not None
+        is_short = self.steps < plain_data_calls.LONG or self.in_plain or world.effects is not None
         if is_short or not plain_data_calls.is_plain(self, function):
             return self.run_function(function, call)
         limit, began, depth = self.step_limit, self.steps, self.store.depth

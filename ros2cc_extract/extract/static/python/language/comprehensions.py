@@ -13,7 +13,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import Mystery, Scope, Value
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 _NEXT = 1
 

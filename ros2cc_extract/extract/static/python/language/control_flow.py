@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import iterators, loops
 from ros2cc_extract.extract.static.python.objects.allocation_sites import note_open_test
 from ros2cc_extract.extract.static.python.values.values import Value
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 
 @contextmanager

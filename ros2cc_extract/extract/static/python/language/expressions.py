@@ -37,7 +37,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
     present,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import When
 
 _DEPTH_LIMIT = 120
@@ -164,7 +164,7 @@ def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
         open_tests.note_name(machine, node.id, value, frame)
         if isinstance(value, Choice):
             return present(value)
-        if machine.world.deeds is not None and node.id not in frame.scope.slots:
+        if machine.world.effects is not None and node.id not in frame.scope.slots:
             _note_free_name(machine, node, frame)
         return value
     builtin = machine.library(f'builtins.{node.id}')
@@ -205,7 +205,7 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     machine.world.reading.note_use(node.value, frame.place(node.value))
     owner = machine.evaluate(node.value, frame)
     place, name = frame.place(node), frame.attribute_name(node.attr)
-    if machine.world.deeds is not None:
+    if machine.world.effects is not None:
         for option in options_of(owner):
             machine.note_attribute(option, name, AccessKind.READ, place)
     text: str | ast.expr = node if isinstance(owner, (Mystery, Const)) else ''

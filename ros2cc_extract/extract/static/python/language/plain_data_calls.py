@@ -28,7 +28,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 LONG = 5_000
 """After so many steps of one piece of a program plain calls are counted."""

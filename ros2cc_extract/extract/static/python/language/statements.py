@@ -55,7 +55,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class Statements(Machine):
@@ -190,9 +190,9 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
 def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
     target = node.target
     load = ast.copy_location(_as_load(target), target)
-    noted, machine.world.deeds = machine.world.deeds, None
+    noted, machine.world.effects = machine.world.effects, None
     old = machine.evaluate(load, frame)
-    machine.world.deeds = noted
+    machine.world.effects = noted
     with machine.in_one_piece(node, frame):
         machine.note_update(load, frame, AccessKind.UPDATE)
         machine.note_part(load, frame)
@@ -203,9 +203,9 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
         machine.store.write(old, 'open', old.others or rest)
         return NEXT
     value = machine.evaluate(node.value, frame)
-    machine.world.deeds = None
+    machine.world.effects = None
     machine.assign(target, machine.operate(node.op, old, value, frame, node), frame)
-    machine.world.deeds = noted
+    machine.world.effects = noted
     return NEXT
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Path, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
 
@@ -25,7 +25,7 @@ class Asked:
     A test, as far as it tells that somebody waits for a condition in time.
 
     :param names: of the data that it reads.
-    :param holds: the locks that were held then, see ``lost_notifies.py``.
+    :param holds: the locks that were held then, see ``lost_notifications.py``.
     :param is_open: its answer may rest on more.
     """
 

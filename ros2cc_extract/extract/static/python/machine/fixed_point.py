@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.machine.world import Cut, World, note_once
 from ros2cc_extract.extract.static.python.values.values import (
@@ -25,7 +25,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _ROUNDS = 10
 """A chain of as many states is followed to its end."""

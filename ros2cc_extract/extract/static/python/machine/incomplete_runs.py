@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.python.machine.world import Cut, World
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 def note_cut(world: World, place: Place, message: str) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 BESIDE = '__as_thread__'
 """Slot of what an object is besides, as a node may be a thread: each has its own methods."""

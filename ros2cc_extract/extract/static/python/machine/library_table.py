@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 AWAITED = '__awaited__'
 """Slot of a coroutine of a library: what happens when it is awaited."""

@@ -34,7 +34,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     choice,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 THING_STEPS = 1_000
 """What an entity or a thread costs all who come later, in steps."""

@@ -25,7 +25,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class Observer:

@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 
 class Word(Enum):

@@ -16,7 +16,7 @@ from typing import TypeVar
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.path_facts import Told, Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Const,
@@ -28,8 +28,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import Access, Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import Access, Act
 from ros2cc_extract.spec.model import When
 
 
@@ -59,18 +59,18 @@ class Cut:
     classes: frozenset[Class] = frozenset()
 
 
-# A loop that is unrolled meets the same deed again and again.
+# A loop that is unrolled meets the same effect again and again.
 RECENT = 40
 
-Deed = TypeVar('Deed', Access, Act, Cut)
+Effect = TypeVar('Effect', Access, Act, Cut)
 
 
-def note_once(noted: list[Deed], deed: Deed) -> None:
-    """Note ``deed`` unless it has just been noted."""
+def note_once(noted: list[Effect], effect: Effect) -> None:
+    """Note ``effect`` unless it has just been noted."""
     # Ten times as fast as the comparison of dataclasses, which makes tuples first.
-    fields = deed.__dict__
+    fields = effect.__dict__
     if not any(fields == other.__dict__ for other in noted[-RECENT:]):
-        noted.append(deed)
+        noted.append(effect)
 
 
 @dataclass
@@ -135,7 +135,7 @@ class World:
     is_program: bool = False
     stopped: bool = False
     assumed: str | None = None
-    deeds: Deeds | None = None
+    effects: EffectLog | None = None
     reading: Reading = field(default_factory=Reading)
     current: Doer | None = None
     open_loops: int = 0
@@ -198,7 +198,7 @@ class World:
     @property
     def in_callback(self) -> bool:
         """Whether a callback is followed, and no thread that it starts."""
-        return self.deeds is not None and self.activity is None
+        return self.effects is not None and self.activity is None
 
     @property
     def has_let_others_run(self) -> bool:

@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 _MADE = '__made__'

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import Call, Class, Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class FieldDefault(Value):

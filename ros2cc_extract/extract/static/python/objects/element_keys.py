@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from, constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
 
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
@@ -22,7 +22,7 @@ _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame) -> None:
     """``container[key]`` is asked for or stored."""
-    if machine.world.deeds is not None:
+    if machine.world.effects is not None:
         item, sources = constant_key(key), computed_from(key, frame.sources)
         if item is None and not sources:
             item = _given(machine, key, frame)

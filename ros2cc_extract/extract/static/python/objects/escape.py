@@ -8,7 +8,7 @@ from ros2cc_extract.extract.static.python.machine.library_state import LibrarySt
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import Instance, Native, Value, options_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _MOST_GIVEN = 200
 
@@ -20,7 +20,7 @@ def note_kept(world: World, item: Value, place: Place) -> None:
     Who takes items under keys that are not known, or at other times, is not followed to an end.
     What is an attribute of an object of the program is known by its name.
     """
-    if world.deeds is None:
+    if world.effects is None:
         return
     for option in options_of(item):
         is_own = isinstance(option, Instance) and option.state is None

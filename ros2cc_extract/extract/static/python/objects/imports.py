@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class Imports(Machine):
@@ -51,15 +51,15 @@ class Imports(Machine):
     def _run_top_level(self, tree: ast.Module, module: Module) -> None:
         """Module code runs outside of what the importing code is in the middle of."""
         world = self.world
-        saved = (world.path, world.count, world.deeds, world.held, world.chain, world.when)
-        world.path, world.count, world.deeds, world.held, world.chain = (), 1, None, (), ()
+        saved = (world.path, world.count, world.effects, world.held, world.chain, world.when)
+        world.path, world.count, world.effects, world.held, world.chain = (), 1, None, (), ()
         try:
             scope = Scope(module, None)
             scope.slots = module.slots
             with self.store.outside_branches():
                 self.execute_block(tree.body, Frame(scope))
         finally:
-            world.path, world.count, world.deeds, world.held, world.chain, world.when = saved
+            world.path, world.count, world.effects, world.held, world.chain, world.when = saved
 
     def imported(self, module: Value, module_name: str, name: str, place: Place) -> Value:
         """What ``from module import name`` gives."""

@@ -22,7 +22,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 _MADE = '__made__'
 
@@ -79,7 +79,7 @@ class Instances(Machine):
             self.world.made_by_looking[site] = instance
             self.store.write(instance, _MADE, NONE)
         instance.path = self.world.path
-        instance.born = self.world.deeds
+        instance.born = self.world.effects
         if self.beginning:
             reanalysis.note_part(self.world, self.beginning[-1], instance)
         instance.number += self.world.made_of[cls]

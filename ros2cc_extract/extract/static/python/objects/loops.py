@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.machine.waitable_objects import is_waited_on
 from ros2cc_extract.extract.static.python.values.assumed_defaults import (
     items_by_default,
@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import choice as join
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import When
 
 UNROLL_LIMIT = 64
@@ -182,10 +182,10 @@ def repeated(
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
     """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` told from ``NEXT``."""
     path, ends = machine.world.path, 0
-    assumed, deeds = machine.world.assumed, machine.world.deeds or Deeds()
+    assumed, effects = machine.world.assumed, machine.world.effects or EffectLog()
     machine.world.assumed = items.assumed or assumed
     several = len(items.known) > 1
-    deeds.loops += several
+    effects.loops += several
     try:
         if len(items.known) > UNROLL_LIMIT:
             return _run_many(machine, items, once, place)
@@ -211,7 +211,7 @@ def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place
         return ends | _NEXT
     finally:
         machine.world.path, machine.world.assumed = path, assumed
-        deeds.loops -= several
+        effects.loops -= several
 
 
 def _run_item(machine: Machine, item: Value, once: Callable[[Value], int], place: Place) -> int:

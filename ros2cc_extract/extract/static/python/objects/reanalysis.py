@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Library
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Access, Act, Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Access, Act, Blocking
 
-Deed = TypeVar('Deed', Access, Act, Blocking)
+Effect = TypeVar('Effect', Access, Act, Blocking)
 
 
-def both(before: Deeds, again: Deeds) -> Deeds:
+def both(before: EffectLog, again: EffectLog) -> EffectLog:
     """What is told of one place the second time replaces what was told of it the first time."""
-    return Deeds(
-        blocking=_both(before.blocking, again.blocking, lambda deed: deed.call),
-        reads=_both(before.reads, again.reads, lambda deed: (deed.name, deed.update)),
-        writes=_both(before.writes, again.writes, lambda deed: (deed.name, deed.update)),
-        locks=_both(before.locks, again.locks, lambda deed: deed.name),
-        publishes=_both(before.publishes, again.publishes, lambda deed: deed.name),
-        changes=_both(before.changes, again.changes, lambda deed: deed.name),
+    return EffectLog(
+        blocking=_both(before.blocking, again.blocking, lambda effect: effect.call),
+        reads=_both(before.reads, again.reads, lambda effect: (effect.name, effect.update)),
+        writes=_both(before.writes, again.writes, lambda effect: (effect.name, effect.update)),
+        locks=_both(before.locks, again.locks, lambda effect: effect.name),
+        publishes=_both(before.publishes, again.publishes, lambda effect: effect.name),
+        changes=_both(before.changes, again.changes, lambda effect: effect.name),
         pieces=list(dict.fromkeys((*before.pieces, *again.pieces))),
         stored={**before.stored, **again.stored},
         written={**before.written, **again.written},
@@ -32,7 +32,7 @@ def both(before: Deeds, again: Deeds) -> Deeds:
 
 def remember(world: World, cls: Class | Library, place: Place, instance: Instance) -> Instance:
     """Keep what a callback makes, for when it is followed again."""
-    if world.deeds is not None or world.activity is not None:
+    if world.effects is not None or world.activity is not None:
         world.made_then[_site(world, cls, place)] = instance
     return instance
 
@@ -47,13 +47,13 @@ def made_then(world: World, cls: Class | Library, place: Place) -> Instance | No
 
 def note_part(world: World, whole: Instance, part: Instance) -> None:
     """``part`` is made while ``whole`` is set up, which is not done anew for a known object."""
-    if world.deeds is not None:
+    if world.effects is not None:
         world.parts.setdefault(id(whole), []).append(part)
 
 
 def _own(world: World, known: Instance) -> None:
     """The callback made it, and what is part of it."""
-    known.born = world.deeds
+    known.born = world.effects
     for part in world.parts.get(id(known), ()):
         _own(world, part)
 
@@ -62,12 +62,14 @@ def _site(world: World, cls: Class | Library, place: Place) -> object:
     return id(world.activity or world.current), cls, place, world.chain
 
 
-def _both(before: list[Deed], again: list[Deed], name: Callable[[Deed], object]) -> list[Deed]:
-    told = {(deed.source, deed.chain, name(deed)) for deed in again}
-    kept: list[Deed] = [d for d in before if (d.source, d.chain, name(d)) not in told]
+def _both(
+    before: list[Effect], again: list[Effect], name: Callable[[Effect], object]
+) -> list[Effect]:
+    told = {(effect.source, effect.chain, name(effect)) for effect in again}
+    kept: list[Effect] = [d for d in before if (d.source, d.chain, name(d)) not in told]
     return sorted(kept + again, key=_way) if kept else again
 
 
-def _way(deed: Access | Act | Blocking) -> list[Place]:
+def _way(effect: Access | Act | Blocking) -> list[Place]:
     """The calls that lead to it, for an order near to that of the text."""
-    return [place for place in (*deed.chain, deed.source) if place is not None]
+    return [place for place in (*effect.chain, effect.source) if place is not None]

@@ -6,7 +6,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import Call, Class, Value, options_of
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 
 def register(world: World, cls: Class) -> None:

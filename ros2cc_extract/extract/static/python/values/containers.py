@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.python.values.values import Heaped, Mystery, Value, options_of
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 
 class Collection(Heaped):

@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 _PLAIN = frozenset({'enum.Enum'})
 _NUMBERS = frozenset({'enum.IntEnum', 'builtins.int'})

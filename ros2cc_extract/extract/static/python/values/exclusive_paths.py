@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import takewhile
 
 from ros2cc_extract.extract.static.python.values.values import Path
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 Mark = tuple[str | None, int | None]
 """Equal first parts stand for branches of one statement, of which only one is taken."""

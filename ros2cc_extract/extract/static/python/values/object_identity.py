@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 
 class Identity(Mystery):

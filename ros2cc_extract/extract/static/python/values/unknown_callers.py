@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 
 def unknown_arguments(function: Function, place: Place, skip: int) -> Call:

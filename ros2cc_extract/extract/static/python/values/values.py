@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
 
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 _TEXT_LIMIT = 60
 

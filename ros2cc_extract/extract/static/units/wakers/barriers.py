@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, GroupState
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.places import Unknown
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import GroupType
 
 Doer = EntityState | ActivityState
@@ -29,7 +29,7 @@ def visits_of(reference: ResourceRef, doers: Sequence[Doer]) -> Visits:
     numbers = {reference.number, *reference.like}
     found: dict[Doer, list[Blocking]] = {}
     for doer in doers:
-        for block in (doer.deeds or Deeds()).blocking:
+        for block in (doer.effects or EffectLog()).blocking:
             resource = block.resource
             if not isinstance(resource, ResourceRef) or block.call != CALL:
                 continue

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
-from ros2cc_extract.extract.static.concurrency.machine.rises import MOST, Rise
+from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ClockRef,
@@ -17,12 +17,12 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import OUTSIDE, Access, Blocking, Waker
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import OUTSIDE, Access, Blocking, Waker
 
 Doer = EntityState | ActivityState
 
@@ -62,7 +62,7 @@ class DataWriters:
     def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
         """Who writes what a loop waits for, but for what its own callback did before."""
         for doer in self._doers:
-            for access in (doer.deeds or Deeds()).writes:
+            for access in (doer.effects or EffectLog()).writes:
                 if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 
@@ -82,11 +82,13 @@ class DataWriters:
         writes = tuple(self._writes(on))
         if on.rise is None or len(on.names) != 1 or not writes:
             return 1
-        steps = [(each.deeds or Deeds()).steps.get(access.source) for each, access in writes]
+        steps = [(each.effects or EffectLog()).steps.get(access.source) for each, access in writes]
         known = [step for step in steps if step is not None]
         if len(known) < len(steps):
             return 1  # what is stored there may be as much as it takes
-        mine = [access for access in (doer.deeds or Deeds()).writes if _is_before(access, on)]
+        mine = [
+            access for access in (doer.effects or EffectLog()).writes if _is_before(access, on)
+        ]
         left = on.rise.writes_left(self._stored_first(on.rise), known, len(mine))
         is_open = any(self._is_open(access, doer) for access in mine)
         is_open = is_open or any(step.repeats for step in known)
@@ -95,20 +97,20 @@ class DataWriters:
 
     def _stored_first(self, rise: Rise) -> Iterator[Value]:
         """What the set-up has stored there, or the class has."""
-        doers = (doer.deeds or Deeds() for doer in self._doers)
-        later = {access.source for deeds in doers for access in deeds.writes}
+        doers = (doer.effects or EffectLog() for doer in self._doers)
+        later = {access.source for effects in doers for access in effects.writes}
         stored = self._world.stored.get((rise.owner, rise.name), {})
         first = [value for place, value in stored.items() if place not in later]
         yield from first or rise.of_class
 
     def _is_open(self, access: Access, doer: Doer) -> bool:
-        written = (doer.deeds or Deeds()).written
+        written = (doer.effects or EffectLog()).written
         return written.get((access.name, access.source), (None, True))[1]
 
     def _senders(self, topic: TopicRef) -> Iterator[Waker]:
         """Who publishes what is waited for; the names are compared as they are written."""
         for doer in self._doers:
-            for act in (doer.deeds or Deeds()).publishes:
+            for act in (doer.effects or EffectLog()).publishes:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
                     yield self._does(doer, act.name, act.source)
 
@@ -121,7 +123,7 @@ class DataWriters:
 
     def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
         """A write or a message of ``doer`` that ends a wait."""
-        behind, is_open = (doer.deeds or Deeds()).written.get((name, source), (None, False))
+        behind, is_open = (doer.effects or EffectLog()).written.get((name, source), (None, False))
         after = self._kept[id(doer)].places.get(behind, 0)
         is_open = is_open or is_off_its_loop(doer, self._doers)
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)

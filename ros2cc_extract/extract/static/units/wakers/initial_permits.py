@@ -14,8 +14,8 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Re
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
+from ros2cc_extract.spec.effects import Blocking
 
 Doer = EntityState | ActivityState
 # More is not counted: a model of so many runs could not use it up.
@@ -68,7 +68,7 @@ def _gives_on_all_ways(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bo
 
 def _takes(raw: Blocking, doer: Doer) -> Iterator[Blocking]:
     """The waits of ``doer`` for the same thing."""
-    for block in (doer.deeds or Deeds()).blocking:
+    for block in (doer.effects or EffectLog()).blocking:
         if block.call == raw.call and _number(block) == _number(raw):
             yield block
 
@@ -86,7 +86,7 @@ def _gives_back(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bool:
 
 def _waits_meanwhile(raw: Blocking, doer: Doer, given: Sequence[Waking]) -> bool:
     """Whether ``doer`` waits for something else before it gives back what it took."""
-    blocks = (doer.deeds or Deeds()).blocking
+    blocks = (doer.effects or EffectLog()).blocking
     ways = [way_of(block) for block in blocks]
     last = [ways.index(w.behind) for w in given if w.by is doer and w.behind in ways]
     mine = [number for number, block in enumerate(blocks) if _number(block) == _number(raw)]

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
@@ -30,7 +30,7 @@ def answer_from_outside(
     """
     heard = {heard_on(waker) for waker in wakers}
     doers: tuple[Doer, ...] = (*world.entities, *world.activities)
-    acts = (act for doer in doers for act in (doer.deeds or Deeds()).publishes)
+    acts = (act for doer in doers for act in (doer.effects or EffectLog()).publishes)
     published = {act.name.strip('/') if isinstance(act.name, str) else None for act in acts}
     is_open = None in heard or None in published or not heard.isdisjoint(published)
     return ', '.join(sorted(sent)) if sent and heard and not is_open else None
@@ -82,5 +82,5 @@ def heard_on(doer: object) -> str | None:
 
 def published_by(doer: Doer) -> frozenset[str]:
     """The topics on which ``doer`` publishes, as far as they are known."""
-    acts = (doer.deeds or Deeds()).publishes
+    acts = (doer.effects or EffectLog()).publishes
     return frozenset(act.name.strip('/') for act in acts if isinstance(act.name, str))

@@ -11,8 +11,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     ExecutorState,
     GroupState,
 )
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import GroupType
 
 _SINGLE = 'SingleThreadedExecutor'
@@ -62,7 +62,7 @@ def keeps_out(doer: object, other: object, block: Blocking) -> bool:
 
 
 def _lets_others_run(doer: EntityState) -> bool:
-    return any(map(_gives_thread, (doer.deeds or Deeds()).blocking))
+    return any(map(_gives_thread, (doer.effects or EffectLog()).blocking))
 
 
 def _gives_thread(block: Blocking) -> bool:

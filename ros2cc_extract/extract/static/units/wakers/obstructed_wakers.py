@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ActivityStat
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import may_not_overlap
 from ros2cc_extract.spec.model import EntityKind
 
@@ -53,8 +53,8 @@ def _holds_the_loop_of(by: ActivityState, other: Doer) -> bool:
     return by.turns == other.turns and any(
         block.seconds is None
         and not block.call.startswith(('asyncio', 'await'))
-        and block.source not in other.deeds.resting
-        for block in other.deeds.blocking
+        and block.source not in other.effects.resting
+        for block in other.effects.blocking
     )
 
 
@@ -62,7 +62,7 @@ def _takes_back(waking: Waking, reference: ResourceRef) -> bool:
     by = waking.by
     if not _FOR_ONE & reference.ended_by or not isinstance(by, EntityState | ActivityState):
         return False
-    blocks = (by.deeds or Deeds()).blocking
+    blocks = (by.effects or EffectLog()).blocking
     ways = [way_of(block) for block in blocks]
     begin = ways.index(waking.behind) + 1 if waking.behind in ways else 0
     return any(

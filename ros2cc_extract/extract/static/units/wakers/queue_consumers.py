@@ -20,10 +20,10 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.units.wakers.initial_permits import Doer
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 _ENDED_BY = {'Queue.put': Word.GET, 'Queue.join': Word.DONE}
@@ -67,7 +67,7 @@ def _is_begun(thread: ActivityState) -> bool:
 def _goes_on(
     thread: ActivityState, queue: ResourceRef, world: RosWorld, doers: Sequence[Doer]
 ) -> bool:
-    others = [block for block in thread.deeds.blocking if not _takes(block, queue)]
+    others = [block for block in thread.effects.blocking if not _takes(block, queue)]
     for block in others:
         if block.call == WORKING_LOOP:
             if _is_ended_by_callbacks(block, world, doers):
@@ -93,7 +93,7 @@ def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer
     on = loop.resource if loop.resource is not None else loop.on
     if isinstance(on, DataRef):
         callbacks = [doer for doer in doers if isinstance(doer, EntityState)]
-        writes = (write for each in callbacks if each.deeds for write in each.deeds.writes)
+        writes = (write for each in callbacks if each.effects for write in each.effects.writes)
         return any(write.name in on.names for write in writes)
     if isinstance(on, ResourceRef):
         wakings = world.wakings.get(on.number, ())
@@ -103,11 +103,11 @@ def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer
 
 def _may_be_locked_out(thread: ActivityState, doers: Sequence[Doer]) -> bool:
     """Whether somebody holds, while it waits for others, a lock that the thread takes."""
-    mine = {act.name for act in thread.deeds.locks}
+    mine = {act.name for act in thread.effects.locks}
     return any(
         not mine.isdisjoint(lock.removesuffix(RE_ENTRANT) for lock in block.held)
         for doer in doers
         if doer is not thread
-        for block in (doer.deeds or Deeds()).blocking
+        for block in (doer.effects or EffectLog()).blocking
         if not _ends_by_itself(block)
     )

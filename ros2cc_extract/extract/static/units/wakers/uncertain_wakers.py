@@ -11,7 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import Notifier, is_heard
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import (
+    Notifier,
+    is_heard,
+)
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
@@ -25,8 +28,8 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.values import Instance
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP
 from ros2cc_extract.spec.model import EntityKind, When
 
 Doer = EntityState | ActivityState
@@ -87,7 +90,7 @@ def _why_thread_ends(
     world: RosWorld, thread: ActivityState, is_harmless: Callable[[End], bool], name: Names
 ) -> Unknown | None:
     """An error that nothing catches ends a thread whose loop others wait for."""
-    calls = {block.call for block in thread.deeds.blocking}
+    calls = {block.call for block in thread.effects.blocking}
     if not thread.loops and calls.isdisjoint((WORKING_LOOP, POLLING_LOOP)):
         return None
     for end in world.ends:
@@ -210,12 +213,14 @@ def _notifier(waking: Waking) -> Notifier:
     by = waking.by
     if not isinstance(by, (EntityState, ActivityState)):
         return Notifier(waking, None, frozenset(), {})
-    stored = by.deeds.stored if by.deeds is not None else {}
+    stored = by.effects.stored if by.effects is not None else {}
     return Notifier(waking, by.place, _written_by(by), stored)
 
 
 def _written_by(doer: Doer) -> frozenset[str]:
-    return frozenset(access.name for access in doer.deeds.writes) if doer.deeds else frozenset()
+    return (
+        frozenset(access.name for access in doer.effects.writes) if doer.effects else frozenset()
+    )
 
 
 def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:

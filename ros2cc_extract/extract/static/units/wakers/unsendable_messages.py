@@ -14,10 +14,10 @@ from collections.abc import Collection, Iterator, Sequence
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers.lost_events import heard_on, published_by
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_out
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
@@ -40,7 +40,7 @@ def unsent_before_end(
     if raw.seconds is not None or published.isdisjoint(needed.values()) or None in wakers:
         return None
     free = [each for each in doers if not keeps_out(doer, each, raw)]
-    if any(not isinstance(act.name, str) for each in free for act in _deeds(each).publishes):
+    if any(not isinstance(act.name, str) for each in free for act in _effects(each).publishes):
         return None
     runs = _running(doer, free, published, sent)
     is_ended = any(waker in runs or (waker is doer and doer in free) for waker in wakers)
@@ -52,7 +52,7 @@ def comes_unasked(waking: Waking, reference: ResourceRef) -> bool:
     """Whether it comes without a wait of its own for the same thing."""
     if not isinstance(waking.by, EntityState | ActivityState):
         return True
-    blocks = _deeds(waking.by).blocking
+    blocks = _effects(waking.by).blocking
     ways = [way_of(block) for block in blocks]
     behind = ways.index(waking.behind) + 1 if waking.behind in ways else 0
     return not any(_is_for(block, reference) for block in blocks[:behind])
@@ -60,7 +60,7 @@ def comes_unasked(waking: Waking, reference: ResourceRef) -> bool:
 
 def is_first(raw: Blocking, reference: ResourceRef, doer: Doer) -> bool:
     """Whether ``doer`` has not waited for the same thing before."""
-    before = (block for block in _deeds(doer).blocking if _is_for(block, reference))
+    before = (block for block in _effects(doer).blocking if _is_for(block, reference))
     first = next(before, None)
     return first is None or way_of(first) == way_of(raw)
 
@@ -68,7 +68,7 @@ def is_first(raw: Blocking, reference: ResourceRef, doer: Doer) -> bool:
 def sent_in_hold(reference: ResourceRef, doer: Doer) -> frozenset[str]:
     """The topics on which was published while whoever notifies had to wait for the lock."""
     begun = reference.guard.begun if reference.guard is not None else frozenset()
-    acts = (act for act in _deeds(doer).publishes if act.source in begun)
+    acts = (act for act in _effects(doer).publishes if act.source in begun)
     return frozenset(str(act.name).strip('/') for act in acts)
 
 
@@ -77,8 +77,8 @@ def _is_for(block: Blocking, reference: ResourceRef) -> bool:
     return isinstance(other, ResourceRef) and other.number == reference.number
 
 
-def _deeds(doer: Doer) -> Deeds:
-    return doer.deeds or Deeds()
+def _effects(doer: Doer) -> EffectLog:
+    return doer.effects or EffectLog()
 
 
 def _needs(waker: object, doer: Doer) -> Iterator[tuple[Doer, str]]:

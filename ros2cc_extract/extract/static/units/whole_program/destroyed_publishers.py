@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     RosWorld,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
 from ros2cc_extract.spec.model import ActivityKind, GroupType
 
@@ -52,8 +52,8 @@ def _may_meet(end: End, use: End) -> bool:
 
 def _is_kept_apart(end: End, use: End) -> bool:
     """Whether who destroys takes a lock before that under which is published."""
-    deeds = end.doer.deeds or Deeds()
-    taken = {act.name for act in deeds.locks} | set(end.locks)
+    effects = end.doer.effects or EffectLog()
+    taken = {act.name for act in effects.locks} | set(end.locks)
     return not taken.isdisjoint(use.locks)
 
 
@@ -62,7 +62,7 @@ def _has_joined(end: End, other: _Doer) -> bool:
     if not isinstance(other, ActivityState):
         return False
     runners = {id(runner) for runner in other.runners}
-    waits = (end.doer.deeds or Deeds()).blocking
+    waits = (end.doer.effects or EffectLog()).blocking
     waited = (block.resource for block in waits)
     return any(isinstance(each, ResourceRef) and each.number in runners for each in waited)
 

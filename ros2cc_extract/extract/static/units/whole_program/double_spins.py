@@ -25,7 +25,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import GroupType
 
 _EVENTS = 'EventsExecutor'

@@ -37,7 +37,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     Spin,
     nodes_of,
 )
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Const,
@@ -47,7 +47,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.extract.static.units.whole_program.destroyed_publishers import (
     published_meanwhile,
 )
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind, When
 
 _SINGLE = 'SingleThreadedExecutor'
@@ -103,8 +103,8 @@ def _leaves_nothing(end: End, doer: EntityState, world: RosWorld) -> bool:
 
 def _goes(doer: EntityState, world: RosWorld) -> bool:
     """Whether the callback ends the program as well, or adds its node somewhere."""
-    deeds = doer.deeds or Deeds()
-    if any(act.name == 'add_node' for act in deeds.changes):
+    effects = doer.effects or EffectLog()
+    if any(act.name == 'add_node' for act in effects.changes):
         return True
     if any(e.doer is doer and e.kind in (SHUTDOWN, SHUTDOWN_EXECUTOR) for e in world.ends):
         return True
@@ -166,9 +166,9 @@ def _waits_on(entity: EntityState, end: End, world: RosWorld) -> Iterator[Blocki
     """Calls of others that wait for the answer which ``entity`` takes."""
     doers: tuple[EntityState | ActivityState, ...] = (*world.entities, *world.activities)
     for doer in doers:
-        if doer is end.doer or doer.deeds is None:
+        if doer is end.doer or doer.effects is None:
             continue
-        for block in doer.deeds.blocking:
+        for block in doer.effects.blocking:
             is_call = block.call in ('client.call', 'send_goal')
             if is_call and isinstance(block.on, EntityRef) and block.on.number == id(entity):
                 yield block

@@ -25,14 +25,14 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, 
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
     Instance,
     options_of,
 )
-from ros2cc_extract.spec.deeds import POLLING_LOOP, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Blocking
 
 
 def is_over(spin: Spin, number: int, wait: OutsideWait, world: RosWorld) -> bool:
@@ -64,8 +64,8 @@ def never_joined(
     for state in world.activities:
         if not any(wait.client is runner for runner in state.runners) or state.serves:
             continue
-        loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.deeds.blocking}
-        for block in state.deeds.blocking:
+        loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.effects.blocking}
+        for block in state.effects.blocking:
             # A loop that does nothing but sleep is one that polls.
             goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
             goes_round = goes_round or comes_back(block, state, world)
@@ -86,7 +86,7 @@ def has_told_of_it(
     So it is where the program has waited before for what nobody but this thread ends, outside
     its loops and behind ``block``, as for a future that it makes done at its end.
     """
-    behind = [way_of(each) for each in state.deeds.blocking]
+    behind = [way_of(each) for each in state.effects.blocking]
     at = behind.index(way_of(block))
 
     def comes_later(waking: Waking) -> bool:
@@ -118,7 +118,7 @@ def comes_back(block: Blocking, state: ActivityState, world: RosWorld) -> bool:
         return True
     resource = block.resource
     is_queue = isinstance(resource, ResourceRef) and resource.ended_by == {Word.PUT}
-    if not is_queue or way_of(block) not in state.deeds.looped or not _leaves(state):
+    if not is_queue or way_of(block) not in state.effects.looped or not _leaves(state):
         return False
     wakings = world.wakings.get(resource.number, ())  # type: ignore[union-attr]
     return not any(waking.is_sign for waking in wakings if waking.word is Word.PUT)

@@ -23,8 +23,8 @@ from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
     comes_back,
     why_for_ever,
 )
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 _ENDING_AT_ONCE = frozenset({'_exit', 'abort', 'kill', 'killpg', 'execv'})
@@ -87,7 +87,7 @@ def _is_chain(state: ActivityState, world: RosWorld) -> bool:
     ``threading.py``); and a publisher raises when rclpy is shut down, which ends the chain.
     """
     is_timer = state.kind is ActivityKind.TIMER and state.is_daemon is False
-    return is_timer and not state.deeds.publishes and not _inherits(state, world)
+    return is_timer and not state.effects.publishes and not _inherits(state, world)
 
 
 def _inherits(state: ActivityState, world: RosWorld) -> bool:
@@ -106,7 +106,9 @@ def _inherits(state: ActivityState, world: RosWorld) -> bool:
 def _stuck_block(
     state: ActivityState, wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
 ) -> Blocking | None:
-    waits = (b for b in state.deeds.blocking if b.escapes is None and comes_back(b, state, world))
+    waits = (
+        b for b in state.effects.blocking if b.escapes is None and comes_back(b, state, world)
+    )
     stuck = (b for b in waits if why_for_ever(b, state, wait, world, spun) is not None)
     return next(stuck, None)
 

@@ -25,11 +25,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     Spin,
 )
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import is_over, never_joined
 from ros2cc_extract.extract.static.units.whole_program.threads_at_exit import kept_at_exit
-from ros2cc_extract.spec.partners import SERVER_KINDS
+from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 
 
 def note_unanswered(world: RosWorld) -> None:
@@ -112,18 +112,18 @@ def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: b
 
 def _unwritten(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     """Only callbacks write what a loop looks at, and nobody serves them meanwhile."""
-    if any(_writes(state.deeds, wait.names) for state in world.activities):
+    if any(_writes(state.effects, wait.names) for state in world.activities):
         return
     served = (*world.entities, *world.builtins)
-    nodes = [each.node for each in served if _writes(each.deeds, wait.names)]
+    nodes = [each.node for each in served if _writes(each.effects, wait.names)]
     is_spun = any(node is each for node in nodes for each in spun_beside(wait, world))
     if not nodes or is_spun or data_is_written_elsewhere(world, wait.names) is not None:
         return
     yield _waits_for_ever(wait, min(wait.names), has_node=True, is_meant=False)
 
 
-def _writes(deeds: Deeds | None, names: frozenset[str]) -> bool:
-    return deeds is not None and any(access.name in names for access in deeds.writes)
+def _writes(effects: EffectLog | None, names: frozenset[str]) -> bool:
+    return effects is not None and any(access.name in names for access in effects.writes)
 
 
 def _needed(

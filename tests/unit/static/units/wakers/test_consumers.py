@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.spec.deeds import BY_ITSELF, TIME
+from ros2cc_extract.spec.effects import BY_ITSELF, TIME
 
 PROGRAM = """
 import queue

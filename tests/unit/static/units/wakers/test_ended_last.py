@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
-from ros2cc_extract.places import Place
-from ros2cc_extract.spec.deeds import TIME, Blocking, Waker
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import TIME, Blocking, Waker
 
 PROGRAM = """
 import queue

@@ -7,7 +7,7 @@ import ast
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Mystery, Value
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 
 CLOCKS = {'sleep_for': 'Clock.sleep_for', 'sleep_until': 'Clock.sleep_until'}
 """Methods that nothing but a clock has; the clock of a node is not followed."""

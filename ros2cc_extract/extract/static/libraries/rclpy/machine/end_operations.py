@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
 DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
@@ -71,7 +71,7 @@ def note_end(
         return
     doer = world.activity or (world.current if world.in_callback else None)
     if doer is not None and not world.shutting_down and not world.after_spin:
-        behind = world.deeds.behind if world.deeds is not None else None
+        behind = world.effects.behind if world.effects is not None else None
         world.ends.append(End(kind, what, doer, place, text, behind=behind, locks=world.held))
 
 

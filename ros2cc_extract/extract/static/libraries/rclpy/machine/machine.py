@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 
 class RosMachine(ConcurrentMachine, ABC):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_made
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import note_made
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.objects.allocation_sites import argument_token
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind, When
 
 

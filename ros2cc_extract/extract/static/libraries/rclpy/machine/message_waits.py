@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     RosWorld,
 )
 from ros2cc_extract.extract.static.python.values.values import Instance, Value, options_of
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 CALL = 'wait_for_message'
 

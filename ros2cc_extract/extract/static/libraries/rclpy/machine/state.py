@@ -10,11 +10,11 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     OutsideWait,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
-from ros2cc_extract.extract.static.python.machine.recorded_deeds import Deeds, Doer
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
-from ros2cc_extract.spec.partners import SERVER_KINDS
 
 _MERGED = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 
@@ -146,7 +146,7 @@ class EntityState(Doer, LibraryState):
     label: str | None = None
     extra_callbacks: tuple[Value, ...] = ()
     ran: int = -1
-    deeds: Deeds | None = None
+    effects: EffectLog | None = None
     argument: Value | None = None
     goal_callback: Value | None = None
     defers: bool = False
@@ -241,7 +241,7 @@ class End:
 
     :param what: the node, executor or entity.
     :param text: what is done, where that is no end but comes after one.
-    :param behind: the last wait of ``doer`` before it, see ``Deeds.behind``.
+    :param behind: the last wait of ``doer`` before it, see ``EffectLog.behind``.
     :param locks: held at that place.
     """
 

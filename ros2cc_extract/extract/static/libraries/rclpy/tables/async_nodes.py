@@ -25,7 +25,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Handler, Instance, Value
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import GroupType
 
 ASYNC_NODE = 'rclpy.experimental.async_node.AsyncNode'

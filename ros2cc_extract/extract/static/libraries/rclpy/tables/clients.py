@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import note_begun
 from ros2cc_extract.extract.static.libraries.rclpy.machine import message_waits
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     CANCEL,
@@ -40,8 +40,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place, Unknown
-from ros2cc_extract.spec.deeds import CANCELS, Act
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import CANCELS, Act
 from ros2cc_extract.spec.model import When
 
 
@@ -81,9 +81,9 @@ def _cancel(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if entity is world.current:
         if world.path == world.callback_path:
             entity.one_shot = True
-            if world.deeds is not None and world.deeds.blocking:
+            if world.effects is not None and world.effects.blocking:
                 act = Act(name=CANCELS, source=call.place, chain=world.chain[1:])
-                note_once(world.deeds.changes, act)
+                note_once(world.effects.changes, act)
     elif world.when is When.START and not world.in_callback and world.activity is None:
         is_early = not world.after_spin and not world.path
         entity.dormant = call.place if is_early else entity.dormant

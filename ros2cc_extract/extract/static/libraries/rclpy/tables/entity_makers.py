@@ -36,7 +36,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 _TF = 'tf2_ros.TransformListener'

@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import (
+    note_begun,
+    note_made,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import AT_RUN_TIME
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     DESTROY,
@@ -61,7 +64,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place, Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 NODE = 'rclpy.node.Node'

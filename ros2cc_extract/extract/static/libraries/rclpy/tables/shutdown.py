@@ -21,7 +21,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 
 CONTEXT = 'rclpy.context.Context'
 _HOOKS = '__on_shutdown__'

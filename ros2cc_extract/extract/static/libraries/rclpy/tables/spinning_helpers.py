@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.places import Unknown
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind
 
 _BUFFER_CLIENT = 'tf2_ros.BufferClient'

@@ -34,9 +34,9 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
-from ros2cc_extract.spec.moves import ADDED, ANY_EXECUTOR
+from ros2cc_extract.spec.node_moves import ADDED, ANY_EXECUTOR
 
 
 def _module_spin(how: str, position: int | None, ever: bool) -> Handler:

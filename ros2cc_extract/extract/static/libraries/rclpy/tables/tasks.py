@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.accesses.lost_notifies import note_begun, note_made
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import (
+    note_begun,
+    note_made,
+)
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
-from ros2cc_extract.extract.static.libraries.rclpy.machine.held_by_callbacks import hand_over
+from ros2cc_extract.extract.static.libraries.rclpy.machine.inherited_locks import hand_over
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
@@ -25,7 +28,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.places import Place
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 _MOST_ALIKE = 4

@@ -1,0 +1,109 @@
+"""Who is followed by itself, and what he was seen to do meanwhile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from ros2cc_extract.extract.static.python.values.values import Instance, Path
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Access, Act, Blocking
+
+Hold = tuple[str, int]
+"""A lock, and which time it is that it was taken."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """
+    A part of an object is changed, or the whole of it is published, see ``torn_updates.py``.
+
+    :param part: what is changed, as the source has it; empty for the whole.
+    :param again: a loop changes one item of it after the other.
+    """
+
+    access: Access
+    part: str
+    path: Path
+    again: bool
+
+
+@dataclass
+class EffectLog:
+    """
+    What one callback or activity does, in the order of its text.
+
+    :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param own: names of what only the loop around it asks for: changes of objects that nobody
+        else has, and of what lies in a collection.
+    :param stored: names of what is written in a hold of a lock, see ``lost_notifications.py``.
+    :param unread: of waits for a child process, where it is made and which pipe of it is not read
+        before, see ``child_pipes.py``.
+    :param loops: how many loops of several rounds, known ones, are followed now.
+    :param order: messages, clears of events and waits for events, see ``cleared_events.py``.
+    :param pieces: what is changed piece by piece, or published as a whole.
+    :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
+    :param written: of a write, by name and place, what lay behind it, and whether on a branch.
+    :param resting: loops that await something in each round.
+    :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
+    """
+
+    blocking: list[Blocking] = field(default_factory=list)
+    reads: list[Access] = field(default_factory=list)
+    writes: list[Access] = field(default_factory=list)
+    locks: list[Act] = field(default_factory=list)
+    publishes: list[Act] = field(default_factory=list)
+    changes: list[Act] = field(default_factory=list)
+    rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
+    loops: int = 0
+    own: list[str] = field(default_factory=list)
+    behind: object = None
+    stored: dict[Hold, set[str]] = field(default_factory=dict)
+    looped: set[object] = field(default_factory=set)
+    written: dict[object, tuple[object, bool]] = field(default_factory=dict)
+    resting: set[Place | None] = field(default_factory=set)
+    steps: dict[Place | None, Any] = field(default_factory=dict)
+    unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
+    order: list[tuple[str, object]] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
+
+
+def way_of(block: Blocking) -> object:
+    """Equal for one wait, however often it is met."""
+    return block.call, block.source, block.chain
+
+
+class Doer:
+    """
+    Code that is followed by itself, as it runs beside others: a callback, a thread.
+
+    What the interpreter and the notes of waits ask of it says whoever models it.
+    """
+
+    effects: EffectLog | None
+    place: Place
+
+    @property
+    def owner(self) -> Instance | None:
+        """The library object that it belongs to."""
+        return None
+
+    @property
+    def kind_name(self) -> str:
+        """What a specification calls its kind."""
+        return ''
+
+    @property
+    def has_own_text(self) -> bool:
+        """Whether what was made for one value is kept apart from what was made for another."""
+        return False
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether it takes answers that somebody else must give."""
+        return False
+
+    @property
+    def is_on_loop(self) -> bool:
+        """Whether a loop of asyncio runs it, and no thread is held by what it awaits."""
+        return False

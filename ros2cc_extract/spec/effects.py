@@ -1,0 +1,214 @@
+"""
+What code does while it runs: it waits, wakes others, takes locks, reads and writes.
+
+The same values describe callbacks and activities; ``model.py`` says whose they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from ros2cc_extract.source_locations import Place, Unknown
+
+
+class Needs(Enum):
+    """How many of its wakers end a wait."""
+
+    ONCE = 'once'
+    EACH = 'each'
+    ALL = 'all'
+
+
+OUTSIDE = 'outside'
+TIME = 'time'
+
+BY_ITSELF = 'of these waits end by themselves'
+"""Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
+
+WORKING_LOOP = 'working loop'
+"""A loop in which a thread works until somebody ends it: only its end is waited for."""
+
+POLLING_LOOP = 'polling loop'
+"""A loop that does nothing but wait until what it asks for has changed."""
+
+TURN = 'yield'
+"""A coroutine lets the executor run others, and goes on by itself."""
+
+ENDLESS_LOOP = 'endless loop'
+"""A loop that nothing in sight leaves."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waker:
+    """
+    Who can end a wait, and where.
+
+    :param by: name of a callback or an activity of the unit, ``OUTSIDE`` (another process, the
+        operating system) or ``TIME``.
+    :param source: the operation that ends it: ``set``, ``notify``, ``put``, a write, an end.
+    :param after: how many of its own waits (entries of ``blocking``) the waker has behind it
+        then; ``None`` where its end, or what happens at its end, ends the wait.
+    :param conditional: true where a branch may skip the operation.
+    :param held: locks held at that operation, as of a ``Blocking``.
+    """
+
+    by: str
+    source: Place | None = None
+    after: int | None = None
+    conditional: bool = False
+    held: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Blocking:
+    """
+    A call inside a callback that can hold its thread, or an ``await`` that holds its group.
+
+    :param call: what blocks, in the field's words: ``client.call``, ``Event.wait``,
+        ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
+    :param on: name of the callback, entity or object waited for, where known.
+    :param seconds: how long it sleeps; for calls with a time-out, the time-out.
+    :param foreign: true for an event or future that a thread of the user's own sets, and no
+        callback: that wakes no executor.
+    :param chain: places of the calls that lead from the callback to ``source``, outermost first.
+    :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
+        an ``RLock``, ends in ``RE_ENTRANT``.
+    :param resource: name of the object waited on, equal for all waits on one object.
+    :param wakers: who can end it, as far as is known.
+    :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
+        waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
+    :param signals: of ``ONCE``: how many of them, or how often one, as of a number that grows.
+    :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
+        waited on without asking first).
+    :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
+        room in a queue. With ``escapes`` runs before may have used them up.
+    :param counted: a model has runs enough to use up ``initial``; no specification says so.
+    :param escapes: why somebody else might end it too, or who ends it is not known.
+    :param conditional: true where a branch may skip the wait.
+    :param only_if: what leads there, where a parameter decides and its default does not.
+    :param assumed: the rule by which ``seconds`` was assumed.
+    :param unread: ``stdout`` or ``stderr`` of a child process whose end is waited for while nobody
+        reads that pipe.
+    :param answer_to: the topic of the message on which another process must answer, by a
+        subscription, before the wait ends.
+    :param unsent: the topics whose messages end it, where whoever publishes there in this program
+        does not run before.
+    :param at_end: of a thread, where the program ends the wait when its spin is over.
+    :param repeats: a loop of which nobody knows how often it goes round stands between one of the
+        locks held and the wait.
+    :param times: how often a run waits here, as far as the rounds of loops around it are known.
+    """
+
+    call: str
+    source: Place | None = None
+    on: str | Unknown | None = None
+    seconds: float | Unknown | None = None
+    foreign: bool = False
+    chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
+    resource: str | None = None
+    wakers: tuple[Waker, ...] = ()
+    needs: Needs = Needs.ONCE
+    signals: int = 1
+    forgets: bool = False
+    initial: int = 0
+    counted: bool = False
+    escapes: Unknown | None = None
+    conditional: bool = False
+    only_if: str | None = None
+    assumed: str | None = None
+    unread: str | None = None
+    answer_to: str | None = None
+    unsent: str | None = None
+    at_end: Place | None = None
+    repeats: bool = False
+    times: int = 1
+
+
+RE_ENTRANT = ' (re-entrant)'
+SHARED = ' (shared)'
+FLAG = ' (flag)'
+ADDS, TAKES = 'adds', 'takes'
+CANCELS = 'cancel'
+"""The name of the change by which a timer ends itself after it has waited."""
+ABORTS = 'abort'
+"""The name of the change by which a callback tells a running goal to stop."""
+FOUND_NONE, FOUND_FALSE = 'None', 'false'
+FOUND_THIS, FOUND_OTHER = '== ', '!= '
+
+
+@dataclass(frozen=True, kw_only=True)
+class Access:
+    """
+    A read or write of shared state by a callback.
+
+    :param name: ``Class.attribute`` of an instance, or ``module.name`` of a global.
+    :param locks: locks held at that place, outermost first; one that others may hold too, as
+        readers do, ends in ``SHARED``. A flag that was found down and put up, by which others are
+        to be kept out, ends in ``FLAG``.
+    :param update: true when the old value is read for the new one (``+=``, ``append`` …).
+    :param in_place: true for an update by one operation on the object itself (``append``,
+        ``d[k] = v``), which CPython does in one piece.
+    :param whole: true for a write of what is computed from the old value where CPython, by its
+        global lock, lets no other thread in since that was read (``self.n += 1``).
+    :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
+    :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
+        takes an item out.
+    :param iterates: class of the collection, where a loop goes over it.
+    :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
+    :param chosen: true for a change of the item that a look at the collection has led to, or
+        of one whose new value was computed from what was read of the collection.
+    :param rests: true for a write that rests on what was read of it before, by its value or by a
+        test, and for the use of an object that was tested before.
+    :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
+    :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
+        ``FOUND_FALSE`` where anything false would do; a constant behind ``FOUND_THIS``, or behind
+        ``FOUND_OTHER`` where it is something else.
+    :param constant: true for a write that rests on a test and stores a constant, as of a flag.
+    :param compared: true for a read that only asks whether it is still what the code has in a
+        name of its own.
+    :param admits: true for a read of a goal callback because of which it turns goals down.
+    :param later: true for the use of an object where something was called since it was tested.
+    """
+
+    name: str
+    source: Place | None = None
+    locks: tuple[str, ...] = ()
+    update: bool = False
+    in_place: bool = False
+    whole: bool = False
+    keeps_size: bool = False
+    moves: str | None = None
+    iterates: str | None = None
+    item: str | None = None
+    chosen: bool = False
+    rests: bool = False
+    clears: bool = False
+    lowers: bool = False
+    found: str | None = None
+    constant: bool = False
+    compared: bool = False
+    admits: bool = False
+    later: bool = False
+    chain: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Act:
+    """
+    Something else a callback does: takes a lock, publishes, creates an entity, moves a node.
+
+    :param name: the lock, the topic, the entity or executor concerned.
+    :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
+        name is among them where it cannot be taken twice.
+    :param tries: of a lock that is taken only if it is free at once, or in some time.
+    :param repeats: of what is made: it stands in a loop, so that one run may make several.
+    """
+
+    name: str | Unknown
+    source: Place | None = None
+    chain: tuple[Place, ...] = ()
+    held: tuple[str, ...] = ()
+    tries: bool = False
+    repeats: bool = False

@@ -1,0 +1,210 @@
+"""
+Executors of one program that run at the same time and wait for each other, as one unit.
+
+An executor with one thread serves one callback at a time: its thread is a mutually exclusive group
+of all its callbacks. A pool is taken to have threads enough. So what stands still in the joined
+unit stands still in the program; what a pool of few threads holds up is judged in its own unit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from ros2cc_extract.spec.client_server_pairs import client_before, server_of
+from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.model import (
+    Activity,
+    Callback,
+    CallbackGroup,
+    Executor,
+    GroupType,
+    Spec,
+    collect_unresolved,
+)
+
+MOST_THREADS = 32
+"""What has more that may wait at a time takes longer to judge than it is worth."""
+_ONE_THREAD, _POOL = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
+KINDS = (_ONE_THREAD, _POOL)
+_Part = int | str
+"""The number of an executor, or the name of a thread of the program's own."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joined:
+    """
+    Several units as one.
+
+    :param spec: without the callbacks that neither wait nor are waited for.
+    :param parts: names of the callbacks of each executor.
+    """
+
+    spec: Spec
+    parts: tuple[tuple[str, ...], ...]
+
+    def executors_of(self, names: Iterable[str]) -> int:
+        """How many executors have some of the callbacks of these names."""
+        wanted = set(names)
+        return sum(not wanted.isdisjoint(part) for part in self.parts)
+
+
+def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
+    """
+    Join units that wait for each other; ``None`` where they do not, or it is not known how.
+
+    :param whole: all nodes of ``units``, in their order, with the names that they have together.
+    """
+    owners = [number for number, unit in enumerate(units) for _ in unit.nodes]
+    if len(owners) != len(whole.nodes):
+        return None
+    by_node = dict(zip(whole.nodes, owners, strict=True))
+    if not all(isinstance(c.node, str) and c.node in by_node for c in whole.callbacks):
+        return None
+    part_of: dict[str, _Part] = {c.name: by_node[str(c.node)] for c in whole.callbacks}
+    if _spins(whole.callbacks) or not _wait_for_each_other(whole, part_of):
+        return None
+    spec = _as_one(_without_idle(whole), units, part_of)
+    if spec is None:
+        return None
+    parts = (
+        tuple(c.name for c in spec.callbacks if part_of[c.name] == number)
+        for number in range(len(units))
+    )
+    return Joined(spec=spec, parts=tuple(parts))
+
+
+def _spins(callbacks: Iterable[Callback]) -> bool:
+    """Whether one of them serves others while it waits, of whatever executor these are."""
+    blocks = (block for callback in callbacks for block in callback.blocking)
+    return any(block.call.rpartition('.')[2].startswith('spin') for block in blocks)
+
+
+def _wait_for_each_other(spec: Spec, part_of: Mapping[str, _Part]) -> bool:
+    ahead: dict[_Part, set[_Part]] = {}
+    for one, other in _needs(spec, part_of):
+        ahead.setdefault(one, set()).add(other)
+    executors = [part for part in ahead if isinstance(part, int)]
+    reached = {part: _reached(part, ahead) for part in executors}
+    return any(
+        one != other and other in reached[one] and one in reached[other]
+        for one in executors
+        for other in executors
+    )
+
+
+def _reached(part: _Part, ahead: Mapping[_Part, set[_Part]]) -> set[_Part]:
+    found: set[_Part] = set()
+    left = [part]
+    while left:
+        new = ahead.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def _needs(spec: Spec, part_of: Mapping[str, _Part]) -> Iterator[tuple[_Part, _Part]]:
+    """Who needs whom: to be answered or woken, or to let go of a lock."""
+    doers = _doers(spec)
+    for doer in doers:
+        mine = part_of.get(doer.name, doer.name)
+        for block in doer.blocking:
+            for name in enders_of(block, spec):
+                yield mine, part_of.get(name, name)
+        for other in doers:
+            if _locks_of(doer) & _kept_by(other):
+                yield mine, part_of.get(other.name, other.name)
+
+
+def _doers(spec: Spec) -> tuple[Callback | Activity, ...]:
+    return (*spec.callbacks, *spec.activities)
+
+
+def enders_of(block: Blocking, spec: Spec) -> Iterator[str]:
+    """Who has to run before a wait without a time-out is over, as far as the unit has them."""
+    if block.seconds is not None:
+        return
+    yield from (waker.by for waker in block.wakers)
+    asked = next((each for each in spec.callbacks if each.name == block.on), None)
+    while asked is not None:
+        yield asked.name
+        asked = server_of(asked, spec.callbacks) or client_before(asked, spec.callbacks)
+
+
+def _locks_of(doer: Callback | Activity) -> set[object]:
+    return {act.name for act in doer.locks if not act.tries}
+
+
+def _kept_by(doer: Callback | Activity) -> set[object]:
+    """Locks that it holds while it waits, for another one too."""
+    over = (lock for block in doer.blocking for lock in block.held)
+    return {*over, *(lock for act in doer.locks for lock in act.held)}
+
+
+def _without_idle(spec: Spec) -> Spec:
+    """Whoever neither waits nor is waited for comes to its end, and takes nothing for ever."""
+    needed = {
+        name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
+    }
+    needed |= {start.by for activity in spec.activities for start in activity.starts}
+    callbacks = tuple(
+        each for each in spec.callbacks if each.blocking or each.locks or each.name in needed
+    )
+    used = {each.group for each in callbacks}
+    return replace(
+        spec, callbacks=callbacks, groups=tuple(each for each in spec.groups if each.name in used)
+    )
+
+
+def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> Spec | None:
+    taken = set(spec.names()) - {spec.executor.name, *spec.executor.threads}
+    groups: dict[str, CallbackGroup] = {group.name: group for group in spec.groups}
+    callbacks = list(spec.callbacks)
+    for number, unit in enumerate(units):
+        mine = [each for each in callbacks if part_of[each.name] == number]
+        if unit.executor.kind != _ONE_THREAD or _awaits(mine):
+            continue
+        name = _free(f'only_thread_of_{unit.executor.name}', taken)
+        groups[name] = CallbackGroup(
+            name=name, type=GroupType.EXCLUSIVE, source=unit.executor.source
+        )
+        own = {each.name for each in mine if not each.groupless}
+        callbacks = [replace(each, group=name) if each.name in own else each for each in callbacks]
+    used = {each.group for each in callbacks}
+    kept = tuple(group for group in groups.values() if group.name in used)
+    threads = _enough_threads(callbacks, kept)
+    if threads > MOST_THREADS:
+        return None
+    executor = Executor(
+        name=_free(spec.executor.name, taken),
+        threads=tuple(_free(f'thread_{n}', taken) for n in range(threads)),
+        kind=_POOL,
+        threads_source='as many as can be at work',
+        spun='spin',
+        source=units[0].executor.source,
+    )
+    spec = replace(spec, callbacks=tuple(callbacks), groups=kept, executor=executor)
+    return replace(spec, unresolved=(*collect_unresolved(spec), *spec.unresolved))
+
+
+def _awaits(callbacks: Iterable[Callback]) -> bool:
+    """Whether one gives its thread back while its own group stays closed."""
+    return any(block.call == 'await' for each in callbacks for block in each.blocking)
+
+
+def _free(name: str, taken: set[str]) -> str:
+    while name in taken:
+        name += '_'
+    taken.add(name)
+    return name
+
+
+def _enough_threads(callbacks: Iterable[Callback], groups: Iterable[CallbackGroup]) -> int:
+    """Count one for each callback that may wait, one of a group, and one for all others."""
+    exclusive = {group.name for group in groups if group.type is GroupType.EXCLUSIVE}
+    waiting = {
+        each.name if each.group not in exclusive or each.groupless else (each.group,)
+        for each in callbacks
+        if each.blocking or each.locks
+    }
+    return max(2, len(waiting) + 1)

@@ -1,0 +1,66 @@
+"""Callbacks that see to it themselves that only one of their runs waits."""
+
+from __future__ import annotations
+
+from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.model import Callback, EntityKind, GroupType, Spec
+from ros2cc_extract.spec.program_order import steps
+
+
+def lets_one_wait(callback: Callback) -> bool:
+    """
+    True when a run looks at a state and claims it under one lock, waits, and gives it back.
+
+    ``with lock: if busy: return``, ``busy = True``; wait; ``with lock: busy = False``. Whoever
+    looks again after the wait does not own the state: others may have changed it meanwhile.
+    """
+    waits = sorted(map(steps, callback.blocking))
+    if not waits:
+        return False
+    given_back = {write.name for write in callback.writes if steps(write) > waits[-1]}
+    given_back -= {read.name for read in callback.reads if steps(read) > waits[0]}
+    return any(
+        write.name in given_back
+        and not write.update
+        and steps(write) < waits[0]
+        and _is_looked_at(write, callback)
+        for write in callback.writes
+    )
+
+
+def admits_one(execute: Callback, spec: Spec) -> bool:
+    """
+    True when a goal callback lets one goal in at a time: it claims what the execution gives back.
+
+    Of its own runs one at a time asks and claims, by its group or under one lock.
+    """
+    waits = sorted(map(steps, execute.blocking))
+    given_back = {write.name for write in execute.writes if waits and steps(write) > waits[-1]}
+    servers = (each for each in spec.callbacks if each.entity is EntityKind.ACTION_SERVER)
+    return any(
+        read.admits and read.name in given_back and _is_claimed(read, server, spec)
+        for server in servers
+        if (server.node, server.source) == (execute.node, execute.source)
+        for read in server.reads
+    )
+
+
+def _is_claimed(asked: Access, server: Callback, spec: Spec) -> bool:
+    group = spec.group_of(server)
+    is_alone = group.type is GroupType.EXCLUSIVE and group.unresolved is None
+    return any(
+        claim.name == asked.name
+        and not claim.update
+        and steps(asked) < steps(claim)
+        and (is_alone or bool(set(asked.locks) & set(claim.locks)))
+        for claim in server.writes
+    )
+
+
+def _is_looked_at(claim: Access, callback: Callback) -> bool:
+    return any(
+        read.name == claim.name
+        and set(read.locks) & set(claim.locks)
+        and steps(read) < steps(claim)
+        for read in callback.reads
+    )
