@@ -14,10 +14,15 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo test test-long texts slices shapes waits why random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
+.PHONY: demo quick test test-long texts slices shapes waits why random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
+
+# Before each commit: lint, types, and the tests of single modules, which need no ROS; some 40 s.
+quick: lint
+	$(BIN)/python -m pytest -q -n auto -m 'not slow and not live' $(QUICK) $(PYTEST_FLAGS)
+QUICK ?= tests/architecture tests/unit/findings tests/unit/generator tests/unit/report tests/unit/spec tests/unit/cli
 
 # The whole suite with Jazzy; before it, that source and live run agree on Kilted too.
 test: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
@@ -167,8 +172,9 @@ site: $(VENV)/documented
 rules: $(VENV)/installed
 	$(BIN)/python scripts/write-rule-pages
 
-# The picture of the README, where there is a chromium.
+# The pictures of the README and of the site, where there is a chromium.
 screenshot: $(VENV)/installed
+	$(BIN)/python scripts/draw-first-screen
 	$(BIN)/python scripts/draw-report
 
 # The published SARIF schema, with which a test validates ours; a 43 MB npm package carries it.

@@ -98,11 +98,11 @@ def command(path: str) -> list[str]:
     return [sys.executable, '-m', 'ros2cc_extract.cli.main', path]
 
 
-def in_a_log(folder: Path, path: str, columns: int) -> str:
+def in_a_log(folder: Path, path: str, columns: int, **more: str) -> str:
     done = subprocess.run(
         command(path),
         cwd=folder,
-        env=environment(COLUMNS=str(columns)),
+        env=environment(COLUMNS=str(columns), **more),
         capture_output=True,
         text=True,
         check=False,
@@ -184,3 +184,11 @@ def test_of_the_readme_on_a_terminal(name: str, more: dict[str, str]) -> None:
     told = re.sub(r'\(\d+\.\d s\)', '(0.0 s)', told)
     assert ('\x1b[1;31m' in told or '\x1b[31m' in told) is (name == 'colour')
     compared(f'terminal_{name}', told.replace('\x1b', '\\e'))
+
+
+def test_a_log_that_asks_for_colours_gets_them() -> None:
+    path = 'launch_free_examples/service_deadlock/node.py'
+    said = in_a_log(ROOT, path, 80, FORCE_COLOR='1', TERM='xterm-256color')
+    shown = (SCREENS / 'terminal_colour.txt').read_text(encoding='utf-8').replace('\\e', '\x1b')
+    told = re.sub(r'\x1b\]8;[^\x1b]*\x1b\\', '', said)
+    assert told == shown.replace(' (0.0 s)', '')

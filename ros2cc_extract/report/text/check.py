@@ -76,7 +76,7 @@ def _print_unknown(checked: Checked, console: Console, paths: str) -> None:
 
 def _end(checked: Checked, console: Console, seconds: float | None) -> str:
     line = last_line(checked.summary)
-    is_timed = seconds is not None and console.is_terminal
+    is_timed = seconds is not None and console.file.isatty()
     return f'{line} ({seconds:.1f} s)' if is_timed else line
 
 

@@ -30,7 +30,8 @@ _COLOURS = {
 def console_for(stream: TextIO) -> Console:
     """Make a console; where the stream is no terminal the width does not depend on the machine."""
     width = None if stream.isatty() or 'COLUMNS' in os.environ else LOG_WIDTH
-    shown = cast(TextIO, Shown(stream, styled=stream.isatty(), in_log=True))
+    is_styled = Console(file=stream).is_terminal  # also where FORCE_COLOR asks for it
+    shown = cast(TextIO, Shown(stream, styled=is_styled, in_log=True))
     target = cast(TextIO, Unpadded(shown))
     return _Telling(file=target, width=width, highlight=False, markup=False, emoji=False)
 
