@@ -93,7 +93,7 @@ class Built:
         return callback
 
     def _callback(self, entity: programs.Entity) -> Any:
-        if any(deed.what.startswith('await') for deed in entity.deeds):
+        if any(effect.what.startswith('await') for effect in entity.effects):
             return self._named(self._coroutine(entity), entity)
         return self._named(self._function(entity), entity)
 
@@ -105,8 +105,8 @@ class Built:
     def _function(self, entity: programs.Entity) -> Any:
         def callback(*data: Any) -> Any:
             self._work(entity)
-            for deed in entity.deeds if self.is_warm else ():
-                self._do(deed)
+            for effect in entity.effects if self.is_warm else ():
+                self._do(effect)
             self._signal(entity)
             return data[-1] if data else None
 
@@ -115,11 +115,11 @@ class Built:
     def _coroutine(self, entity: programs.Entity) -> Any:
         async def callback(*data: Any) -> Any:
             self._work(entity)
-            for deed in entity.deeds:
-                if not deed.what.startswith('await'):
-                    self._do(deed)
+            for effect in entity.effects:
+                if not effect.what.startswith('await'):
+                    self._do(effect)
                 elif not self.over.is_set():
-                    await self._future(deed)
+                    await self._future(effect)
             self._work(entity)
             self._signal(entity)
             return data[-1] if data else None
@@ -140,17 +140,17 @@ class Built:
         for future in waiting:
             future.set_result(None)
 
-    def _do(self, deed: programs.Deed) -> None:
-        if deed.what == 'call':
-            self._call(self.made[deed.on])
-        elif deed.what == 'spin_call':
-            self._spin_call(self.made[deed.on])
-        elif deed.what == 'wait':
-            self._wait(self.ran[deed.on])
-        elif deed.what == 'make_task':
-            self.executor.create_task(self.made[deed.on])
-        elif deed.what == 'publish':
-            self.feed(deed.on)
+    def _do(self, effect: programs.Effect) -> None:
+        if effect.what == 'call':
+            self._call(self.made[effect.on])
+        elif effect.what == 'spin_call':
+            self._spin_call(self.made[effect.on])
+        elif effect.what == 'wait':
+            self._wait(self.ran[effect.on])
+        elif effect.what == 'make_task':
+            self.executor.create_task(self.made[effect.on])
+        elif effect.what == 'publish':
+            self.feed(effect.on)
 
     def _wait(self, event: threading.Event) -> None:
         while not event.wait(0.02) and not self.over.is_set():
@@ -177,11 +177,11 @@ class Built:
             self.executor.spin_until_future_complete(future, timeout_sec=0.05)
         self.spinning -= 1
 
-    def _future(self, deed: programs.Deed) -> Any:
-        if deed.what == 'await_call':
-            return self.made[deed.on].call_async(Service.Request())
+    def _future(self, effect: programs.Effect) -> Any:
+        if effect.what == 'await_call':
+            return self.made[effect.on].call_async(Service.Request())
         future: Future = Future()
-        self.awaited[deed.on].append(future)
+        self.awaited[effect.on].append(future)
         return future
 
     def feed(self, number: int) -> None:

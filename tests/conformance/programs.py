@@ -30,7 +30,7 @@ WRITTEN = (TIMER, SUBSCRIPTION, GUARD, SERVICE)
 
 
 @dataclass(frozen=True)
-class Deed:
+class Effect:
     """
     What a callback does besides working.
 
@@ -64,7 +64,7 @@ class Entity:
     work_s: float
     spin_s: float
     key: str
-    deeds: tuple[Deed, ...]
+    effects: tuple[Effect, ...]
 
     @property
     def name(self) -> str:
@@ -118,7 +118,7 @@ def draw(seed: int) -> Program:
     if spins:
         kinds = [kind for kind in kinds if kind != CLIENT] + [CLIENT]
     entities = [_draw_entity(random, seed, n, kind, groups) for n, kind in enumerate(kinds)]
-    entities = [_with_deeds(random, entity, entities, executor) for entity in entities]
+    entities = [_with_effects(random, entity, entities, executor) for entity in entities]
     if tells_arrivals or spins:
         entities = [_without_requests(entity, entities) for entity in entities]
     if spins:
@@ -164,36 +164,36 @@ def _draw_entity(random: Random, seed: int, number: int, kind: str, groups: list
         work_s=random.choice((0.0, 0.0, 0.001, 0.004, 0.012)),
         spin_s=random.choice((0.0, 0.0, 0.0, 0.001, 0.003)),
         key=f'p{label(seed)}_k{number}',
-        deeds=(),
+        effects=(),
     )
 
 
-def _with_deeds(random: Random, entity: Entity, entities: list[Entity], executor: str) -> Entity:
+def _with_effects(random: Random, entity: Entity, entities: list[Entity], executor: str) -> Entity:
     """Give some callbacks something to do; each client and task is used by one callback."""
     if entity.kind not in (TIMER, SUBSCRIPTION, SERVICE):
         return entity
     mine = [e for e in entities if e.kind in WRITTEN]
     owners = [e for e in mine if e.kind in (TIMER, SUBSCRIPTION, SERVICE)]
-    deeds = []
+    effects = []
     for other in entities:
         if other.kind in (CLIENT, TASK) and owners[other.number % len(owners)] is entity:
-            deeds.append(Deed(_use_of(Random(other.key), other), other.number))
+            effects.append(Effect(_use_of(Random(other.key), other), other.number))
     others = [e for e in mine if e.number != entity.number]
-    if not deeds and others and random.random() < 0.2:
+    if not effects and others and random.random() < 0.2:
         what = random.choice(('wait', 'await_other', 'publish'))
         if executor == EVENTS and what == 'await_other':
             what = 'publish'  # rclpy's EventsExecutor knows no coroutines (CC113)
-        deeds.append(Deed(what, random.choice(others).number))
-    return Entity(**{**vars(entity), 'deeds': tuple(deeds)})
+        effects.append(Effect(what, random.choice(others).number))
+    return Entity(**{**vars(entity), 'effects': tuple(effects)})
 
 
 def _spinning(entity: Entity) -> Entity:
     """The same, where a nested spin stands for each call."""
-    deeds = (
-        replace(deed, what='spin_call') if deed.what in ('call', 'await_call') else deed
-        for deed in entity.deeds
+    effects = (
+        replace(effect, what='spin_call') if effect.what in ('call', 'await_call') else effect
+        for effect in entity.effects
     )
-    return replace(entity, deeds=tuple(deeds))
+    return replace(entity, effects=tuple(effects))
 
 
 def _use_of(random: Random, other: Entity) -> str:
@@ -223,8 +223,8 @@ def _draw_feeds(random: Random, fed: list[int]) -> tuple[tuple[float, int], ...]
 
 def _without_requests(entity: Entity, entities: list[Entity]) -> Entity:
     """Nobody counts the requests that callbacks make."""
-    deeds = (d for d in entity.deeds if d.what != 'publish' or entities[d.on].kind != SERVICE)
-    return replace(entity, deeds=tuple(deeds))
+    effects = (d for d in entity.effects if d.what != 'publish' or entities[d.on].kind != SERVICE)
+    return replace(entity, effects=tuple(effects))
 
 
 def _kept(program: Program) -> tuple[tuple[float, int], ...]:
@@ -259,7 +259,7 @@ def _busy_group_with_client_and_service(seed: int) -> Program:
         _entity(seed, 0, TIMER, 0, period_s=0.02, work_s=0.012),
         _entity(seed, 1, SERVICE, 0),
         _entity(seed, 2, CLIENT, 0),
-        _entity(seed, 3, TIMER, 1, period_s=0.01, deeds=(Deed('await_call', 2),)),
+        _entity(seed, 3, TIMER, 1, period_s=0.01, effects=(Effect('await_call', 2),)),
     )
     # The client (number 2) asks the service of somebody else: see ``server_of``.
     return _by_hand(seed, 3, groups, (*entities, _entity(seed, 4, SERVICE, 1)), (1,) * 30)
@@ -290,7 +290,7 @@ def _busy_pool(seed: int) -> Program:
 def _two_tasks(seed: int) -> Program:
     """Both tasks are made before either is served."""
     entities = (
-        _entity(seed, 0, TIMER, 0, deeds=(Deed('make_task', 1), Deed('make_task', 2))),
+        _entity(seed, 0, TIMER, 0, effects=(Effect('make_task', 1), Effect('make_task', 2))),
         _entity(seed, 1, TASK, 0),
         _entity(seed, 2, TASK, 0),
         _entity(seed, 3, SUBSCRIPTION, 0),
@@ -301,9 +301,9 @@ def _two_tasks(seed: int) -> Program:
 
 def _arrivals_while_busy(seed: int) -> Program:
     """A callback that runs makes two messages arrive after a request, and one of them again."""
-    fed = tuple(Deed('publish', number) for number in (2, 3, 4, 3))
+    fed = tuple(Effect('publish', number) for number in (2, 3, 4, 3))
     entities = (
-        _entity(seed, 0, SUBSCRIPTION, 0, deeds=fed),
+        _entity(seed, 0, SUBSCRIPTION, 0, effects=fed),
         _entity(seed, 1, TIMER, 0, work_s=0.001),
         _entity(seed, 2, SERVICE, 0),
         _entity(seed, 3, SUBSCRIPTION, 0),
@@ -324,7 +324,7 @@ def _entity(seed: int, number: int, kind: str, group: int, **values: Any) -> Ent
             'work_s': 0.0,
             'spin_s': 0.0,
             'key': f'p{label(seed)}_k{number}',
-            'deeds': (),
+            'effects': (),
             **values,
         }
     )

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tests.conformance import programs
-from tests.conformance.programs import Deed, Entity, Program
+from tests.conformance.programs import Effect, Entity, Program
 
 _HEAD = """\
 import os
@@ -94,8 +94,8 @@ def _set_up(program: Program) -> Iterator[str]:
 
 def _wanted(program: Program, what: str) -> list[int]:
     """Numbers of the callbacks that somebody waits for in this way."""
-    deeds = (deed for entity in program.entities for deed in entity.deeds)
-    return sorted({deed.on for deed in deeds if deed.what == what})
+    effects = (effect for entity in program.entities for effect in entity.effects)
+    return sorted({effect.on for effect in effects if effect.what == what})
 
 
 def _made(program: Program, entity: Entity) -> Iterator[str]:
@@ -130,7 +130,7 @@ def _feed(entity: Entity) -> str:
 
 def _callback(program: Program, entity: Entity) -> Iterator[str]:
     parameters = {programs.SUBSCRIPTION: ', message', programs.SERVICE: ', request, response'}
-    awaits = any(deed.what.startswith('await') for deed in entity.deeds)
+    awaits = any(effect.what.startswith('await') for effect in entity.effects)
     head = 'async def' if awaits else 'def'
     yield ''
     yield f'    {head} {entity.name}(self{parameters.get(entity.kind, "")}):'
@@ -140,8 +140,8 @@ def _callback(program: Program, entity: Entity) -> Iterator[str]:
         yield f'        until = time.monotonic() + {entity.spin_s}'
         yield '        while time.monotonic() < until:'
         yield '            pass'
-    for deed in entity.deeds:
-        yield from (f'        {line}' for line in _deed(program, deed))
+    for effect in entity.effects:
+        yield from (f'        {line}' for line in _effect(program, effect))
     if entity.number in _wanted(program, 'wait'):
         yield f'        self.ran{entity.number}.set()'
     if entity.number in _wanted(program, 'await_other'):
@@ -152,22 +152,22 @@ def _callback(program: Program, entity: Entity) -> Iterator[str]:
     yield f'        return {"response" if entity.kind == programs.SERVICE else None}'
 
 
-def _deed(program: Program, deed: Deed) -> Iterator[str]:
-    client = f'self.e{deed.on}'
-    if deed.what == 'call':
+def _effect(program: Program, effect: Effect) -> Iterator[str]:
+    client = f'self.e{effect.on}'
+    if effect.what == 'call':
         yield f'{client}.call(Service.Request())'
-    elif deed.what == 'await_call':
+    elif effect.what == 'await_call':
         yield f'await {client}.call_async(Service.Request())'
-    elif deed.what == 'spin_call':
+    elif effect.what == 'spin_call':
         yield f'asked = {client}.call_async(Service.Request())'
         yield 'self.executor.spin_until_future_complete(asked, timeout_sec=0.5)'
-    elif deed.what == 'wait':
-        yield f'self.ran{deed.on}.wait()'
-    elif deed.what == 'await_other':
+    elif effect.what == 'wait':
+        yield f'self.ran{effect.on}.wait()'
+    elif effect.what == 'await_other':
         yield 'future = Future()'
-        yield f'self.awaited{deed.on}.append(future)'
+        yield f'self.awaited{effect.on}.append(future)'
         yield 'await future'
-    elif deed.what == 'make_task':
-        yield f'self.executor.create_task(self.c{deed.on})'
-    elif deed.what == 'publish':
-        yield _feed(program.entities[deed.on])
+    elif effect.what == 'make_task':
+        yield f'self.executor.create_task(self.c{effect.on})'
+    elif effect.what == 'publish':
+        yield _feed(program.entities[effect.on])

@@ -32,7 +32,7 @@ def spec_of(program: Program) -> Spec:
         for number, g in enumerate(program.groups)
     ]
     has_tasks = any(e.kind == programs.TASK for e in program.entities)
-    if has_tasks or any(d.what == 'call' for e in program.entities for d in e.deeds):
+    if has_tasks or any(d.what == 'call' for e in program.entities for d in e.effects):
         groups.append(CallbackGroup(name=NO_GROUP, type=GroupType.REENTRANT, groupless=True))
     return Spec(
         name=f'p{programs.label(program.seed)}',
@@ -63,13 +63,13 @@ def _callbacks(program: Program) -> Iterator[Callback]:
             else None,
             key=_key(program, entity),
             period_s=entity.period_s if kind is EntityKind.TIMER else None,
-            coroutine=any(deed.what.startswith('await') for deed in entity.deeds),
+            coroutine=any(effect.what.startswith('await') for effect in entity.effects),
             groupless=is_task,
             blocking=tuple(_blocking(entity)),
         )
     # What ``Built._call`` sets its event by.
     for entity in program.entities:
-        if any(deed.what == 'call' for deed in entity.deeds):
+        if any(effect.what == 'call' for effect in entity.effects):
             yield Callback(
                 name=f'answered_{entity.number}',
                 type=EntityKind.DONE_CALLBACK.published_type,
@@ -88,13 +88,13 @@ def _key(program: Program, entity: Entity) -> str | None:
 
 
 def _blocking(entity: Entity) -> Iterator[Blocking]:
-    for deed in entity.deeds:
-        if deed.what.startswith('await'):
-            yield Blocking(call='await', on=f'c{deed.on}')
-        elif deed.what == 'spin_call':
-            place = Place('driver.py', deed.on + 1)
+    for effect in entity.effects:
+        if effect.what.startswith('await'):
+            yield Blocking(call='await', on=f'c{effect.on}')
+        elif effect.what == 'spin_call':
+            place = Place('driver.py', effect.on + 1)
             how = 'executor.spin_until_future_complete'
             yield Blocking(call=how, on='executor', source=place)
-            yield Blocking(call='spin for future', on=f'c{deed.on}', source=place)
-        elif deed.what in _WAITS:
-            yield Blocking(call=_WAITS[deed.what], on=f'c{deed.on}')
+            yield Blocking(call='spin for future', on=f'c{effect.on}', source=place)
+        elif effect.what in _WAITS:
+            yield Blocking(call=_WAITS[effect.what], on=f'c{effect.on}')

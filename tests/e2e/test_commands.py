@@ -187,12 +187,13 @@ def test_a_pipe_that_gives_no_text_is_told(run: Run) -> None:
 
 
 def test_check_prints_units_verdicts_and_runs(run: Run) -> None:
-    outcome = run(CASE_1)
+    outcome = run(CASE_1, '--verdicts')
     assert outcome.status == 1  # CC201: callbacks sleep longer than a period
-    assert 'unit paper_case1: SingleThreadedExecutor, 1 thread' in outcome.out
+    assert 'checked paper_case1: SingleThreadedExecutor, 1 thread' in outcome.out
+    assert 'unit paper_case1\n' in outcome.out
     assert 'on_timer_a' in outcome.out
     assert 'more runs: ros2cc-extract verify shows them' in outcome.out
-    assert 'counterexample' in run(EXAMPLES / 'two_groups' / 'node.py').out
+    assert 'counterexample' in run(EXAMPLES / 'two_groups' / 'node.py', '--verdicts').out
 
 
 def test_check_keeps_what_it_made(run: Run, tmp_path: Path) -> None:

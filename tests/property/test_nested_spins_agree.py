@@ -96,6 +96,7 @@ def test_units_that_have_once_differed() -> None:
     assert differences(each_of(ONCE_OTHER_TEXTS, 4), by_texts) == []
 
 
+@pytest.mark.slow
 def test_slices_that_have_once_differed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrowing, 'SMALL', 0)
     assert differences(each_of(ONCE_OTHER_SLICES, 5), by_slices) == []

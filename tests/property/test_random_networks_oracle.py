@@ -17,7 +17,8 @@ from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.source_locations import Place
 from tests.support.networks import random_model
 
-SEEDS = range(10_000, 10_040)
+LONG = pytest.mark.slow
+SEEDS = [*range(10_000, 10_020), *(pytest.param(n, marks=LONG) for n in range(10_020, 10_040))]
 
 
 @dataclass(frozen=True)

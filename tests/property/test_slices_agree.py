@@ -99,7 +99,7 @@ def test_verdicts_of_slices_are_those_of_the_unit_on_many() -> None:
 
 
 def test_slices_with_every_kind_of_entity_agree() -> None:
-    compare(draw_entities(range(40), callbacks=4))
+    compare(draw_entities(range(20), callbacks=4))
 
 
 @pytest.mark.slow

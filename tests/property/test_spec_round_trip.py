@@ -114,7 +114,7 @@ def specs(draw: st.DrawFn) -> Spec:
 
 
 @given(specs())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_any_specification_survives_its_file(spec: Spec) -> None:
     text = write_specs([spec])
     assert read_specs(text, 'unit.yaml') == (spec,)
@@ -122,12 +122,12 @@ def test_any_specification_survives_its_file(spec: Spec) -> None:
 
 
 @given(specs())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_any_file_written_fits_the_schema(spec: Spec) -> None:
     jsonschema.validate(yaml.safe_load(write_specs([spec])), SPEC.schema)
 
 
 @given(specs())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_every_unknown_has_a_reason_in_the_list(spec: Spec) -> None:
     assert all(fact.reason for fact in collect_unresolved(spec))

