@@ -37,8 +37,8 @@ class Mark(Enum):
     """What is known of a promise."""
 
     KEPT = 'kept'
-    BROKEN = 'broken'
     OPEN = 'undecided'
+    BROKEN = 'broken'
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,8 @@ class Judgement:
     reason: str = ''
 
 
+_MARKS = tuple(Mark)
+"""What weighs more comes later."""
 DEADLOCK, SERIAL = 'deadlock', 'serial'
 RCLPY = 'rclpy'
 """The profile that models rclpy's own executors."""
@@ -96,6 +98,12 @@ def judge(
     """
     judged = _Unit(unit, verification, own, near)
     return tuple(judged.judgement(promise) for promise in Promise)
+
+
+def weakest(judgements: Iterable[tuple[Judgement, ...]]) -> tuple[Judgement, ...]:
+    """Of what was judged under several releases, promise by promise what weighs most."""
+    of_each = zip(*judgements, strict=True)
+    return tuple(max(of_one, key=lambda each: _MARKS.index(each.mark)) for of_one in of_each)
 
 
 @dataclass(frozen=True)

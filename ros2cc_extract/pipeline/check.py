@@ -19,7 +19,7 @@ from ros2cc_extract.findings.collect import all_findings, is_unread
 from ros2cc_extract.findings.filters.baseline import compare
 from ros2cc_extract.findings.filters.selection import select
 from ros2cc_extract.findings.filters.suppress import suppress
-from ros2cc_extract.findings.promises import Judgement, about, judge
+from ros2cc_extract.findings.promises import Judgement, about, judge, weakest
 from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
@@ -206,7 +206,9 @@ def _promises(
     for task, each in zip(tasks, examined, strict=True):
         of_others, near = about(findings, task.unit, units)
         named = (finding for finding in of_others if finding.unit != task.unit.name)
-        yield judge(task.unit, each.judged, (*each.findings, *named), near)
+        own = (*each.findings, *named)
+        verified = (each.judged, *each.elsewhere)
+        yield weakest(judge(task.unit, verification, own, near) for verification in verified)
 
 
 def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:

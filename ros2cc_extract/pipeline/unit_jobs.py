@@ -17,15 +17,19 @@ from pathlib import Path
 from ros2cc_extract.cache_file import load_value, store_value, tidy, tool_version
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.by_release import of_all_releases
 from ros2cc_extract.findings.collect import findings_of_unit
 from ros2cc_extract.findings.waits_across_executors import findings_of_joined
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.generator.releases import felt
 from ros2cc_extract.pipeline.progress import Meter
 from ros2cc_extract.plain_data import Packer
 from ros2cc_extract.process_pool import Crew, usable_cores
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.releases.behaviour import Behaviour
+from ros2cc_extract.spec.releases.settings import settings
 from ros2cc_extract.verify.results.evidence import LOST, Evidence
 from ros2cc_extract.verify.results.results import NotKept, QueryResult, Verification
 from ros2cc_extract.verify.search.known_answers import Shelf
@@ -66,6 +70,18 @@ class Task:
         return replace(options, profile=Profile.RCLPY, limits=limits, structural=False)
 
     @property
+    def rows(self) -> tuple[Behaviour, ...]:
+        """What differs between the releases it is judged for; nothing where one is named."""
+        options = self.judging or self.options
+        is_for_one = self.closed.spec.rclpy is not None or options.profile is not Profile.RCLPY
+        return () if is_for_one else felt(self.closed.spec)
+
+    def under(self, release: str) -> Task:
+        """The same unit under one release."""
+        closed = replace(self.closed, spec=replace(self.closed.spec, rclpy=release))
+        return replace(self, unit=replace(self.unit, rclpy=release), closed=closed)
+
+    @property
     def size(self) -> int:
         """How much there is to verify, roughly."""
         return len(self.closed.spec.callbacks)
@@ -83,16 +99,18 @@ class Examined:
     What is known of a unit.
 
     :param shown: the verdicts for the reader; ``judged`` are those that findings rest on.
+    :param elsewhere: the like of ``judged`` under releases where the unit behaves otherwise.
     """
 
     shown: Verification
     judged: Verification
     findings: tuple[Finding, ...]
+    elsewhere: tuple[Verification, ...] = ()
 
     @property
     def is_final(self) -> bool:
         """Whether no limit of this machine has cut it short."""
-        return self.shown.complete and self.judged.complete
+        return all(each.complete for each in (self.shown, self.judged, *self.elsewhere))
 
 
 @dataclass(frozen=True)
@@ -106,17 +124,20 @@ class Kept:
     shown: Verification
     judged: Verification | None
     findings: tuple[Finding, ...]
+    elsewhere: tuple[Verification, ...]
 
     @staticmethod
     def of(examined: Examined) -> Kept:
         """Write the same verdicts once."""
         shown, judged = examined.shown, examined.judged
-        return Kept(shown, None if judged is shown else judged, examined.findings)
+        own = None if judged is shown else judged
+        return Kept(shown, own, examined.findings, examined.elsewhere)
 
     @property
     def examined(self) -> Examined:
         """The unit as it was kept."""
-        return Examined(self.shown, self.judged or self.shown, self.findings)
+        judged = self.judged or self.shown
+        return Examined(self.shown, judged, self.findings, self.elsewhere)
 
 
 _KEPT: Packer[Kept] = Packer(Kept)
@@ -231,9 +252,15 @@ def _examine(
     judged = shown
     if task.judging:
         judged = _verify_in_time(task.closed, task.judging, watch, deadline, shelf)
-    findings = _findings(task, judged)
+    first, *others = settings(task.rows)
+    tasks = [task.under(setting.release) for setting in others]
+    options = task.judging or task.options
+    elsewhere = [_verify_in_time(each.closed, options, watch, deadline, shelf) for each in tasks]
+    found = [_findings(*each) for each in zip([task, *tasks], [judged, *elsewhere], strict=True)]
+    findings = of_all_releases([*zip([first, *others], found, strict=True)], task.rows)
     kept = _kept(shown, task.keeps_runs)
-    return Examined(kept, _kept(judged, False) if judged is not shown else kept, findings)
+    own = _kept(judged, False) if judged is not shown else kept
+    return Examined(kept, own, findings, tuple(_kept(each, False) for each in elsewhere))
 
 
 def _verify_in_time(

@@ -109,3 +109,49 @@ def test_distro_says_which_consequence_holds(
     _, out, _ = run(node, '--distro', distro)
     assert told in out
     assert [code for code in ('CC118',) if f' {code}: ' in out] == found
+
+
+OTHER_THREAD = """\
+import threading
+
+import rclpy
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import Empty
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_subscription(Empty, 'go', self.on_go, 10)
+
+    async def on_go(self, message):
+        future = Future()
+        threading.Thread(target=future.set_result, args=(None,), daemon=True).start()
+        await future
+
+
+rclpy.init()
+rclpy.spin(Arm())
+"""
+WOKEN_BY_NOBODY = ' (on Humble before 3.3.21, Jazzy before 7.1.9, Kilted before 9.1.4)\n'
+
+
+def test_without_a_release_all_supported_ones_are_judged(tmp_path: Path) -> None:
+    (tmp_path / 'arm.py').write_text(OTHER_THREAD)
+    path = str(tmp_path / 'arm.py')
+    _, of_all, _ = run(path, '--no-cache')
+    assert ('CC120' in of_all, of_all.count(WOKEN_BY_NOBODY)) == (True, 1)
+    assert '? no deadlock' in of_all
+    _, of_old, _ = run(path, '--no-cache', '--rclpy', '7.1.6')
+    assert ('CC120' in of_old, WOKEN_BY_NOBODY in of_old) == (True, False)
+    _, of_new, _ = run(path, '--no-cache', '--rclpy', '7.1.11')
+    assert ('CC120' in of_new, '✓ no deadlock  ✓ every wait ends' in of_new) == (False, True)
+
+
+def test_what_only_new_releases_do_is_found_without_a_release(tmp_path: Path) -> None:
+    (tmp_path / 'arm.py').write_text(NODE)
+    _, cold, _ = run(str(tmp_path / 'arm.py'))
+    _, cached, _ = run(str(tmp_path / 'arm.py'))
+    assert cold == cached
+    assert 'and from rclpy 7.1.9 on the executor refuses to be spun twice' in cold

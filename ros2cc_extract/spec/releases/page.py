@@ -14,8 +14,11 @@ _HEAD = """\
 What differs between the releases of rclpy that are supported, and between those of Python. Models
 and rules read the same table (`ros2cc_extract/spec/releases/table.py`), from which this page is
 written. A release newer than all that were looked at is judged as the newest of its distribution.
-`check --distro jazzy` or `--rclpy 7.1.6` judges for yours, and `upgrade --from humble --to lyrical
-PATH` tells what changes for your nodes.
+
+`check` judges for all supported releases. A finding that only some of them have says on which, and
+a promise is kept only where it is kept on all. `--distro jazzy` or `--rclpy 7.1.6` judges for one.
+`verify` decides one model: what not all releases have, it takes none to have. `upgrade --from
+humble --to lyrical PATH` lists what changes for your nodes.
 """
 
 

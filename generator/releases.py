@@ -1,0 +1,25 @@
+"""On which behaviours of releases the model of a unit depends."""
+
+from __future__ import annotations
+
+from ros2cc_extract.generator.nested_spins import is_spin
+from ros2cc_extract.generator.resources import is_foreign
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.releases.behaviour import Behaviour
+from ros2cc_extract.spec.releases.table import (
+    FUTURE_YIELDS_ITSELF,
+    NODE_STAYS,
+    SPIN_REFUSED_TWICE,
+)
+
+
+def felt(spec: Spec) -> tuple[Behaviour, ...]:
+    """
+    Give the rows of the table that change the model of a unit.
+
+    The order of tasks is not among them: where no release is named, the model has either order.
+    """
+    blocks = [block for callback in spec.callbacks for block in callback.blocking]
+    spins = (NODE_STAYS, SPIN_REFUSED_TWICE) if any(map(is_spin, blocks)) else ()
+    is_woken = any(is_foreign(block, spec) for block in blocks)
+    return (*spins, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
