@@ -23,12 +23,6 @@ def _json(checked: Checked) -> str:
     return to_text(data)
 
 
-def _html(checked: Checked) -> str:
-    return html_report(
-        checked.units, checked.verifications, checked.findings, checked.summary, checked.sources
-    )
-
-
 def _mermaid(checked: Checked) -> str:
     return units_diagram(checked.units)
 
@@ -38,6 +32,6 @@ WRITERS: Mapping[str, Callable[[Checked], str]] = {
     'sarif': lambda checked: sarif(checked.findings, root=checked.root, docs_url=checked.docs_url),
     'junit': lambda checked: junit(checked.findings, checked.files, checked.package),
     'github': lambda checked: workflow_commands(checked.findings, root=checked.root),
-    'html': _html,
+    'html': html_report,
     'mermaid': _mermaid,
 }
