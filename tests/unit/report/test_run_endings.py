@@ -48,7 +48,7 @@ def test_sarif() -> None:
 
 
 def test_json() -> None:
-    data = check_data([], [], [FINDING], {})
+    data = check_data(check_of(FINDING))
     evidence = data['findings'][0]['evidence']
     assert (evidence['closing'], evidence['left_out']) == (ENDS, 8)
 
