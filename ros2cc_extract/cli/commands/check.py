@@ -141,6 +141,7 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         assumptions=replace(assumptions, rclpy=args.rclpy or assumptions.rclpy),
         root=config.root.resolve(),
         cached=not args.no_cache,
+        shows_verdicts=args.verdicts or args.output_format == 'json',
         keeps_runs=_shows_all_runs(args),
         max_seconds=args.max_seconds,
     )
@@ -148,7 +149,8 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
 
 def _shows_all_runs(args: argparse.Namespace) -> bool:
     """Whether the run behind every verdict is wanted."""
-    return args.output_format == 'json' or (args.output_format == 'html' and args.verdicts)
+    form = str(args.output_format)
+    return form == 'json' or (form == 'html' and bool(args.verdicts))
 
 
 def _known(args: argparse.Namespace, config: Config, job: Job, stderr: TextIO) -> frozenset[str]:
