@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from typing import TYPE_CHECKING
 
 from ros2cc_extract.generator.executor_kinds import (
     GUARD_RANK,
@@ -34,6 +33,9 @@ from ros2cc_extract.generator.queries import (
 from ros2cc_extract.generator.template_files import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
 from ros2cc_extract.spec.close import ClosedSpec
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 __all__ = [
     'IN_DOUBT',
@@ -291,6 +293,9 @@ def _fill(template: str, **values: object) -> str:
 
 @cache
 def _environment() -> Environment:
+    # Imported late: who reads kept verdicts starts faster without.
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
     return Environment(
         loader=FileSystemLoader(Path(__file__).parent / 'profiles'),
         autoescape=lambda name: name is not None and name.endswith('.xml.j2'),

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind
-from ros2cc_extract.generator.unit import Unit
+
+if TYPE_CHECKING:
+    from ros2cc_extract.generator.unit import Unit
 
 
 class Profile(Enum):

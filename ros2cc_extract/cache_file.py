@@ -11,7 +11,7 @@ A damaged or foreign file counts as none, and a folder that cannot be written is
 from __future__ import annotations
 
 import gc
-import importlib.util
+import importlib
 import json
 import os
 import sys
@@ -196,13 +196,14 @@ def tool_version() -> str:
     return digest.hexdigest()
 
 
-def _own_files() -> Iterator[tuple[str, Path]]:
+def _own_files() -> Iterator[tuple[str, str]]:
     """In a checkout the generator stands beside the other rooms, and else among them."""
-    package = Path(__file__).resolve().parent
-    generator = importlib.util.find_spec('ros2cc_extract.generator')
-    places = generator.submodule_search_locations if generator else None
-    for root in dict.fromkeys((package, *map(Path, places or ()))):
+    package = str(Path(__file__).resolve().parent)
+    places = importlib.import_module('ros2cc_extract.generator').__path__
+    for root in dict.fromkeys((package, *places)):
         for folder, folders, files in os.walk(root):
             folders[:] = sorted(each for each in folders if each != '__pycache__')
-            paths = (Path(folder, file) for file in sorted(files))
-            yield from ((path.relative_to(root).as_posix(), path) for path in paths)
+            # Texts, and no paths: of hundreds of files these would take longer than reading.
+            yield from (
+                (f'{folder[len(root) :]}/{file}', f'{folder}/{file}') for file in sorted(files)
+            )

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from ros2cc_extract.checker.engines.choice import Engine, EngineKind, choose
+from ros2cc_extract.checker.engines.choice import Engine, choose
 from ros2cc_extract.checker.engines.limits import Limits, Progress, peak_mb
-from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Fairness, Reductions, Verdict
+from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Reductions
+from ros2cc_extract.checker.engines.terms import EngineKind, Fairness, Verdict
 from ros2cc_extract.checker.network.network import Property
 from ros2cc_extract.checker.runs.answers import Answer, CheckResult
 from ros2cc_extract.checker.runs.complementary_queries import twins_of, with_twins

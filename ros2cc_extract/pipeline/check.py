@@ -27,7 +27,8 @@ from ros2cc_extract.findings.waits_across_executors import without_what_is_told
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.sources import scan_sources
-from ros2cc_extract.pipeline.unit_jobs import Examined, Task, examine_all, joined_task
+from ros2cc_extract.pipeline.unit_jobs import examine_all
+from ros2cc_extract.pipeline.unit_task import Examined, Task, joined_task, judging_options
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
@@ -47,7 +48,8 @@ class Job:
 
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
-    :param keeps_runs: the run behind every verdict is wanted.
+    :param shows_verdicts: the verdicts of the profile in ``options`` are wanted too, and not only
+        those that findings rest on; with ``keeps_runs`` each with its run.
     :param max_seconds: for scanning all files and verifying all units together.
     :param spent_s: of these seconds, on what was checked before.
     :param files: those of the disk, or of another revision.
@@ -62,6 +64,7 @@ class Job:
     root: Path
     known: frozenset[str] = frozenset()
     cached: bool = True
+    shows_verdicts: bool = False
     keeps_runs: bool = False
     max_seconds: float | None = None
     spent_s: float = 0.0
@@ -74,6 +77,8 @@ class Outcome:
     """
     What came out.
 
+    :param verifications: for the reader; ``judged`` are those that findings rest on, under all
+        releases that are judged.
     :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
@@ -84,6 +89,7 @@ class Outcome:
     units: tuple[Spec, ...]
     closed: tuple[ClosedSpec, ...]
     verifications: tuple[Verification, ...]
+    judged: tuple[Verification, ...]
     findings: tuple[Finding, ...]
     accepted: int
     sources: Mapping[str, str]
@@ -93,7 +99,7 @@ class Outcome:
     @property
     def summary(self) -> dict[str, int]:
         """Counts for the last line, in its order."""
-        verdicts = Counter(r.verdict.value for v in self.verifications for r in v.results)
+        verdicts = Counter(r.verdict.value for v in self.judged for r in v.results)
         severities = Counter(finding.severity for finding in self.findings)
         return {
             'files': len(self.extraction.files_seen),
@@ -113,7 +119,7 @@ class Outcome:
     def is_undecided(self) -> bool:
         """True when a limit left a verdict open, or a file."""
         return bool(self.extraction.cut) or any(
-            verification.is_undecided for verification in self.verifications
+            verification.is_undecided for verification in self.judged
         )
 
     @property
@@ -154,10 +160,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         if job.policy.builtin or _has_callbacks(unit)
     )
     closed = tuple(close(unit, job.policy) for unit in units)
-    tasks = [
-        Task(unit, each, job.options, job.keeps_runs)
-        for unit, each in zip(with_arrivals(units), closed, strict=True)
-    ]
+    tasks = _tasks(job, units, closed)
     with bar(stderr, 'verifying') as meter:
         folder = default_cache_folder() if job.cached else None
         is_over = extraction.interrupted
@@ -178,7 +181,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
             extraction.diagnostics,
             {unit.rclpy for unit in units},
         ),
-        *check_requirements(job.config.requirements, units, [each.judged for each in examined]),
+        *check_requirements(job.config.requirements, units, [each.under_all for each in examined]),
     )
     root = job.root.as_posix()
     selected = select(findings, job.config.selection, root)
@@ -190,12 +193,22 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         units=units,
         closed=closed,
         verifications=tuple(each.shown for each in examined),
+        judged=tuple(each.under_all for each in examined),
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
         promises=tuple(_promises(tasks, examined, findings)),
         interrupted=examination.interrupted,
     )
+
+
+def _tasks(job: Job, units: Sequence[Spec], closed: Sequence[ClosedSpec]) -> list[Task]:
+    """Verdicts that nobody will see are not asked for."""
+    options = job.options if job.shows_verdicts else judging_options(job.options)
+    return [
+        Task(unit, each, options, job.keeps_runs)
+        for unit, each in zip(with_arrivals(units), closed, strict=True)
+    ]
 
 
 def _promises(

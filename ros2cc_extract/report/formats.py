@@ -10,6 +10,7 @@ from ros2cc_extract.report.machine.json_report import check_data, to_text
 from ros2cc_extract.report.machine.junit import junit
 from ros2cc_extract.report.machine.sarif import sarif
 from ros2cc_extract.report.shared.checked import Checked
+from ros2cc_extract.report.shared.last_line import last_line
 from ros2cc_extract.report.unit_mermaid import units_diagram
 
 
@@ -18,26 +19,25 @@ def write(checked: Checked, format: str) -> str:
     return WRITERS[format](checked)
 
 
-def _json(checked: Checked) -> str:
-    data = check_data(checked.units, checked.verifications, checked.findings, checked.summary)
-    return to_text(data)
+def _sarif(checked: Checked) -> str:
+    line = last_line(checked.summary)
+    return sarif(checked.findings, line=line, root=checked.root, docs_url=checked.docs_url)
 
 
-def _html(checked: Checked) -> str:
-    return html_report(
-        checked.units, checked.verifications, checked.findings, checked.summary, checked.sources
-    )
+def _junit(checked: Checked) -> str:
+    line = last_line(checked.summary)
+    return junit(checked.findings, checked.files, checked.package, line=line)
 
 
 def _mermaid(checked: Checked) -> str:
-    return units_diagram(checked.units)
+    return f'{units_diagram(checked.units)}%% {last_line(checked.summary)}\n'
 
 
 WRITERS: Mapping[str, Callable[[Checked], str]] = {
-    'json': _json,
-    'sarif': lambda checked: sarif(checked.findings, root=checked.root, docs_url=checked.docs_url),
-    'junit': lambda checked: junit(checked.findings, checked.files, checked.package),
+    'json': lambda checked: to_text(check_data(checked)),
+    'sarif': _sarif,
+    'junit': _junit,
     'github': lambda checked: workflow_commands(checked.findings, root=checked.root),
-    'html': _html,
+    'html': html_report,
     'mermaid': _mermaid,
 }

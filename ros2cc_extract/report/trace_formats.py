@@ -14,6 +14,7 @@ from typing import Any
 from ros2cc_extract.report.machine.json_report import evidence_data, to_text
 from ros2cc_extract.report.shared.run_lanes import Stay, stays_of
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
+from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import to_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import to_xtr
 
@@ -38,7 +39,7 @@ def write_trace(evidence: Evidence, title: str, form: str) -> str:
         return to_text(chrome_trace(evidence, title))
     if form == 'json':
         return to_text(evidence_data(evidence))
-    if form in UPPAAL_WRITERS and evidence.origin is not None:
+    if form in UPPAAL_WRITERS and isinstance(evidence.origin, UppaalRun):
         return UPPAAL_WRITERS[form](evidence.origin)
     return f'{title}\n' + ''.join(_text_lines(evidence))
 

@@ -23,6 +23,7 @@ from ros2cc_extract.packages.manifest import package_name, python_files
 from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config, read_config
 from ros2cc_extract.report.machine.junit import junit
+from ros2cc_extract.report.shared.last_line import last_line
 from ros2cc_extract.report.text.findings import print_findings
 from ros2cc_extract.report.text.paths import Paths
 from ros2cc_extract.report.text.style import console_for
@@ -82,7 +83,8 @@ def _check(args: argparse.Namespace) -> tuple[int, list[str]]:
     _tell(outcome, len(failures))
     if args.xunit_file is not None:
         seen = outcome.extraction.files_seen
-        text = junit(outcome.findings, seen, package_name(args.paths[0]))
+        line = last_line(outcome.summary)
+        text = junit(outcome.findings, seen, package_name(args.paths[0]), line=line)
         write_atomically(args.xunit_file, text)
     return EXIT_FINDINGS if failures else EXIT_CLEAN, [_line(f) for f in failures]
 

@@ -20,8 +20,8 @@ from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.results.evidence import Names
 from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
+from ros2cc_extract.verify.results.run_evidence import Names
 from ros2cc_extract.verify.search.model_search import (
     RunTeller,
     also_begun,

@@ -12,7 +12,8 @@ from ros2cc_extract.files import read_named
 from ros2cc_extract.generator import build
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml

@@ -113,11 +113,12 @@ def told_as(form: str, stain: str) -> str:
         promises=stained(found.promises, stain),
         files=[f'{file}{stain}' for file in found.extraction.files_seen],
         sources=found.sources,
+        with_verdicts=True,
     )
     if form == 'text':
         console = console_for(shown)
         console.width = 10_000
-        print_check(checked, console, Telling(detail=Detail.VERBOSE, verdicts=True))
+        print_check(checked, console, Telling(detail=Detail.VERBOSE))
     else:
         shown.write(write(checked, form))
     return stream.getvalue()

@@ -187,13 +187,14 @@ def test_a_pipe_that_gives_no_text_is_told(run: Run) -> None:
 
 
 def test_check_prints_units_verdicts_and_runs(run: Run) -> None:
-    outcome = run(CASE_1, '--verdicts')
+    outcome = run(CASE_1, '--verdicts', '-v')
     assert outcome.status == 1  # CC201: callbacks sleep longer than a period
     assert 'checked paper_case1: SingleThreadedExecutor, 1 thread' in outcome.out
     assert 'unit paper_case1\n' in outcome.out
     assert 'on_timer_a' in outcome.out
     assert 'more runs: ros2cc-extract verify shows them' in outcome.out
     assert 'counterexample' in run(EXAMPLES / 'two_groups' / 'node.py', '--verdicts').out
+    assert 'counterexample' not in run(EXAMPLES / 'two_groups' / 'node.py').out
 
 
 def test_check_keeps_what_it_made(run: Run, tmp_path: Path) -> None:
@@ -228,7 +229,14 @@ def test_a_limit_gives_undecided_and_status_3(run: Run) -> None:
 def test_json_of_check_holds_everything(run: Run) -> None:
     outcome = run(CASE_1, '--output-format', 'json')
     data = json.loads(outcome.out)
-    assert set(data) == {'units', 'verdicts', 'findings', 'summary', 'confidence'}
+    assert set(data) == {
+        'units',
+        'verdicts',
+        'promises',
+        'findings',
+        'summary',
+        'confidence',
+    }
     assert data['summary']['units'] == 1
     assert len(data['verdicts'][0]['queries']) == 26
 

@@ -11,8 +11,9 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.cli.main import main
 from ros2cc_extract.errors import ModelFormatError, ToolNotFoundError
 from ros2cc_extract.extract.static.api import scan
-from ros2cc_extract.pipeline import unit_jobs
-from ros2cc_extract.pipeline.unit_jobs import Task, examine
+from ros2cc_extract.pipeline import unit_examination
+from ros2cc_extract.pipeline.unit_examination import examine
+from ros2cc_extract.pipeline.unit_task import Task
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.verify.results.results import Verification
@@ -38,7 +39,7 @@ def test_the_other_units_go_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) 
         node = (EXAMPLES / name / 'node.py').read_text(encoding='utf-8')
         (tmp_path / f'{name}.py').write_text(node, encoding='utf-8')
     (broken,) = scan([tmp_path / 'two_groups.py']).units
-    monkeypatch.setattr(unit_jobs, 'verify_unit', fails_on(broken.nodes[0]))
+    monkeypatch.setattr(unit_examination, 'verify_unit', fails_on(broken.nodes[0]))
     monkeypatch.chdir(tmp_path)
     out, err = io.StringIO(), io.StringIO()
     assert main(['check', '.', '--no-cache'], out, err) == 1
@@ -49,7 +50,7 @@ def test_the_other_units_go_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) 
 
 def test_every_query_of_such_a_unit_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     (unit,) = scan([EXAMPLES / 'two_groups' / 'node.py']).units
-    monkeypatch.setattr(unit_jobs, 'verify_unit', fails_on(unit.nodes[0]))
+    monkeypatch.setattr(unit_examination, 'verify_unit', fails_on(unit.nodes[0]))
     examined = examine(Task(unit, close(unit), Options(), keeps_runs=False))
     asked = verify_unit(close(unit), Options()).results
     assert [(r.formula, r.verdict, r.reason) for r in examined.shown.results] == [
@@ -64,6 +65,6 @@ def test_a_program_that_is_not_there_is_no_defect(monkeypatch: pytest.MonkeyPatc
         raise ToolNotFoundError('verifyta is not there')
 
     (unit,) = scan([EXAMPLES / 'two_groups' / 'node.py']).units
-    monkeypatch.setattr(unit_jobs, 'verify_unit', missing)
+    monkeypatch.setattr(unit_examination, 'verify_unit', missing)
     with pytest.raises(ToolNotFoundError):
         examine(Task(unit, close(unit), Options(), keeps_runs=False))

@@ -5,23 +5,15 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from enum import Enum
 from typing import Protocol
 
 from ros2cc_extract.checker.engines.limits import Limits, Progress
-from ros2cc_extract.checker.engines.search import Fairness, Reductions, SearchResult
+from ros2cc_extract.checker.engines.search import Reductions, SearchResult
+from ros2cc_extract.checker.engines.terms import EngineKind, Fairness
 from ros2cc_extract.checker.network.network import Network, Property
 from ros2cc_extract.errors import ToolNotFoundError
 
 _MEND = 'install a C++ compiler and Python.h, then install this package again'
-
-
-class EngineKind(Enum):
-    """Who searches; AUTO is the native core where it is built."""
-
-    AUTO = 'auto'
-    REFERENCE = 'reference'
-    NATIVE = 'native'
 
 
 class Search(Protocol):

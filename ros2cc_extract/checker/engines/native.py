@@ -19,7 +19,6 @@ from ros2cc_extract.checker.engines.native_tables import Lowering, Predicate
 from ros2cc_extract.checker.engines.search import (
     INTERRUPTED,
     End,
-    Fairness,
     Outcome,
     Reductions,
     SearchResult,
@@ -32,6 +31,7 @@ from ros2cc_extract.checker.engines.search import (
     not_found,
     positions,
 )
+from ros2cc_extract.checker.engines.terms import Fairness
 from ros2cc_extract.checker.network.interpreter import endless_error, site_error
 from ros2cc_extract.checker.network.network import Network, Property
 from ros2cc_extract.checker.network.semantics import State

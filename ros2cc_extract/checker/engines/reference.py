@@ -17,7 +17,6 @@ from ros2cc_extract.checker.engines.limits import Limits, Progress, Watch, state
 from ros2cc_extract.checker.engines.liveness import Lasso, Movers, find_fair_lasso, find_lasso
 from ros2cc_extract.checker.engines.search import (
     INTERRUPTED,
-    Fairness,
     Outcome,
     Reductions,
     SearchResult,
@@ -31,6 +30,7 @@ from ros2cc_extract.checker.engines.search import (
 )
 from ros2cc_extract.checker.engines.state_graph import DEADLOCK, IDLE, Graph
 from ros2cc_extract.checker.engines.state_layout import Layout
+from ros2cc_extract.checker.engines.terms import Fairness
 from ros2cc_extract.checker.network.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Semantics
 from ros2cc_extract.checker.network.traversal import mentions_deadlock

@@ -7,29 +7,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
+from ros2cc_extract.checker.engines.terms import Verdict
 from ros2cc_extract.checker.network.arithmetic import negation
 from ros2cc_extract.checker.network.network import Expr, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Edges, State
-
-
-class Verdict(Enum):
-    """Answer to a query; undecided when a limit was hit before it was known."""
-
-    SATISFIED = 'satisfied'
-    NOT_SATISFIED = 'not satisfied'
-    UNDECIDED = 'undecided'
-
-
-class Fairness(Enum):
-    """
-    Which infinite paths count for ``-->``, ``A<>`` and ``E[]``.
-
-    NONE: all, as in UPPAAL. WEAK: those on which no process is enabled from some point on for
-    ever without ever moving.
-    """
-
-    NONE = 'none'
-    WEAK = 'weak'
 
 
 class End(Enum):

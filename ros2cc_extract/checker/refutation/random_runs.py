@@ -18,14 +18,13 @@ from ros2cc_extract.checker.engines.generated_successors import Moving, Plan
 from ros2cc_extract.checker.engines.limits import Limits, Watch, peak_mb
 from ros2cc_extract.checker.engines.search import (
     End,
-    Fairness,
     StatePath,
-    Verdict,
     goal_of,
     inside_of,
     is_reachability,
 )
 from ros2cc_extract.checker.engines.state_layout import Layout
+from ros2cc_extract.checker.engines.terms import Fairness, Verdict
 from ros2cc_extract.checker.network.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Semantics
 from ros2cc_extract.checker.runs.answers import Answer, CheckResult

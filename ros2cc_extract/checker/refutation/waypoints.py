@@ -12,16 +12,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from ros2cc_extract.checker.engines.choice import EngineKind, choose
+from ros2cc_extract.checker.engines.choice import choose
 from ros2cc_extract.checker.engines.limits import Limits, peak_mb
-from ros2cc_extract.checker.engines.search import (
-    NO_REDUCTIONS,
-    Fairness,
-    Outcome,
-    SearchResult,
-    StatePath,
-    Verdict,
-)
+from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Outcome, SearchResult, StatePath
+from ros2cc_extract.checker.engines.terms import EngineKind, Fairness, Verdict
 from ros2cc_extract.checker.network.network import Network
 from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.checker.runs.answers import Answer, CheckResult

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ros2cc_extract.checker.engines.search import INTERRUPTED, Verdict
+from ros2cc_extract.checker.engines.search import INTERRUPTED
+from ros2cc_extract.checker.engines.terms import Verdict
 from ros2cc_extract.checker.runs.run import Run
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ros2cc_extract.checker.engines.search import Verdict
+from ros2cc_extract.checker.engines.terms import Verdict
 from ros2cc_extract.checker.runs.answers import Answer
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 

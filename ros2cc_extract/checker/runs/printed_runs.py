@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ros2cc_extract.checker.engines.search import End, Fairness, StatePath
+from ros2cc_extract.checker.engines.search import End, StatePath
+from ros2cc_extract.checker.engines.terms import Fairness
 from ros2cc_extract.checker.network.network import Network, QueryKind
 from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.checker.runs.replay import Replayer

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from ros2cc_extract.checker.engines.search import End, Fairness, Reduce, StatePath
+from ros2cc_extract.checker.engines.search import End, Reduce, StatePath
+from ros2cc_extract.checker.engines.terms import Fairness
 from ros2cc_extract.checker.network.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Edges, Semantics, State, Transition
 from ros2cc_extract.checker.network.traversal import mentions_deadlock

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
 
 DEFAULT_SECONDS = 20.0
 DEFAULT_MAX_SECONDS = 120.0
-WITH_RUNS = ('json', 'html')
-"""Formats that show the run behind every verdict."""
 LAUNCH_SUFFIXES = ('.launch.py', '_launch.py')
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
@@ -64,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--verdicts',
         action='store_true',
-        help="text: every unit's table of queries and verdicts too, as verify prints it",
+        help="text, html: every unit's table of queries and verdicts too, as verify prints it",
     )
     parser.add_argument(
         '--assume',
@@ -143,9 +141,16 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         assumptions=replace(assumptions, rclpy=args.rclpy or assumptions.rclpy),
         root=config.root.resolve(),
         cached=not args.no_cache,
-        keeps_runs=args.output_format in WITH_RUNS,
+        shows_verdicts=args.verdicts or args.output_format == 'json',
+        keeps_runs=_shows_all_runs(args),
         max_seconds=args.max_seconds,
     )
+
+
+def _shows_all_runs(args: argparse.Namespace) -> bool:
+    """Whether the run behind every verdict is wanted."""
+    form = str(args.output_format)
+    return form == 'json' or (form == 'html' and bool(args.verdicts))
 
 
 def _known(args: argparse.Namespace, config: Config, job: Job, stderr: TextIO) -> frozenset[str]:
@@ -194,7 +199,7 @@ def _tell(
     args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO, seconds: float
 ) -> None:
     form = args.output_format
-    checked = _checked(outcome, job)
+    checked = _checked(args, outcome, job)
     if form == 'text':
         _print_text(args, checked, stdout, seconds)
         return
@@ -205,7 +210,7 @@ def _tell(
         _append_step_summary(checked)
 
 
-def _checked(outcome: Outcome, job: Job) -> Checked:
+def _checked(args: argparse.Namespace, outcome: Outcome, job: Job) -> Checked:
     from ros2cc_extract.report.shared.checked import Checked
 
     return Checked(
@@ -219,6 +224,7 @@ def _checked(outcome: Outcome, job: Job) -> Checked:
         root=job.root.as_posix(),
         package=job.root.name,
         docs_url=job.config.docs_url,
+        with_verdicts=args.verdicts,
     )
 
 
@@ -232,7 +238,6 @@ def _print_text(
     detail = Detail.QUIET if args.quiet else Detail.VERBOSE if args.verbose else Detail.USUAL
     how = Telling(
         detail=detail,
-        verdicts=args.verdicts,
         paths=shlex.join(str(path) for path in args.paths),
         seconds=seconds,
     )

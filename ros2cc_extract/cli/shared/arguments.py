@@ -141,10 +141,11 @@ def policy_of(args: argparse.Namespace) -> Policy:
 
 def options_of(args: argparse.Namespace) -> Options:
     """Collect what ``add_search_arguments`` declared."""
-    from ros2cc_extract.checker.api import EngineKind, Fairness, Limits
-    from ros2cc_extract.generator.build import Profile, Text
+    from ros2cc_extract.checker.engines.limits import Limits
+    from ros2cc_extract.checker.engines.terms import EngineKind, Fairness
+    from ros2cc_extract.generator.template_files import Profile, Text
     from ros2cc_extract.verify.search.options import Checker, Options
-    from ros2cc_extract.verify.uppaal.verifyta import Runs
+    from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 
     return Options(
         checker=Checker(args.checker),

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.static.program.project import Project
+from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
-from ros2cc_extract.extract.static.scan.scanning import Progress, scan_project
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.process_pool import usable_cores
+
+if TYPE_CHECKING:
+    from ros2cc_extract.extract.static.scan.scanning import Progress
 
 
 def scan(
@@ -42,14 +45,23 @@ def scan(
         project.lists_builtin = lists_builtin
         project.deadline = patience.deadline
         if cache is None or lists_builtin:
-            return scan_project(project, usable_cores(processes), progress, patience)[0]
+            return _scanned(project, usable_cores(processes), progress, patience)[0]
         return _scan_cached(project, progress, cache, usable_cores(processes), patience)
 
 
 def scan_text(text: str, name: str = 'node.py') -> Extraction:
     """Scan a program of one file given as text."""
     with scanning_limits():
-        return scan_project(Project.of_text(text, name), 1, None, PATIENT)[0]
+        return _scanned(Project.of_text(text, name), 1, None, PATIENT)[0]
+
+
+def _scanned(
+    project: Project, processes: int, progress: Progress | None, patience: Patience
+) -> tuple[Extraction, frozenset[FollowedFile]]:
+    # Imported here: what the cache knows is told without the interpreter, which loads slowly.
+    from ros2cc_extract.extract.static.scan.scanning import scan_project
+
+    return scan_project(project, processes, progress, patience)
 
 
 def _scan_cached(
@@ -65,7 +77,7 @@ def _scan_cached(
     entry = ScanCache(folder, project)
     known = entry.load()
     if known is None:
-        known, followed = scan_project(project, processes, progress, patience)
+        known, followed = _scanned(project, processes, progress, patience)
         if not known.cut:
             entry.store(known, followed)
     return known

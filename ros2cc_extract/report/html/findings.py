@@ -1,35 +1,65 @@
-"""The cards of the findings: line, reason, evidence, help, and the page of the rule."""
+"""The cards of the findings: line, reason, evidence and help; and the pages of their rules."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Sequence
 from html import escape
 
+from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.base.rule import Rule
 from ros2cc_extract.findings.rules.registry import BY_CODE
-from ros2cc_extract.report.html.parts import (
-    SEVERITY_WORDS,
-    Sources,
-    excerpt,
-    place_text,
-    prose,
-    span,
-    tag,
-)
-from ros2cc_extract.verify.results.evidence import Evidence
+from ros2cc_extract.report.html.excerpts import AROUND, Excerpts
+from ros2cc_extract.report.html.parts import SEVERITY_WORDS, folded, prose, span, tag
+from ros2cc_extract.report.html.runs import Runs, steps_as_text
+from ros2cc_extract.report.shared.counts import counted
+from ros2cc_extract.spec.model import Spec
 
-Timeline = Callable[[Evidence], str]
+MOST_NOTES = 10
+"""More notes than this are folded."""
+MOST_OPEN = 3
+"""More runs than this are drawn when they are asked for."""
+
+Numbered = Sequence[tuple[int, Finding]]
+"""The findings of the page with their numbers, which are their anchors."""
 
 
-def finding_card(number: int, finding: Finding, sources: Sources, timeline: Timeline) -> str:
-    """Write one finding; ``number`` is its anchor."""
+def by_weight(findings: Iterable[Finding]) -> Numbered:
+    """Number the findings, errors first."""
+    weight = list(Severity)
+    ordered = sorted(findings, key=lambda finding: weight.index(finding.severity))
+    return list(enumerate(ordered, start=1))
+
+
+def findings_section(
+    findings: Numbered, units: Sequence[Spec], excerpts: Excerpts, runs: Runs
+) -> str:
+    """Write all findings; many notes are folded, so that errors and units stay in sight."""
+    names = {unit.name: [callback.name for callback in unit.callbacks] for unit in units}
+    opened = sum(finding.run is not None for _, finding in findings) <= MOST_OPEN
+    cards: dict[bool, list[str]] = {False: [], True: []}
+    for number, finding in findings:
+        run = _run(finding, names.get(finding.unit or '', ()), runs, opened=opened)
+        card = _card(number, finding, excerpts, run)
+        cards[finding.severity is Severity.NOTE].append(card)
+    others, notes = cards[False], cards[True]
+    if len(notes) > MOST_NOTES:
+        notes = [folded(counted(len(notes), 'notes'), *notes, class_='notes')]
+    content = ''.join((*others, *notes)) or tag('p', 'No findings.', class_='quiet')
+    return tag('section', tag('h2', 'Findings'), content, id='findings')
+
+
+def rules_section(findings: Numbered) -> str:
+    """Write what each rule means, once."""
+    codes = sorted({finding.code for _, finding in findings})
+    pages = ''.join(_rule_page(BY_CODE[code]) for code in codes)
+    return tag('section', tag('h2', 'Rules'), pages, id='rules') if pages else ''
+
+
+def _card(number: int, finding: Finding, excerpts: Excerpts, run: str) -> str:
     kind = SEVERITY_WORDS[finding.severity]
-    run = (
-        tag('h4', 'A run of the model that shows it') + timeline(finding.run)
-        if finding.run
-        else ''
-    )
+    rule = BY_CODE[finding.code]
+    about = f'{rule.code} {rule.slug}: {rule.title}'
     return tag(
         'article',
         tag(
@@ -37,13 +67,12 @@ def finding_card(number: int, finding: Finding, sources: Sources, timeline: Time
             span(f'badge {kind}', finding.code),
             tag('h3', escape(finding.message)),
         ),
-        tag('p', place_text(finding.place), _of_unit(finding)),
-        excerpt(finding.place, sources),
-        _remarks('How it gets there', finding.chain, sources),
-        _remarks('Look also at', finding.related, sources),
-        tag('p', tag('b', 'help: '), escape(finding.help), class_='help') if finding.help else '',
+        tag('p', excerpts.link(finding.place, AROUND), _of_unit(finding)),
+        _remarks('How it gets there', finding.chain, excerpts),
+        _remarks('Look also at', finding.related, excerpts),
         run,
-        _rule_page(BY_CODE[finding.code]),
+        tag('p', tag('b', 'help: '), escape(finding.help), class_='help') if finding.help else '',
+        tag('p', tag('a', escape(about), href=f'#rule-{rule.code}'), class_='about'),
         class_=f'finding {kind}',
         id=f'finding-{number}',
         data_kind=kind,
@@ -54,24 +83,23 @@ def _of_unit(finding: Finding) -> str:
     return span('quiet', f' in unit {finding.unit}') if finding.unit else ''
 
 
-def _remarks(title: str, remarks: Iterable[Remark], sources: Sources) -> str:
+def _run(finding: Finding, callbacks: Sequence[str], runs: Runs, *, opened: bool) -> str:
+    if finding.run is None:
+        return ''
+    player = runs.player(finding.run, callbacks, opened=opened)
+    return tag('h4', 'It can happen like this') + steps_as_text(finding.run) + player
+
+
+def _remarks(title: str, remarks: Iterable[Remark], excerpts: Excerpts) -> str:
     rows = ''.join(
-        tag(
-            'li',
-            escape(remark.text),
-            ' ',
-            place_text(remark.place),
-            excerpt(remark.place, sources, around=0),
-        )
-        for remark in remarks
+        tag('li', escape(remark.text), ' ', excerpts.link(remark.place)) for remark in remarks
     )
     return tag('h4', title) + tag('ol', rows, class_='remarks') if rows else ''
 
 
 def _rule_page(rule: Rule) -> str:
-    return tag(
-        'details',
-        tag('summary', f'{rule.code} {rule.slug}: {escape(rule.title)}'),
+    return folded(
+        f'{rule.code} {rule.slug}: {escape(rule.title)}',
         tag('p', prose(rule.what)),
         tag('p', prose(rule.why)),
         tag(
@@ -82,4 +110,5 @@ def _rule_page(rule: Rule) -> str:
         ),
         tag('p', prose(rule.mend)),
         class_='rule',
+        id=f'rule-{rule.code}',
     )

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from html import escape
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.source_locations import Place
 
-Sources = Mapping[str, str]
-"""Text of the source files, by the path that places name."""
-
-EXCERPT_AROUND = 2
 SEVERITY_WORDS = {Severity.ERROR: 'error', Severity.WARNING: 'warning', Severity.NOTE: 'note'}
 
 
@@ -24,6 +19,12 @@ def tag(name: str, *content: str, **attributes: str) -> str:
     return f'<{name}{given}>{"".join(content)}</{name}>'
 
 
+def folded(summary: str, *content: str, opened: bool = False, **attributes: str) -> str:
+    """Write finished HTML that a click on its summary shows."""
+    more = {'open': ''} if opened else {}
+    return tag('details', tag('summary', summary), *content, **attributes, **more)
+
+
 def span(class_: str, text: str) -> str:
     """Write text in a span."""
     return tag('span', escape(text), class_=class_)
@@ -32,11 +33,6 @@ def span(class_: str, text: str) -> str:
 def code(text: str) -> str:
     """Write text as code."""
     return tag('code', escape(text))
-
-
-def place_text(place: Place | None) -> str:
-    """Write a place; nothing when there is none."""
-    return span('place', str(place)) if place else ''
 
 
 def items(contents: Iterable[str], class_: str) -> str:
@@ -49,27 +45,3 @@ def prose(text: str) -> str:
     """Write help text: words between backquotes become code."""
     parts = text.split('`')
     return ''.join(code(part) if number % 2 else escape(part) for number, part in enumerate(parts))
-
-
-def excerpt(place: Place, sources: Sources, around: int = EXCERPT_AROUND) -> str:
-    """Show the lines around a place; nothing when the source is not at hand."""
-    lines = sources.get(place.file, '').splitlines()
-    if not 1 <= place.line <= len(lines):
-        return ''
-    first = max(place.line - around, 1)
-    shown = lines[first - 1 : place.line + around]
-    rows = ''.join(
-        _source_line(number, line.expandtabs(4), number == place.line)
-        for number, line in enumerate(shown, start=first)
-    )
-    return tag('pre', rows, class_='source', tabindex='0')
-
-
-def _source_line(number: int, text: str, is_place: bool) -> str:
-    row = f'{span("number", f"{number:5}")} {escape(text)}\n'
-    return tag('span', row, class_='line here' if is_place else 'line')
-
-
-def plural(number: int, noun: str) -> str:
-    """Write ``1 file``, ``2 files``."""
-    return f'{number} {noun}{"" if number == 1 else "s"}'

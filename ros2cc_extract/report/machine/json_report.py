@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ros2cc_extract.compare.merge import Difference
 from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.findings.promises import Judgement
+from ros2cc_extract.report.shared.checked import Checked
+from ros2cc_extract.report.shared.last_line import last_line
 from ros2cc_extract.spec.confidence import Summary, confidence_in
-from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import spec_to_data
 from ros2cc_extract.text_escaping import json_text
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -42,21 +44,27 @@ def verification_data(verification: Verification) -> Data:
     }
 
 
-def check_data(
-    units: Sequence[Spec],
-    verifications: Sequence[Verification],
-    findings: Sequence[Finding],
-    summary: Mapping[str, int],
-) -> Data:
-    """The object of ``check``: units, verdicts, findings, summary."""
+def check_data(checked: Checked) -> Data:
+    """The object of ``check``: units, verdicts, promises, findings, summary."""
+    verdicts = map(verification_data, checked.verifications)
     return {
-        'units': [spec_to_data(unit) for unit in units],
-        'verdicts': [
-            _without_cost(verification_data(verification)) for verification in verifications
+        'units': [spec_to_data(unit) for unit in checked.units],
+        'verdicts': [_without_cost(each) for each in verdicts],
+        'promises': [
+            {'unit': unit.name, 'promises': [_judgement_data(each) for each in judgements]}
+            for unit, judgements in zip(checked.units, checked.promises, strict=True)
         ],
-        'findings': [_finding_data(finding) for finding in findings],
-        'summary': dict(summary),
-        'confidence': confidence_data(confidence_in(units)),
+        'findings': [_finding_data(finding) for finding in checked.findings],
+        'summary': {**checked.summary, 'line': last_line(checked.summary)},
+        'confidence': confidence_data(confidence_in(checked.units)),
+    }
+
+
+def _judgement_data(judgement: Judgement) -> Data:
+    return {
+        'promise': judgement.promise.value,
+        'mark': judgement.mark.value,
+        'reason': judgement.reason,
     }
 
 

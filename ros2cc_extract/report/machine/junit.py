@@ -2,7 +2,7 @@
 Findings as JUnit XML, the way ament linters write it and ``colcon test-result`` reads it.
 
 One suite, ``<package>.ros2cc``: a failed case per error or warning, a passed case per file
-without one; notes stand in the output of the suite.
+without one; notes and the last line of the text report stand in the output of the suite.
 """
 
 from __future__ import annotations
@@ -19,12 +19,15 @@ _NOT_XML = re.compile('[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]')
 """What XML 1.0 does not allow even as a reference."""
 
 
-def junit(findings: Sequence[Finding], files: Sequence[str], package: str) -> str:
+def junit(
+    findings: Sequence[Finding], files: Sequence[str], package: str, *, line: str = ''
+) -> str:
     """
     Write one test suite.
 
     :param files: every file that was looked at.
     :param package: what the suite is named after.
+    :param line: what the text report ends with.
     """
     findings, files = printable(findings), printable(files)
     failures = [f for f in findings if f.severity is not Severity.NOTE]
@@ -41,7 +44,7 @@ def junit(findings: Sequence[Finding], files: Sequence[str], package: str) -> st
     )
     suite.extend(_failed_case(finding, name) for finding in failures)
     suite.extend(_passed_case(file, name) for file in passed)
-    suite.extend(_notes(findings))
+    suite.extend(_output(findings, line))
     ElementTree.indent(suite)
     text = ElementTree.tostring(suite, encoding='unicode')
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
@@ -70,11 +73,13 @@ def _lines(finding: Finding) -> Iterator[str]:
         yield f'help: {finding.help}'
 
 
-def _notes(findings: Sequence[Finding]) -> Iterator[ElementTree.Element]:
+def _output(findings: Sequence[Finding], line: str) -> Iterator[ElementTree.Element]:
     notes = [f for f in findings if f.severity is Severity.NOTE]
-    if notes:
+    lines = [f'{note.place}: {note.code} {note.message}' for note in notes]
+    lines += [line] if line else []
+    if lines:
         output = ElementTree.Element('system-out')
-        output.text = _clean('\n'.join(f'{n.place}: {n.code} {n.message}' for n in notes))
+        output.text = _clean('\n'.join(lines))
         yield output
 
 

@@ -35,10 +35,13 @@ _LEVELS = {Severity.ERROR: 'error', Severity.WARNING: 'warning', Severity.NOTE: 
 _RULE_INDEX = {rule.code: index for index, rule in enumerate(RULES)}
 
 
-def sarif(findings: Sequence[Finding], *, root: str = '', docs_url: str = '') -> str:
+def sarif(
+    findings: Sequence[Finding], *, line: str = '', root: str = '', docs_url: str = ''
+) -> str:
     """
     Write one SARIF log with one run.
 
+    :param line: what the text report ends with.
     :param root: absolute path of the repository; paths below it become relative.
     :param docs_url: where the site of ``docs/`` stands, for ``helpUri``; no address is made up,
         and the whole help text is in the file in any case.
@@ -53,6 +56,7 @@ def sarif(findings: Sequence[Finding], *, root: str = '', docs_url: str = '') ->
                 'columnKind': 'unicodeCodePoints',
                 'originalUriBaseIds': {'%SRCROOT%': {'description': _text('the repository')}},
                 'results': list(_results(findings, root)),
+                **({'properties': {'summary': line}} if line else {}),
             }
         ],
     }

@@ -23,6 +23,7 @@ class Checked:
     :param root: absolute path of the repository; paths below it become relative.
     :param package: name of the test suite.
     :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
+    :param with_verdicts: people want to see the table of queries of each unit too.
     """
 
     units: Sequence[Spec]
@@ -35,3 +36,4 @@ class Checked:
     root: str = ''
     package: str = 'ros2cc'
     docs_url: str = ''
+    with_verdicts: bool = False

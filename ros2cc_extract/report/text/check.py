@@ -32,13 +32,11 @@ class Telling:
     """
     How a check is told.
 
-    :param verdicts: with the table of queries of each unit.
     :param paths: what was checked, as the user wrote it.
     :param seconds: how long it took; only a terminal gets it, so that logs stay the same.
     """
 
     detail: Detail = Detail.USUAL
-    verdicts: bool = False
     paths: str = 'PATH'
     seconds: float | None = None
 
@@ -55,7 +53,7 @@ def print_check(checked: Checked, console: Console, how: Telling) -> None:
             console.print()
     if not is_quiet:
         print_units(checked.units, checked.promises, console, all_rows=is_verbose)
-    if how.verdicts:
+    if checked.with_verdicts:
         for unit, verification in zip(checked.units, checked.verifications, strict=True):
             console.print()
             console.print(one_line(f'unit {unit.name}'), style='bold')

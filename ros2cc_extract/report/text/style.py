@@ -5,16 +5,17 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from typing import TextIO, cast
+from typing import TYPE_CHECKING, TextIO, cast
 
 from rich.cells import cell_len, set_cell_size
 from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
 from ros2cc_extract.text_escaping import Shown, printable
 from ros2cc_extract.verify.results.results import Verdict
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 LOG_WIDTH = 160
 GAP = 2
@@ -70,6 +71,9 @@ class Unpadded:
 
 def table(*headers: str, gap: int = GAP) -> Table:
     """Make a table without frames, which survives copying into an issue."""
+    # Imported late: most first screens hold no table.
+    from rich.table import Table
+
     made = Table(box=None, pad_edge=False, padding=(0, gap, 0, 0), header_style='bold')
     for header in headers:
         made.add_column(header, overflow='fold')
@@ -86,6 +90,8 @@ def print_rows(rows: Sequence[Sequence[str]], console: Console, *, indent: int =
             cells = (set_cell_size(cell, w) for cell, w in zip(row, widths, strict=True))
             console.out(' ' * indent + (' ' * GAP).join(cells).rstrip(), highlight=False)
         return
+    from rich.padding import Padding
+
     wrapped = table(*[''] * len(widths))
     wrapped.show_header = False
     for row in rows:

@@ -2,51 +2,33 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from rich.console import Console
 from rich.text import Text
 
-from ros2cc_extract.findings.promises import Judgement, Mark, Promise
+from ros2cc_extract.findings.promises import Judgement, Mark
 from ros2cc_extract.report.shared.counts import counted
+from ros2cc_extract.report.shared.unit_rows import (
+    COLUMNS,
+    LONGEST_EXECUTOR,
+    SIGNS,
+    Row,
+    executor_words,
+    short_executor,
+    worst_first,
+)
 from ros2cc_extract.report.text.style import table
-from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.model import Executor, Spec
-from ros2cc_extract.text_escaping import one_line, printable
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.text_escaping import one_line
 
 MOST_BLOCKS = 3
 """More units than this are a row each."""
 MOST_ROWS = 28
 MOST_REASONS = 3
-LONGEST_EXECUTOR = 10
-_SIGNS = {Mark.KEPT: '✓', Mark.BROKEN: '✗', Mark.OPEN: '?'}
 _PLAIN_SIGNS = {Mark.KEPT: 'ok', Mark.BROKEN: 'NO', Mark.OPEN: '?'}
 """Of a terminal that knows ASCII only."""
 _COLOURS = {Mark.KEPT: 'green', Mark.BROKEN: 'red', Mark.OPEN: 'yellow'}
-_SHORT = {'SingleThreadedExecutor': 'single', 'MultiThreadedExecutor': 'multi'}
-_COLUMNS = {
-    Promise.DEADLOCK: 'deadlock',
-    Promise.WAITS: 'waits',
-    Promise.STARVATION: 'starve',
-    Promise.RACES: 'races',
-    Promise.SETTINGS: 'settings',
-}
-
-
-@dataclass(frozen=True)
-class Row:
-    """A unit with its promises."""
-
-    unit: Spec
-    promises: Sequence[Judgement]
-
-    @property
-    def weight(self) -> tuple[int, int]:
-        """Sorts the worst first."""
-        marks = Counter(each.mark for each in self.promises)
-        return -marks[Mark.BROKEN], -marks[Mark.OPEN]
 
 
 def print_units(
@@ -61,8 +43,7 @@ def print_units(
 
     :param all_rows: each in full, however many there are.
     """
-    rows = [Row(printable(unit), printable(of)) for unit, of in zip(units, promises, strict=True)]
-    rows.sort(key=lambda row: row.weight)
+    rows = worst_first(units, promises)
     if len(rows) <= MOST_BLOCKS or all_rows:
         for row in rows:
             _print_block(row, console)
@@ -71,9 +52,8 @@ def print_units(
 
 
 def _print_block(row: Row, console: Console) -> None:
-    nodes = ', '.join(row.unit.nodes) or row.unit.name
-    told = f'{_executor(row.unit.executor)}, {counted(len(row.unit.callbacks), "callbacks")}'
-    console.print(Text.assemble('checked ', (nodes, 'bold'), f': {told}'), soft_wrap=True)
+    told = f'{executor_words(row.unit.executor)}, {counted(len(row.unit.callbacks), "callbacks")}'
+    console.print(Text.assemble('checked ', (row.nodes, 'bold'), f': {told}'), soft_wrap=True)
     signs = _signs(console)
     line = Text('  ')
     for each in row.promises:
@@ -98,7 +78,7 @@ def _reasons(rows: Sequence[Row]) -> dict[str, list[str]]:
 
 
 def _print_rows(rows: Sequence[Row], console: Console) -> None:
-    heads = ('checked', 'executor', 'callbacks', *_COLUMNS.values())
+    heads = ('checked', 'executor', 'callbacks', *COLUMNS.values())
     grid = table(*heads, gap=1)
     for column in grid.columns[:2]:
         column.overflow, column.no_wrap = 'ellipsis', True
@@ -108,10 +88,8 @@ def _print_rows(rows: Sequence[Row], console: Console) -> None:
     signs = _signs(console)
     for row in rows[:MOST_ROWS]:
         marks = [Text(signs[each.mark], _COLOURS[each.mark]) for each in row.promises]
-        nodes = ', '.join(row.unit.nodes) or row.unit.name
-        grid.add_row(
-            nodes, _short_executor(row.unit.executor), str(len(row.unit.callbacks)), *marks
-        )
+        callbacks = str(len(row.unit.callbacks))
+        grid.add_row(row.nodes, short_executor(row.unit.executor), callbacks, *marks)
     console.print(grid)
     if len(rows) > MOST_ROWS:
         console.print(f'{_left_out(rows[MOST_ROWS:])}; --verbose shows them')
@@ -133,32 +111,12 @@ def _left_out(rows: Sequence[Row]) -> str:
     return f'{counted(len(rows), "more units")}, {kept} with every promise kept'
 
 
-def _executor(executor: Executor) -> str:
-    threads = counted(len(executor.threads), 'threads')
-    if isinstance(executor.kind, Unknown):
-        return f'no executor found, {threads} assumed'
-    assumed = ' assumed, as many as CPUs' if _is_default(executor) else ''
-    return f'{executor.kind or "executor"}, {threads}{assumed}'
-
-
-def _short_executor(executor: Executor) -> str:
-    if isinstance(executor.kind, Unknown):
-        return 'none found'
-    kind = _SHORT.get(executor.kind or '', (executor.kind or 'executor').removesuffix('Executor'))
-    doubt = '?' if _is_default(executor) else ''
-    return f'{kind[:LONGEST_EXECUTOR]} {len(executor.threads)}{doubt}'
-
-
-def _is_default(executor: Executor) -> bool:
-    return executor.threads_source == 'default_cpu_count'
-
-
 def _signs(console: Console) -> dict[Mark, str]:
     try:
-        ''.join(_SIGNS.values()).encode(console.encoding)
+        ''.join(SIGNS.values()).encode(console.encoding)
     except UnicodeError:
         return _PLAIN_SIGNS
-    return _SIGNS
+    return SIGNS
 
 
 def unknown_lines(facts: int, assumed: int, paths: str) -> Iterator[str]:

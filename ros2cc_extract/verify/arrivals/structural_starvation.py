@@ -27,8 +27,9 @@ from ros2cc_extract.generator.queries import structural_starvation
 from ros2cc_extract.generator.unit import number_unit
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
-from ros2cc_extract.verify.results.evidence import LOST, Evidence, Names, tell
+from ros2cc_extract.verify.results.evidence import LOST, Evidence
 from ros2cc_extract.verify.results.load import served_before
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
 from ros2cc_extract.verify.slices.slice_shapes import outline_of
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
 from ros2cc_extract.generator.nested_spins import is_part_of_spin, is_spin
 from ros2cc_extract.generator.program_steps import NamedWait
 from ros2cc_extract.generator.resources import Actor, ends_outside, is_left_open
+from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.generator.waits import is_unknown, unknown_ends, waits_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Spec

@@ -7,12 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from ros2cc_extract.checker.api import CheckResult
-from ros2cc_extract.checker.api import Verdict as Verdict
-from ros2cc_extract.generator.build import Query
+from ros2cc_extract.checker.engines.terms import Verdict as Verdict
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.load import Load
+
+if TYPE_CHECKING:
+    from ros2cc_extract.checker.api import CheckResult
+    from ros2cc_extract.generator.build import Query
 
 MOST_RUNS = 100
 """Of one family and verdict: to find each takes a search, and pairs come by the ten thousand."""

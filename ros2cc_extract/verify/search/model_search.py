@@ -27,8 +27,9 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.identity_memo import known_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.verify.results.evidence import Evidence, Names, tell
+from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 from ros2cc_extract.verify.results.undecided_reasons import doubts_in
 from ros2cc_extract.verify.search.options import Checker, OnProgress, Options
 from ros2cc_extract.verify.search.reading_deadline import NotReadError, read_in_time

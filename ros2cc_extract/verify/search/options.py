@@ -6,10 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ros2cc_extract.checker.api import EngineKind, Fairness, Limits, Progress
-from ros2cc_extract.generator import build
-from ros2cc_extract.verify.uppaal.verifyta import Runs
+from ros2cc_extract.checker.engines.limits import Limits, Progress
+from ros2cc_extract.checker.engines.terms import EngineKind, Fairness
+from ros2cc_extract.generator.template_files import Profile, Text
+from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
+
+if TYPE_CHECKING:
+    from ros2cc_extract.generator.build import Family
 
 OnProgress = Callable[[Progress], None]
 
@@ -35,11 +40,11 @@ class Options:
     checker: Checker = Checker.EMBEDDED
     verifyta: Path | None = None
     runs: Runs = Runs.TOGETHER
-    profile: build.Profile = build.Profile.PAPER
-    text: build.Text = build.Text.COMPACT
+    profile: Profile = Profile.PAPER
+    text: Text = Text.COMPACT
     max_cycle: int | None = 1
     structural: bool = True
-    families: frozenset[build.Family] | None = None
+    families: frozenset[Family] | None = None
     engine: EngineKind = EngineKind.AUTO
     fairness: Fairness = Fairness.NONE
     reduction: bool = True

@@ -18,7 +18,6 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from enum import Enum
 from itertools import chain
 from pathlib import Path
 
@@ -26,6 +25,7 @@ from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import ToolNotFoundError
 from ros2cc_extract.process_pool import ends_with_us
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 from ros2cc_extract.verify.uppaal.verifyta_trace import PrintedRun, read_runs
 
 PROGRAM = 'verifyta'
@@ -41,13 +41,6 @@ _VERDICTS = (
 _SHOWS_RUN = re.compile(r'Showing (?:counter example|example trace)')
 _STATES = re.compile(r'States stored\s*:\s*(\d+)')
 _MEMORY = re.compile(r'Resident memory used\s*:\s*(\d+) KiB')
-
-
-class Runs(Enum):
-    """Whether each query has a process of its own, which gives it a time and memory of its own."""
-
-    TOGETHER = 'together'
-    ONE_BY_ONE = 'one by one'
 
 
 class LicenceError(ToolNotFoundError):

@@ -9,7 +9,8 @@ from ros2cc_extract.checker.api import Answer, CheckResult, Fairness, Model, Que
 from ros2cc_extract.checker.runs.printed_runs import replay_named
 from ros2cc_extract.errors import CoreMismatchError, InputError
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.verify.uppaal.verifyta import Runs, VerifytaAnswer, run_verifyta
+from ros2cc_extract.verify.uppaal.verifyta import VerifytaAnswer, run_verifyta
+from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 
 
 def check_by_verifyta(

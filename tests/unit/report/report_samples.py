@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 
@@ -69,3 +73,16 @@ NOTE = Finding(
     subjects=('tick',),
 )
 FINDINGS = (CALL, RACE, NOTE)
+
+
+def check_of(*findings: Finding, **more: Any) -> Checked:
+    """Give the result of a check that found this."""
+    result = Checked(
+        units=[],
+        verifications=[],
+        findings=findings,
+        summary={'files': 2, 'errors': 1},
+        files=['src/arm node.py'],
+        sources={},
+    )
+    return replace(result, **more)

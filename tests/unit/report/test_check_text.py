@@ -60,6 +60,7 @@ def told(
     encoding: str = 'utf-8',
     root: str = '',
     how: Telling | None = None,
+    with_verdicts: bool = False,
     **counts: int,
 ) -> str:
     unit, verification = example()
@@ -72,6 +73,7 @@ def told(
         files=['node.py'],
         sources={},
         root=root,
+        with_verdicts=with_verdicts,
     )
     raw = io.BytesIO()
     stream = io.TextIOWrapper(raw, encoding, 'backslashreplace')
@@ -215,11 +217,11 @@ def test_a_few_notes_are_told_and_all_where_somebody_asks(notes: int, detail: De
 
 def test_tables_of_queries_are_told_where_somebody_asks() -> None:
     assert '  #  query' not in told([], units=2)
-    assert told([], units=2, how=Telling(verdicts=True)).count('  #  query') == 2
+    assert told([], units=2, with_verdicts=True).count('  #  query') == 2
 
 
 def test_a_run_of_the_published_starvation_is_left_to_verify() -> None:
-    lines = told([], how=Telling(verdicts=True)).splitlines()
+    lines = told([], with_verdicts=True).splitlines()
     assert [line for line in lines if line.startswith('counterexample')] == [
         'counterexample for 5: on_map_ready and drive never run at the same time: not satisfied'
     ]

@@ -45,3 +45,11 @@ def test_notes_do_not_fail_and_what_xml_forbids_is_escaped() -> None:
     suite = ElementTree.fromstring(junit([NOTE], [], 'arm'))
     assert suite.get('failures') == '0'
     assert (suite.findtext('system-out') or '').endswith('\\na parameter\\x00')
+
+
+def test_the_last_line_stands_behind_the_notes() -> None:
+    suite = ElementTree.fromstring(junit([NOTE], [], 'arm', line='Found 1 note in 1 file'))
+    lines = (suite.findtext('system-out') or '').splitlines()
+    assert lines[-1] == 'Found 1 note in 1 file'
+    clean = ElementTree.fromstring(junit([], [], 'arm', line='No problems found in 1 file'))
+    assert clean.findtext('system-out') == 'No problems found in 1 file'

@@ -8,7 +8,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from report_samples import RACE, RUN
+from report_samples import RACE, RUN, check_of
 from rich.console import Console
 
 from ros2cc_extract.report.html.page import html_report
@@ -32,7 +32,7 @@ def test_text() -> None:
 
 
 def test_html() -> None:
-    page = html_report([], [], [FINDING], {}, {})
+    page = html_report(check_of(FINDING))
     assert re.findall(r'<p class="closing">(.*?)</p>', page) == [
         ENDS,
         '(8 steps left out)',
@@ -48,7 +48,7 @@ def test_sarif() -> None:
 
 
 def test_json() -> None:
-    data = check_data([], [], [FINDING], {})
+    data = check_data(check_of(FINDING))
     evidence = data['findings'][0]['evidence']
     assert (evidence['closing'], evidence['left_out']) == (ENDS, 8)
 
@@ -57,4 +57,4 @@ def test_a_run_without_one_says_nothing() -> None:
     (run,) = json.loads(sarif([RACE]))['runs']
     (flow,) = run['results'][0]['codeFlows']
     assert flow['message']['text'] == 'a run of the model that shows it'
-    assert 'closing' not in html_report([], [], [RACE], {}, {}).split('</style>')[1]
+    assert 'closing' not in html_report(check_of(RACE)).split('</style>')[1]

@@ -35,7 +35,7 @@ def results_of(*findings: Any, **options: Any) -> Any:
 def test_valid_by_the_published_schema() -> None:
     schema = json.loads(SCHEMA.read_text(encoding='utf-8-sig'))
     validator = jsonschema.Draft202012Validator(schema)
-    for options in ({}, {'docs_url': 'https://example.org/docs'}):
+    for options in ({}, {'docs_url': 'https://example.org/docs', 'line': 'Found 1 error'}):
         assert list(validator.iter_errors(json.loads(sarif(FINDINGS, **options)))) == []
 
 
@@ -116,3 +116,10 @@ def test_paths_are_relative_to_the_repository() -> None:
 
 def test_the_same_findings_give_the_same_bytes() -> None:
     assert sarif(FINDINGS) == sarif(FINDINGS)
+
+
+def test_the_run_holds_the_last_line() -> None:
+    assert run_of(CALL, line='Found 1 error in 1 file')['properties'] == {
+        'summary': 'Found 1 error in 1 file'
+    }
+    assert 'properties' not in run_of(CALL)

@@ -6,7 +6,8 @@ from ros2cc_extract.checker.api import Query, Run, check, read_model
 from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.events import Event
-from ros2cc_extract.verify.results.evidence import Names, Sentence, tell
+from ros2cc_extract.verify.results.evidence import Sentence
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 
 COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
 <nta><declaration>int[0,2] n; chan go;</declaration>

@@ -12,7 +12,7 @@ from ros2cc_extract.checker.api import Model, Query, Run, check, read_model
 from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.verify.results.evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml, to_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import read_xtr, to_xtr

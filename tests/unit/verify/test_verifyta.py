@@ -17,7 +17,8 @@ from ros2cc_extract.errors import ToolNotFoundError
 from ros2cc_extract.verify.given_queries import load_queries, verify_model
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Checker, Options
-from ros2cc_extract.verify.uppaal.verifyta import LicenceError, Runs, find_verifyta, run_verifyta
+from ros2cc_extract.verify.uppaal.verifyta import LicenceError, find_verifyta, run_verifyta
+from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 from ros2cc_extract.verify.uppaal.verifyta_trace import read_runs
 from tests.support.published import document
 from tests.support.small import automaton

@@ -14,7 +14,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.results.evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, tell
 from tests.support.published import document
 from tests.support.small import automaton
 

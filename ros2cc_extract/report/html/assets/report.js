@@ -1,9 +1,9 @@
 'use strict';
 (() => {
   const root = document.documentElement;
-  const wanted = new URLSearchParams(location.search).get('theme');
+  const asked = new URLSearchParams(location.search);
   const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
-  root.dataset.theme = wanted || system;
+  root.dataset.theme = asked.get('theme') || system;
   document.querySelector('.theme').addEventListener('click', () => {
     root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
   });
@@ -15,30 +15,84 @@
     return element;
   }
 
-  function filterFindings(button) {
-    const on = button.getAttribute('aria-pressed') !== 'true';
-    for (const other of document.querySelectorAll('.tile')) {
-      other.setAttribute('aria-pressed', String(on && other === button));
-    }
-    for (const card of document.querySelectorAll('.finding')) {
-      card.hidden = on && card.dataset.kind !== button.dataset.filter;
+  /** What the script adds later, such as source lines, is not searched. */
+  const searched = [...document.querySelectorAll('.finding, .index tbody tr, .unit')].map(
+    (element) => [element, element.textContent.toLowerCase()],
+  );
+  const search = document.querySelector('.search');
+  const tiles = [...document.querySelectorAll('.tile')];
+
+  function filter() {
+    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const kind = tiles.find((tile) => tile.getAttribute('aria-pressed') === 'true')?.dataset.filter;
+    let found = 0;
+    let cards = 0;
+    for (const [element, text] of searched) {
+      const isOther = kind && element.dataset.kind && element.dataset.kind !== kind;
+      element.hidden = Boolean(isOther) || !words.every((word) => text.includes(word));
+      cards += Number('kind' in element.dataset);
+      found += Number('kind' in element.dataset && !element.hidden);
     }
     const notes = document.querySelector('.notes');
-    if (notes) notes.open = on && button.dataset.filter === 'note';
+    if (notes) {
+      const shown = notes.querySelectorAll('.finding:not([hidden])').length;
+      notes.open = shown > 0 && (kind === 'note' || words.length > 0);
+      notes.hidden = shown === 0;
+    }
+    const isAll = !kind && !words.length;
+    document.querySelector('.found').value = isAll ? '' : `${found} of ${cards} findings`;
   }
-  for (const button of document.querySelectorAll('.tile')) {
-    button.addEventListener('click', () => filterFindings(button));
+  for (const tile of tiles) {
+    tile.addEventListener('click', () => {
+      const on = tile.getAttribute('aria-pressed') !== 'true';
+      for (const other of tiles) other.setAttribute('aria-pressed', String(on && other === tile));
+      filter();
+    });
   }
+  search.addEventListener('input', filter);
+  search.value = asked.get('search') || '';
+  if (search.value) filter();
 
   function openTarget() {
     const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    const folded = target?.closest('.notes');
-    if (!folded) return;
-    folded.open = true;
+    if (!target) return;
+    for (let each = target; each; each = each.parentElement) {
+      if (each.tagName === 'DETAILS') each.open = true;
+    }
     target.scrollIntoView();
   }
   addEventListener('hashchange', openTarget);
-  openTarget();
+
+  /** Lines of a file by their numbers; the page holds those that are shown somewhere, once. */
+  const files = new Map();
+  function linesOf(id) {
+    if (!files.has(id)) {
+      const lines = new Map();
+      for (const block of document.getElementById(id).querySelectorAll('pre')) {
+        const first = Number(block.dataset.from);
+        block.textContent.split('\n').forEach((text, n) => lines.set(first + n, text));
+      }
+      files.set(id, lines);
+    }
+    return files.get(id);
+  }
+
+  function showLines(link) {
+    const lines = linesOf(link.hash.slice(1));
+    const line = Number(link.dataset.line);
+    const around = Number(link.dataset.around || 0);
+    const block = make('pre', 'source');
+    block.tabIndex = 0;
+    for (let number = line - around; number <= line + around; number += 1) {
+      if (lines.has(number)) {
+        const row = make('span', number === line ? 'line here' : 'line');
+        row.append(make('span', 'number', String(number).padStart(5)), ` ${lines.get(number)}\n`);
+        block.append(row);
+      }
+    }
+    link.parentElement.append(block);
+  }
+  document.querySelectorAll('a.place').forEach(showLines);
 
   const SVG = 'http://www.w3.org/2000/svg';
   function svg(name, attributes) {
@@ -103,11 +157,34 @@
   }
 
   const executors = [...document.querySelectorAll('.executor')];
-  const drawAll = () => executors.forEach(drawArrows);
+  /** What is folded has no size yet. */
+  const drawAll = () => executors.forEach((executor, number) => {
+    if (!executor.closest('details:not([open])')) drawArrows(executor, number);
+  });
   addEventListener('resize', drawAll);
+  for (const unit of document.querySelectorAll('.unit')) unit.addEventListener('toggle', drawAll);
   drawAll();
 
-  const runs = JSON.parse(document.getElementById('runs').textContent);
+  const { words, runs } = JSON.parse(document.getElementById('runs').textContent);
+
+  /** Put words for their numbers; the order of the fields is that of report/html/runs.py. */
+  function runOf(number) {
+    const [lanes, steps, cycleFrom, ends] = runs[number];
+    const stay = ([text, since, until, marks, colour]) => ({
+      text: words[text], since, until, colour,
+      rest: Boolean(marks & 1), blocked: Boolean(marks & 2),
+    });
+    return {
+      lanes: lanes.map(([name, stays]) => ({ name: words[name], stays: stays.map(stay) })),
+      steps: steps.map(([says, places, changes]) => ({
+        says: says.map(([lane, text]) => [words[lane], words[text]]),
+        places: places.map((place) => words[place]),
+        changes: changes.map((change) => words[change]),
+      })),
+      cycleFrom,
+      ends,
+    };
+  }
 
   class Timeline {
     constructor(place, run) {
@@ -138,7 +215,7 @@
       this.cursor.dataset.rows = String(rows + 1);
       if (this.run.cycleFrom !== null) {
         const cycle = make('div', 'cycle');
-        cycle.title = 'repeats for ever';
+        cycle.title = 'repeats forever';
         cycle.style.gridArea = `1 / ${this.run.cycleFrom + 2} / ${rows + 1} / ${this.last + 3}`;
         grid.append(cycle);
       }
@@ -269,7 +346,7 @@
       }
       const head = `${this.current}. ${step.says.map(([, text]) => text).join('; ')}`;
       const line = make('div', '', head);
-      for (const [, place] of step.places) line.append(' ', make('span', 'place', place));
+      for (const place of step.places) line.append(' ', make('span', 'place', place));
       this.says.append(line);
       if (step.changes.length) this.says.append(make('div', 'changes', step.changes.join(', ')));
       const end = this.current === this.last ? this.ending() : '';
@@ -278,26 +355,26 @@
 
     ending() {
       if (this.run.cycleFrom !== null) {
-        return `And from step ${this.run.cycleFrom} on for ever.`;
+        return `From step ${this.run.cycleFrom} on, this repeats forever.`;
       }
       const words = {
-        deadlock: 'There nothing can move any more.', idle: 'There it may stay for ever.',
+        deadlock: 'Nothing can move any more.', idle: 'It may stay like this forever.',
       };
       return words[this.run.ends] || '';
     }
   }
 
-  function build(place) {
-    if (place.dataset.run !== undefined && !place.dataset.built) {
-      place.dataset.built = 'yes';
-      new Timeline(place, runs[Number(place.dataset.run)]);
-    }
+  /** A run is drawn when somebody opens it. */
+  function build(folded) {
+    if (!folded.open || folded.dataset.built) return;
+    folded.dataset.built = 'yes';
+    const place = make('div', 'timeline');
+    folded.append(place);
+    new Timeline(place, runOf(Number(folded.dataset.run)));
   }
-  for (const place of document.querySelectorAll('.timeline')) {
-    const closed = place.closest('.verdict-table');
-    if (!closed) build(place);
+  for (const folded of document.querySelectorAll('details[data-run]')) {
+    folded.addEventListener('toggle', () => build(folded));
+    build(folded);
   }
-  for (const row of document.querySelectorAll('.verdicts details')) {
-    row.addEventListener('toggle', () => row.querySelectorAll('.timeline').forEach(build));
-  }
+  openTarget();
 })();

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from html import escape
 
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.report.html.parts import (
-    SEVERITY_WORDS,
-    items,
-    place_text,
-    plural,
-    span,
-    tag,
-)
-from ros2cc_extract.report.text.spec import describe_executor
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.report.html.findings import Numbered
+from ros2cc_extract.report.html.parts import SEVERITY_WORDS, items, span, tag
+from ros2cc_extract.report.html.runs import COLOURS
+from ros2cc_extract.report.text.spec import describe_executor, short
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind, GroupType, Spec, When
-
-Numbered = Sequence[tuple[int, Finding]]
-"""The findings of the page with their numbers, which are their anchors."""
 
 _LETTERS = {
     EntityKind.TIMER: 'T',
@@ -36,17 +30,20 @@ _LETTERS = {
 }
 
 
-def unit_picture(spec: Spec, findings: Numbered) -> str:
-    """Draw one unit; arrows of waits are laid over it by the script."""
-    written = [callback for callback in spec.callbacks if not callback.builtin]
-    numbers = {callback.name: n for n, callback in enumerate(spec.callbacks)}
+def unit_picture(spec: Spec, anchor: str, findings: Numbered) -> str:
+    """
+    Draw one unit; arrows of waits are laid over it by the script.
+
+    :param anchor: of the unit; those of its callbacks begin with it.
+    """
+    unit = _Unit(spec, anchor, findings)
     boxes = ''.join(
-        _group_box(spec, group, members, findings, numbers)
+        _group_box(unit, group, members)
         for group in spec.groups
-        if (members := [c for c in written if c.group == group.name])
+        if (members := [c for c in unit.written if c.group == group.name])
     )
-    hidden = len(spec.callbacks) - len(written)
-    more = f'{plural(hidden, "entity").replace("entitys", "entities")} that rclpy itself adds'
+    hidden = len(spec.callbacks) - len(unit.written)
+    more = f'and {hidden} {"entity" if hidden == 1 else "entities"} that rclpy itself adds'
     return tag(
         'div',
         tag(
@@ -56,19 +53,34 @@ def unit_picture(spec: Spec, findings: Numbered) -> str:
             class_='executor-head',
         ),
         tag('div', boxes, class_='groups'),
-        tag('p', escape(f'and {more}'), class_='quiet') if hidden else '',
+        tag('p', more, class_='quiet') if hidden else '',
         class_='executor',
     )
 
 
-def _group_box(
-    spec: Spec,
-    group: CallbackGroup,
-    members: Sequence[Callback],
-    findings: Numbered,
-    numbers: dict[str, int],
-) -> str:
-    chips = ''.join(_chip(spec, c, findings, numbers) for c in members)
+@dataclass(frozen=True)
+class _Unit:
+    spec: Spec
+    anchor: str
+    findings: Numbered
+
+    @cached_property
+    def written(self) -> list[Callback]:
+        """Callbacks that somebody wrote."""
+        return [callback for callback in self.spec.callbacks if not callback.builtin]
+
+    @cached_property
+    def numbers(self) -> dict[str, int]:
+        """Of each callback, as the model counts them."""
+        return {callback.name: n for n, callback in enumerate(self.spec.callbacks)}
+
+    @cached_property
+    def chips(self) -> dict[str, str]:
+        """The anchors of the callbacks that are drawn."""
+        return {c.name: f'{self.anchor}-{self.numbers[c.name]}' for c in self.written}
+
+
+def _group_box(unit: _Unit, group: CallbackGroup, members: Sequence[Callback]) -> str:
     kind = group.type.value.lower()
     classes = f'group {"outside" if group.groupless else kind}'
     return tag(
@@ -77,9 +89,9 @@ def _group_box(
             'header',
             tag('b', escape('in no group' if group.groupless else group.name)),
             span('kind', _group_kind(group)),
-            place_text(group.source),
+            _place(group.source),
         ),
-        chips,
+        *(_chip(unit, callback) for callback in members),
         class_=classes + (' unresolved' if group.unresolved else ''),
     )
 
@@ -93,10 +105,10 @@ def _group_kind(group: CallbackGroup) -> str:
     return f'{kind}, default group' if group.default else kind
 
 
-def _chip(spec: Spec, callback: Callback, findings: Numbered, numbers: dict[str, int]) -> str:
-    identity = f'{spec.name}-{callback.name}'
-    about = [(number, f) for number, f in findings if callback.name in f.subjects]
+def _chip(unit: _Unit, callback: Callback) -> str:
+    about = [(number, f) for number, f in unit.findings if callback.name in f.subjects]
     letter = _LETTERS.get(callback.entity, '·') if callback.entity else callback.type.value[0]
+    waits = [unit.chips[block.on] for block in callback.blocking if block.on in unit.chips]
     return tag(
         'div',
         tag(
@@ -108,11 +120,11 @@ def _chip(spec: Spec, callback: Callback, findings: Numbered, numbers: dict[str,
         ),
         tag('div', escape(' '.join(_subject(callback))), class_='subject'),
         items((_wait(block) for block in callback.blocking), 'waits'),
-        place_text(callback.defined or callback.source),
+        _place(callback.defined or callback.source),
         class_='chip',
-        id=identity,
-        data_colour=str(numbers[callback.name] % 8),
-        data_waits=' '.join(f'{spec.name}-{on}' for on in _awaited(spec, callback)),
+        id=unit.chips[callback.name],
+        data_colour=str(unit.numbers[callback.name] % COLOURS),
+        **({'data_waits': ' '.join(waits)} if waits else {}),
     )
 
 
@@ -121,15 +133,14 @@ def _badge(number: int, finding: Finding) -> str:
     return tag('a', finding.code, class_=f'badge {kind}', href=f'#finding-{number}')
 
 
-def _awaited(spec: Spec, callback: Callback) -> list[str]:
-    names = {other.name for other in spec.callbacks if not other.builtin}
-    return [str(block.on) for block in callback.blocking if block.on in names]
-
-
 def _wait(block: Blocking) -> str:
     how_long = f' {block.seconds:g} s' if isinstance(block.seconds, float) else ''
     on = f' → {block.on}' if isinstance(block.on, str) else ''
     return f'{escape(block.call)}{how_long}{escape(on)}'
+
+
+def _place(place: Place | None) -> str:
+    return span('place', short(place)) if place else ''
 
 
 def _subject(callback: Callback) -> Iterator[str]:

@@ -1,0 +1,37 @@
+"""
+The words in which a checker is asked and answers, for those who do not ask it themselves.
+
+Whoever only says which engine is wanted, or reads a kept verdict, starts faster without a checker.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Verdict(Enum):
+    """Answer to a query; undecided when a limit was hit before it was known."""
+
+    SATISFIED = 'satisfied'
+    NOT_SATISFIED = 'not satisfied'
+    UNDECIDED = 'undecided'
+
+
+class Fairness(Enum):
+    """
+    Which infinite paths count for ``-->``, ``A<>`` and ``E[]``.
+
+    NONE: all, as in UPPAAL. WEAK: those on which no process is enabled from some point on for
+    ever without ever moving.
+    """
+
+    NONE = 'none'
+    WEAK = 'weak'
+
+
+class EngineKind(Enum):
+    """Who searches; AUTO is the native core where it is built."""
+
+    AUTO = 'auto'
+    REFERENCE = 'reference'
+    NATIVE = 'native'
