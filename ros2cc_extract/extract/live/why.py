@@ -30,7 +30,8 @@ from ros2cc_extract.files import read_regular
 from ros2cc_extract.process_pool import Crew
 
 T = TypeVar('T')
-PATIENCE_S = 2.0
+# From when it was let in; a busy process on a busy machine takes a second for each look.
+PATIENCE_S = 4.0
 _LOOK_EVERY_S = 0.01
 _MOST_BYTES = 64_000_000
 # They mostly wait for the processes to let them in.

@@ -51,7 +51,8 @@ def _title(explanation: Explanation) -> str:
 def _lines(standing: Standing, look: Look) -> Iterator[str]:
     activity, wait = standing.activity, standing.wait
     if wait.kind is Kind.WORK:
-        yield f'{activity.name} waits for {wait.kind.value}'
+        what = 'a thread of a pool' if wait.spins is None else 'it spins an executor'
+        yield f'{activity.name} waits for {wait.kind.value}: {what}'
         return
     code = f'{standing.code} ' if standing.code else ''
     place = activity.place

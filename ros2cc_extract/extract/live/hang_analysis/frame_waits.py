@@ -31,7 +31,7 @@ class Kind(Enum):
     RATE = 'a rate'
     SPIN = 'a nested spin, which ends at shutdown'
     SLEEP = 'time'
-    WORK = 'work, as a thread of a pool or one that spins an executor'
+    WORK = 'work'
     NOTHING = 'nothing that can be recognised'
 
 
