@@ -1,7 +1,8 @@
 """
 What ``why`` says of every program of ``tests/blocking``: ``make why``.
 
-A program that goes on is never called a deadlock, and one that hangs is never called healthy.
+With ``--hooked`` each runs with the hook. A program that goes on is never called a deadlock, and
+one that hangs is never called healthy.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ros2cc_extract.errors import Ros2ccError
+from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Verdict
 from ros2cc_extract.extract.live.why import explain_process
 from tests.support.cells import Cell, all_cells
@@ -28,10 +30,10 @@ BEGINS_WITHIN_S, SETTLES_S = 60.0, 1.0
 
 @contextmanager
 def program(
-    python: str, text: str, path: Path, until: str = 'asks'
+    python: str, text: str, path: Path, until: str = 'asks', **variables: str
 ) -> Iterator[subprocess.Popen[str]]:
     """Run a program until it says ``until``, and a moment longer; it is killed in the end."""
-    with programs(python, {path.name: text}, until) as (process,):
+    with programs(python, {path.name: text}, until, **variables) as (process,):
         time.sleep(SETTLES_S)
         yield process
 
@@ -65,9 +67,9 @@ def _started(
             **os.environ,
             'ROS_DOMAIN_ID': str(domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-            'PYTHONPATH': f'{BLOCKING}:{LIVE}',
             'PYTHONUNBUFFERED': '1',
             **variables,
+            'PYTHONPATH': f'{variables.get("PYTHONPATH", "")}:{BLOCKING}:{LIVE}'.lstrip(':'),
         }
         log = Path(folder) / 'log'
         with log.open('w') as stream:
@@ -99,12 +101,12 @@ def told(explanation: Explanation) -> tuple[str, list[tuple[str, int, str | None
     )
 
 
-def main(python: str, names: Sequence[str]) -> int:
+def main(python: str, names: Sequence[str], hooked: Mapping[str, str]) -> int:
     wrong, times = 0, []
     for cell in all_cells():
         if names and not any(each in cell.name for each in names):
             continue
-        with program(python, text_of(cell), cell.path, awaited(cell)) as process:
+        with program(python, text_of(cell), cell.path, awaited(cell), **hooked) as process:
             begun = time.monotonic()
             try:
                 explanation = explain_process(process.pid)
@@ -129,4 +131,8 @@ def main(python: str, names: Sequence[str]) -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1], sys.argv[2:]))
+    arguments = [each for each in sys.argv[1:] if each != '--hooked']
+    with tempfile.TemporaryDirectory() as recordings:
+        is_hooked = '--hooked' in sys.argv
+        variables = hooked_environment({}, Path(recordings)) if is_hooked else {}
+        sys.exit(main(arguments[0], arguments[1:], variables))

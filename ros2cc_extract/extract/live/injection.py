@@ -195,15 +195,15 @@ def in_time(enter: Callable[[], None], pid: int, refusals: tuple[type[Exception]
         ready, _, _ = select.select([answer], [], [], PATIENCE_S)
         if not ready:
             raise InputError(
-                f'process {pid} does not let anybody in within {PATIENCE_S:g} s: it runs C '
-                'code that keeps the lock of the interpreter, or is stopped',
+                f'process {pid} could not be entered within {PATIENCE_S:g} s: it runs C code '
+                'that keeps the lock of the interpreter, or is stopped',
                 None,
                 'none of its Python threads can run meanwhile; a debugger of C shows where it is',
             )
         told = answer.read(MOST_TOLD_BYTES)
     os.waitpid(child, 0)
     if told != _DONE:
-        raise OSError(told.decode(errors='replace') or 'the injector has ended without a word')
+        raise OSError(told.decode(errors='replace') or 'the injector ended without an answer')
 
 
 _DONE = b'in'
