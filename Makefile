@@ -75,10 +75,14 @@ shapes: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(call observe_on,kilted) $(SHAPES)
 	$(BIN)/python -m pytest -q -m 'slow or not slow' tests/shapes
 
-# What `why` says of every blocking pattern, on both distributions; none that goes on is a deadlock.
+# What `why` says of every blocking pattern and of random programs, on both distributions; none that
+# goes on is a deadlock.
 why: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.live.standing $(CURDIR)/$(JAZZY)/bin/python
 	$(BIN)/python -m tests.live.standing $(CURDIR)/$(KILTED)/bin/python
+	$(BIN)/python -m tests.live.standing $(CURDIR)/$(JAZZY)/bin/python --hooked
+	$(BIN)/python -m tests.live.moments $(CURDIR)/$(JAZZY)/bin/python 200
+	$(BIN)/python -m tests.live.moments $(CURDIR)/$(KILTED)/bin/python 200
 
 # What the table of shapes excuses, asked anew, and docs/waits.md from it.
 waits: $(VENV)/developed

@@ -37,7 +37,7 @@ COMMANDS = {
     'env': 'print the environment variables that switch the live hook on',
     'collect': 'write the specification of what nodes switched on by `env` have recorded',
     'attach': 'write the specification of a process that already runs',
-    'why': 'tell why a running node hangs, or that it does not',
+    'why': 'explain why running nodes hang, or show that they do not',
     'conform': 'decide whether a recorded execution is a path of the model',
     'diff': 'compare two specifications of one program',
     'upgrade': 'tell what changes when another release of rclpy runs the nodes',

@@ -1,7 +1,8 @@
 """
-What ``why`` says of every program of ``tests/blocking`` and ``tests/bugs``: ``make why``.
+What ``why`` says of every program of ``tests/blocking``: ``make why``.
 
-A program that goes on is never called a deadlock; of those that hang the table says what is told.
+With ``--hooked`` each runs with the hook. A program that goes on is never called a deadlock, and
+one that hangs is never called healthy.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ros2cc_extract.errors import Ros2ccError
+from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Verdict
 from ros2cc_extract.extract.live.why import explain_process
 from tests.support.cells import Cell, all_cells
@@ -28,18 +30,46 @@ BEGINS_WITHIN_S, SETTLES_S = 60.0, 1.0
 
 @contextmanager
 def program(
-    python: str, text: str, path: Path, until: str = 'asks'
+    python: str, text: str, path: Path, until: str = 'asks', **variables: str
 ) -> Iterator[subprocess.Popen[str]]:
     """Run a program until it says ``until``, and a moment longer; it is killed in the end."""
-    with free_domain() as domain, tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / path.name
+    with programs(python, {path.name: text}, until, **variables) as (process,):
+        time.sleep(SETTLES_S)
+        yield process
+
+
+@contextmanager
+def programs(
+    python: str, texts: Mapping[str, str], until: str = 'asks', **variables: str
+) -> Iterator[list[subprocess.Popen[str]]]:
+    """Run programs in one domain until each says ``until``."""
+    with ExitStack() as stack:
+        domain = stack.enter_context(free_domain())
+        starts = [_started(python, name, text, domain, variables) for name, text in texts.items()]
+        started = [stack.enter_context(each) for each in starts]
+        deadline = time.monotonic() + BEGINS_WITHIN_S
+        for process, log in started:
+            while until not in log.read_text() and time.monotonic() < deadline:
+                time.sleep(0.05)
+                if process.poll() is not None:
+                    break
+        yield [process for process, _ in started]
+
+
+@contextmanager
+def _started(
+    python: str, name: str, text: str, domain: int, variables: Mapping[str, str]
+) -> Iterator[tuple[subprocess.Popen[str], Path]]:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / name
         file.write_text(text, encoding='utf-8')
         env = {
             **os.environ,
             'ROS_DOMAIN_ID': str(domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-            'PYTHONPATH': f'{BLOCKING}:{LIVE}',
             'PYTHONUNBUFFERED': '1',
+            **variables,
+            'PYTHONPATH': f'{variables.get("PYTHONPATH", "")}:{BLOCKING}:{LIVE}'.lstrip(':'),
         }
         log = Path(folder) / 'log'
         with log.open('w') as stream:
@@ -47,13 +77,7 @@ def program(
                 [python, str(file)], env=env, stdout=stream, stderr=stream, text=True
             )
         try:
-            deadline = time.monotonic() + BEGINS_WITHIN_S
-            while until not in log.read_text() and time.monotonic() < deadline:
-                time.sleep(0.05)
-                if process.poll() is not None:
-                    break
-            time.sleep(SETTLES_S)
-            yield process
+            yield process, log
         finally:
             process.kill()
             process.wait()
@@ -64,20 +88,25 @@ def awaited(cell: Cell) -> str:
     return 'goes on' if cell.facts[0] == 'ok' else 'asks'
 
 
+def text_of(cell: Cell) -> str:
+    """Give the program; one that is asleep stays so until it has been looked at."""
+    return cell.text.replace('threading.Timer(0.8, self.wake)', 'threading.Timer(60.0, self.wake)')
+
+
 def told(explanation: Explanation) -> tuple[str, list[tuple[str, int, str | None]]]:
-    """Give the verdict, and who waits for ever: function, line, code."""
+    """Give the verdict, and what waits forever: function, line, code."""
     stand = [each for each in explanation.standings if not each.can_end]
     return explanation.verdict.value, sorted(
         (each.activity.place.function, each.activity.place.line, each.code) for each in stand
     )
 
 
-def main(python: str, names: Sequence[str]) -> int:
+def main(python: str, names: Sequence[str], hooked: Mapping[str, str]) -> int:
     wrong, times = 0, []
     for cell in all_cells():
         if names and not any(each in cell.name for each in names):
             continue
-        with program(python, cell.text, cell.path, awaited(cell)) as process:
+        with program(python, text_of(cell), cell.path, awaited(cell), **hooked) as process:
             begun = time.monotonic()
             try:
                 explanation = explain_process(process.pid)
@@ -86,7 +115,10 @@ def main(python: str, names: Sequence[str]) -> int:
                 continue
             times.append(time.monotonic() - begun)
         verdict, stand = told(explanation)
-        is_false = cell.facts[0] == 'ok' and explanation.verdict is Verdict.DEADLOCK
+        goes_on, hangs = cell.facts[0] == 'ok', cell.facts[0] in ('blocks', 'asleep')
+        is_false = (goes_on and explanation.verdict is Verdict.DEADLOCK) or (
+            hangs and explanation.verdict in (Verdict.HEALTHY, Verdict.BUSY)
+        )
         wrong += is_false
         print(f'{cell.name}: {cell.facts[0]}: {verdict} {stand}{"  WRONG" if is_false else ""}')
     if times:
@@ -99,4 +131,8 @@ def main(python: str, names: Sequence[str]) -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1], sys.argv[2:]))
+    arguments = [each for each in sys.argv[1:] if each != '--hooked']
+    with tempfile.TemporaryDirectory() as recordings:
+        is_hooked = '--hooked' in sys.argv
+        variables = hooked_environment({}, Path(recordings)) if is_hooked else {}
+        sys.exit(main(arguments[0], arguments[1:], variables))

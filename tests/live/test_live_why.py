@@ -11,8 +11,9 @@ from interpreters import EVERY_RELEASE, interpreter_of
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live import injection, why
+from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.why import explain_process
-from tests.live.standing import awaited, program, told
+from tests.live.standing import awaited, program, text_of, told
 from tests.support.cells import all_cells
 
 CELLS = {cell.name: cell for cell in all_cells()}
@@ -27,6 +28,11 @@ EXPECTED = {
     'rate_single': ('deadlock', [('ask', 18, 'CC105')]),
     'event_own_group_multi': ('deadlock', [('ask', 20, 'CC109')]),
     'absent_service_multi': ('waits for another process', []),
+    'send_goal_own_group_multi': ('deadlock', [('ask', 21, 'CC101')]),
+    'send_goal_other_group_single': ('deadlock', [('ask', 24, 'CC102')]),
+    'send_goal_other_group_multi': ('idle and healthy', []),
+    'await_foreign_thread_single': ('asleep', []),
+    'await_foreign_thread_multi': ('asleep', []),
 }
 LOCKS = """
 import threading, time
@@ -76,9 +82,23 @@ def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize('name', EXPECTED)
 def test_process_is_explained(name: str, variable: str) -> None:
     cell = CELLS[name]
-    with program(interpreter_of(variable), cell.text, cell.path, awaited(cell)) as process:
+    with program(interpreter_of(variable), text_of(cell), cell.path, awaited(cell)) as process:
         assert told(explain_process(process.pid)) == EXPECTED[name]
         assert process.poll() is None
+
+
+@pytest.mark.parametrize('traced', [False, True])
+@pytest.mark.parametrize(
+    'name', ['event_own_group_multi', 'call_other_group_single', 'await_other_group_multi']
+)
+def test_hooked_process_is_explained_alike(
+    name: str, traced: bool, rclpy_python: str, tmp_path: Path
+) -> None:
+    """The thread of the hook is none of the program's: it ends no wait."""
+    cell, hooked = CELLS[name], hooked_environment({}, tmp_path, traced=traced)
+    with program(rclpy_python, cell.text, cell.path, awaited(cell), **hooked) as process:
+        assert told(explain_process(process.pid)) == EXPECTED[name]
+    assert list(tmp_path.glob('*.json'))
 
 
 def test_locks_that_wait_for_each_other_are_a_deadlock(rclpy_python: str) -> None:

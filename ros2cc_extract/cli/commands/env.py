@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TextIO
 
+from ros2cc_extract.cli.shared.arguments import number_of_seconds
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
 
 
@@ -18,6 +19,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder of the recordings'
     )
     parser.add_argument('--trace', action='store_true', help='also record the execution')
+    parser.add_argument(
+        '--watch',
+        type=number_of_seconds,
+        metavar='SECONDS',
+        help='explain, as `why` does, where no callback has ended for so long',
+    )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -27,5 +34,5 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.extract.live.environment import shell_commands
 
     make_folder(args.output)
-    stdout.write(shell_commands(os.environ, args.output, traced=args.trace))
+    stdout.write(shell_commands(os.environ, args.output, traced=args.trace, limit_s=args.watch))
     return EXIT_CLEAN

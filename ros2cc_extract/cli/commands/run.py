@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from ros2cc_extract.cli.shared.arguments import number_of_seconds
 from ros2cc_extract.cli.shared.exit_status import EXIT_ERROR
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ of the source ran. Beside the trace lies FILE.perfetto.json, for ui.perfetto.dev
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = '%(prog)s [-h] [-o FILE|DIR] [--trace FILE] [--check PATH] -- CMD …'
+    parser.usage = '%(prog)s [-h] [-o FILE|DIR] [--trace FILE] [--check PATH] [--watch S] -- CMD …'
     parser.epilog = EPILOG
     parser.add_argument(
         '-o',
@@ -48,6 +49,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='scan this source too, and compare it with what the run held',
     )
     parser.add_argument(
+        '--watch',
+        type=number_of_seconds,
+        metavar='SECONDS',
+        help='explain, as `why` does, where no callback has ended for so long',
+    )
+    parser.add_argument(
         'command',
         nargs=argparse.REMAINDER,
         metavar='-- CMD …',
@@ -63,7 +70,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if not command:
         raise InputError('no command given', None, 'write it after --: run -- python node.py')
     finish = _comparison(args.check, stdout, stderr) if args.check else None
-    return run_command(command, args.output, stderr, trace=args.trace, finish=finish)
+    return run_command(
+        command, args.output, stderr, trace=args.trace, limit_s=args.watch, finish=finish
+    )
 
 
 def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple[Spec, ...]], int]:

@@ -1,40 +1,96 @@
-"""``ros2cc-extract why``: why a running node hangs, or that it does not."""
+"""``ros2cc-extract why``: why running nodes hang, or that they do not."""
 
 from __future__ import annotations
 
 import argparse
-from typing import TextIO
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS, EXIT_UNDECIDED
 
+if TYPE_CHECKING:
+    from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation
+    from ros2cc_extract.extract.live.why import Explained
+
+EPILOG = """\
+examples:
+  ros2cc-extract why 4711
+  ros2cc-extract why /navigator
+  ros2cc-extract why --all --output-format mermaid
+
+Looks twice at each process, 0.2 s apart, and leaves nothing behind. A node is searched for in all
+processes of yours on this machine that run rclpy. Exit status: 0 nothing hangs; 1 a deadlock, an
+executor that was never spun or is asleep, or a wait for another process; 3 undecided, or a process
+that could not be looked at. Needs what `attach` needs: pip install "hypno>=1.1"
+"""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.epilog = (
-        'Looks twice, 0.2 s apart, and leaves nothing behind. Exit status: 0 nothing stands; '
-        '1 deadlock,\nnobody spins, or it waits for another process; 3 undecided. Needs what '
-        '`attach` needs:\npip install "hypno>=1.1"'
+    parser.usage = '%(prog)s [-h] [--output-format FORMAT] (PID | NODE | --all)'
+    parser.epilog = EPILOG
+    parser.add_argument(
+        'process',
+        nargs='?',
+        metavar='PID | NODE',
+        help='process id, or name of a node, as in /arm/planner or planner',
     )
-    parser.add_argument('pid', type=int, metavar='PID', help='process id of the node')
+    parser.add_argument(
+        '--all',
+        action='store_true',
+        help='all your processes on this machine that run rclpy, and what they wait for in others',
+    )
     parser.add_argument(
         '--output-format',
         choices=('text', 'json', 'mermaid'),
         default='text',
-        help='default text; mermaid draws who waits for whom',
+        help='default text; mermaid draws what waits for what',
     )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.extract.live.hang_analysis.formats import as_json, as_mermaid, as_text
-    from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Verdict
-    from ros2cc_extract.extract.live.why import explain_process
+    from ros2cc_extract.errors import InputError
+    from ros2cc_extract.extract.live.rclpy_processes import rclpy_processes
+    from ros2cc_extract.extract.live.why import explain_all, explain_node, explain_process
 
-    explanation = explain_process(args.pid)
-    if args.output_format == 'json':
-        stdout.write(as_json(args.pid, explanation))
-    elif args.output_format == 'mermaid':
-        stdout.write(as_mermaid(explanation))
+    if args.all == (args.process is not None):
+        raise InputError('one process, one node or --all', None, 'as in: why 4711')
+    if args.all:
+        return _report_all(explain_all(rclpy_processes()), args.output_format, stdout, stderr)
+    if args.process.isdecimal():
+        explanation = explain_process(int(args.process))
     else:
-        stdout.write(as_text(args.pid, explanation))
-    if explanation.verdict in (Verdict.HEALTHY, Verdict.BUSY):
-        return EXIT_CLEAN
-    return EXIT_UNDECIDED if explanation.verdict is Verdict.UNDECIDED else EXIT_FINDINGS
+        explanation = explain_node(args.process, rclpy_processes())
+    _write((explanation,), args.output_format, stdout)
+    return _status((explanation,))
+
+
+def _report_all(explained: Explained, output_format: str, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.extract.live.hang_analysis.formats import all_as_json
+
+    if output_format == 'json':
+        stdout.write(all_as_json(explained.found, explained.failures))
+    else:
+        _write(explained.found, output_format, stdout)
+    for reason in explained.failures.values():
+        print(f'ros2cc-extract: {reason}', file=stderr)
+    status = _status(explained.found)
+    return status or (EXIT_UNDECIDED if explained.failures else EXIT_CLEAN)
+
+
+def _write(found: tuple[Explanation, ...], output_format: str, stdout: TextIO) -> None:
+    from ros2cc_extract.extract.live.hang_analysis.formats import as_json, as_mermaid, as_text
+
+    if output_format == 'json':
+        stdout.write(as_json(found[0]))
+    else:
+        stdout.write((as_mermaid if output_format == 'mermaid' else as_text)(found))
+
+
+def _status(found: Iterable[Explanation]) -> int:
+    """Findings count more than what is undecided."""
+    from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Verdict
+
+    verdicts = {each.verdict for each in found} - {Verdict.HEALTHY, Verdict.BUSY}
+    if verdicts - {Verdict.UNDECIDED}:
+        return EXIT_FINDINGS
+    return EXIT_UNDECIDED if verdicts else EXIT_CLEAN

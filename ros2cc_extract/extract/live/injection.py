@@ -195,15 +195,15 @@ def in_time(enter: Callable[[], None], pid: int, refusals: tuple[type[Exception]
         ready, _, _ = select.select([answer], [], [], PATIENCE_S)
         if not ready:
             raise InputError(
-                f'process {pid} does not let anybody in within {PATIENCE_S:g} s: it runs C '
-                'code that keeps the lock of the interpreter, or is stopped',
+                f'process {pid} could not be entered within {PATIENCE_S:g} s: it runs C code '
+                'that keeps the lock of the interpreter, or is stopped',
                 None,
                 'none of its Python threads can run meanwhile; a debugger of C shows where it is',
             )
         told = answer.read(MOST_TOLD_BYTES)
     os.waitpid(child, 0)
     if told != _DONE:
-        raise OSError(told.decode(errors='replace') or 'the injector has ended without a word')
+        raise OSError(told.decode(errors='replace') or 'the injector ended without an answer')
 
 
 _DONE = b'in'
@@ -247,10 +247,13 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
             return
     # Some tell whole pages.
     told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
-    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
+    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(pid, refused))
 
 
-def _mend(refused: Container[str]) -> str:
+def _mend(pid: int, refused: Container[str]) -> str:
+    tracer = _tracer_of(pid)
+    if tracer:
+        return f'process {tracer} traces it: a debugger, or an attempt to enter that is not over'
     try:
         scope = _PTRACE_SCOPE.read_text().strip()
     except OSError:
@@ -263,3 +266,15 @@ def _mend(refused: Container[str]) -> str:
     if 'hypno' not in refused:
         return f'a process of another Python version needs the injector hypno: {_EXTRA}'
     return 'it must be a Python process of yours with a shared libpython, outside containers'
+
+
+def _tracer_of(pid: int) -> int:
+    """Give the process that traces a thread of another; 0 where none does (proc(5), status)."""
+    try:
+        texts = [
+            (each / 'status').read_text(errors='replace')
+            for each in Path(f'/proc/{pid}/task').iterdir()
+        ]
+    except OSError:
+        return 0
+    return max(int(text.partition('TracerPid:')[2].split()[0]) for text in texts)

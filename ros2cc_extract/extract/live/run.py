@@ -13,6 +13,7 @@ from ros2cc_extract.errors import InputError, Ros2ccError
 from ros2cc_extract.extract.live.child_process import deaf_to_ctrl_c, end_alike, run_child
 from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
+from ros2cc_extract.extract.live.hook.watch import FILE_SUFFIX
 from ros2cc_extract.extract.live.recording import Recording, read_recording
 from ros2cc_extract.extract.live.trace import Trace, read_trace, write_lines
 from ros2cc_extract.extract.live.trace_event_format import write_chrome
@@ -21,6 +22,8 @@ from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
 DEFAULT_OUTPUT = Path('live.spec.yaml')
+# In a folder of specifications; else it is named after the one.
+WHY = 'why.txt'
 EXIT_ERROR = 2
 EXIT_INTERRUPTED = 130
 # Some seconds of writing, which somebody at a terminal is told of.
@@ -47,6 +50,7 @@ def run_command(
     stderr: TextIO,
     *,
     trace: Path | None = None,
+    limit_s: float | None = None,
     environment: Mapping[str, str] = os.environ,
     finish: Finish | None = None,
 ) -> int:
@@ -57,6 +61,7 @@ def run_command(
 
     :param output: a file, or an existing directory, which gets a file for each process.
     :param trace: file for the execution trace; another for Perfetto is written beside it.
+    :param limit_s: explain where no callback has ended for so long; written beside the output.
     :param finish: called with all units when everything is written; its status is given back
         where the command itself ended well.
     :return: the command's exit status; 2 if that is 0 and the output could not be written.
@@ -67,11 +72,15 @@ def run_command(
     if trace is not None:
         check_file(trace)
     with tempfile.TemporaryDirectory(prefix='ros2cc-live-') as folder:
-        recorded = record(command, environment, stderr, Path(folder), traced=trace is not None)
+        traced = trace is not None
+        recorded = record(
+            command, environment, stderr, Path(folder), traced=traced, limit_s=limit_s
+        )
         try:
             with deaf_to_ctrl_c():
                 report_losses(recorded.recordings, stderr)
                 write_output(recorded, output, stderr)
+                write_explanations(Path(folder), output, stderr)
             if trace is not None:
                 write_traces(recorded.traces, trace, stderr)
         except Ros2ccError as error:
@@ -122,9 +131,11 @@ def record(
     folder: Path,
     *,
     traced: bool = False,
+    limit_s: float | None = None,
 ) -> Recorded:
     """Run ``command`` with the hook, and read what it has recorded into ``folder``."""
-    status = run_child(command, hooked_environment(environment, folder, traced=traced))
+    hooked = hooked_environment(environment, folder, traced=traced, limit_s=limit_s)
+    status = run_child(command, hooked)
     with deaf_to_ctrl_c():
         return read_recorded(status, folder, stderr, traced=traced)
 
@@ -185,6 +196,20 @@ def write_output(recorded: Recorded, output: Path, stderr: TextIO) -> None:
                 write_specs_to(output / f'{specs[0].name}-{recording.pid}.spec.yaml', specs)
     else:
         write_specs_to(output, recorded.specs)
+
+
+def write_explanations(folder: Path, output: Path, stderr: TextIO) -> None:
+    """
+    Write why callbacks did not end, where the hook has noticed that, beside the output.
+
+    :raises InputError: when writing fails.
+    """
+    texts = [path.read_text(encoding='utf-8') for path in sorted(folder.glob(f'*{FILE_SUFFIX}'))]
+    if texts:
+        name = output.name.removesuffix('.yaml').removesuffix('.spec')
+        path = output / WHY if output.is_dir() else output.with_name(f'{name}{FILE_SUFFIX}')
+        _write_whole(path, lambda stream: stream.write(''.join(texts)))
+        print(f'ros2cc-extract: {path} says why callbacks did not end', file=stderr)
 
 
 def write_specs_to(path: Path, specs: Sequence[Spec]) -> None:

@@ -1,9 +1,10 @@
-"""An explanation as text, as JSON, and as a diagram."""
+"""Explanations as text, as JSON, and as a diagram."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait
 from ros2cc_extract.extract.live.hang_analysis.samples import Look
@@ -11,53 +12,79 @@ from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation
 
 NOT_PROVEN = 'from the wait-for graph, not proven by the model'
 _MEANS = {
-    Verdict.DEADLOCK: 'what waits here has nobody left who could end it',
-    Verdict.NOBODY_SPINS: 'an executor holds nodes, and no thread has ever spun it',
-    Verdict.OUTSIDE: 'whoever is to answer is not stopped by anything in this process',
-    Verdict.UNDECIDED: 'something may still end what waits; who does was not followed',
-    Verdict.BUSY: 'callbacks run, or wait for a time that comes',
-    Verdict.HEALTHY: 'executors wait for work, no callback runs',
+    Verdict.DEADLOCK: 'nothing is left that could end a wait',
+    Verdict.NEVER_SPUN: 'an executor holds nodes, but no thread has ever spun it',
+    Verdict.ASLEEP: 'a coroutine could go on, but its executor sleeps until something wakes it',
+    Verdict.OUTSIDE: 'nothing in this process keeps the answer from coming',
+    Verdict.UNDECIDED: 'something may still end each wait, but what does was not followed',
+    Verdict.BUSY: 'callbacks run, or wait for a limited time',
+    Verdict.HEALTHY: 'executors wait for work, and no callback runs',
+}
+_OF_SERVERS = {
+    Kind.ANSWER: 'the answer of service',
+    Kind.ACTION: 'the answer of action server',
+    Kind.SERVER: 'server',
 }
 
 
-def as_text(pid: int, explanation: Explanation) -> str:
-    """Tell the verdict, then who waits, those who wait for ever first."""
+def as_text(explanations: Sequence[Explanation]) -> str:
+    """Say for each process its verdict, then what waits, beginning with what never ends."""
+    shared = ''.join(f'{each}\n' for each in _shared_deadlocks(explanations))
+    return shared + '\n'.join(''.join(_of_process(each)) for each in explanations)
+
+
+def _of_process(explanation: Explanation) -> Iterator[str]:
     verdict = explanation.verdict
-    lines = [f'process {pid}: {verdict.value}: {_MEANS[verdict]} ({NOT_PROVEN})']
+    yield f'{_title(explanation)}: {verdict.value}: {_MEANS[verdict]} ({NOT_PROVEN})\n'
     for each in sorted(explanation.standings, key=lambda s: (s.can_end, not s.in_callback)):
-        lines += _lines(each, explanation.look)
+        yield from (f'  {line}\n' for line in _lines(each, explanation.look))
     for executor in explanation.look.executors:
         names = ', '.join(executor.nodes) or 'no node'
-        lines.append(f'  {executor.cls} of {names}{_ready(explanation, executor.entities)}')
-    return '\n'.join(lines) + '\n'
+        yield f'  {executor.cls} of {names}{_ready(explanation, executor.entities)}\n'
+
+
+def _title(explanation: Explanation) -> str:
+    names = ', '.join(explanation.look.nodes)
+    return f'process {explanation.process}' + (f' ({names})' if names else '')
 
 
 def _lines(standing: Standing, look: Look) -> Iterator[str]:
-    place, wait = standing.activity.place, standing.wait
+    activity, wait = standing.activity, standing.wait
     if wait.kind is Kind.WORK:
-        yield f'  {standing.activity.name}: waits for {wait.kind.value}'
+        what = 'a thread of a pool' if wait.spins is None else 'it spins an executor'
+        yield f'{activity.name} waits for {wait.kind.value}: {what}'
         return
-    ends = '' if standing.can_end else ' for ever'
     code = f'{standing.code} ' if standing.code else ''
-    where = f'  {place.file}:{place.line}: {code}{place.function} in {standing.activity.name} '
-    if wait.kind is Kind.NOTHING:
-        yield f'{where}computes, or waits in C'
-    elif wait.kind is Kind.SLEEP:
-        yield f'{where}sleeps'
-    else:
-        limit = ' with a time-out' if wait.timed else ''
-        yield f'{where}waits{ends} for {_resource(wait, look)}{limit}'
-    yield from (f'    {each}' for each in standing.waits_for)
+    place = activity.place
+    yield (
+        f'{place.file}:{place.line}: {code}{place.function} ({activity.name}) '
+        f'{_does(standing, look)}'
+    )
+    yield from (f'  {each}' for each in standing.reasons)
     if standing.code:
-        yield f'    help: ros2cc-extract explain {standing.code}'
+        yield f'  help: ros2cc-extract explain {standing.code}'
+
+
+def _does(standing: Standing, look: Look) -> str:
+    wait = standing.wait
+    if standing.asleep:
+        return 'could go on, as what it awaits is done; nothing has woken its executor since'
+    if wait.kind is Kind.NOTHING:
+        return 'computes, or waits in C code'
+    if wait.kind is Kind.SLEEP:
+        return 'sleeps'
+    forever = '' if standing.can_end else ' forever'
+    limit = ' with a time-out' if wait.timed else ''
+    return f'waits{forever} for {_resource(wait, look)}{limit}'
 
 
 def _resource(wait: Wait, look: Look) -> str:
-    """Name what is waited for, a service with its name and whether a server is there."""
+    """Name what is waited for, and of a service whether a server is there."""
     entity = look.entities.get(wait.resource or 0)
-    if wait.kind is not Kind.ANSWER or entity is None:
+    if wait.kind not in _OF_SERVERS or entity is None:
         return wait.kind.value
-    return f'{wait.kind.value}, {entity.key}' + ('' if entity.there else ', which nobody offers')
+    there = '' if entity.there else ', which is not there'
+    return f'{_OF_SERVERS[wait.kind]} {entity.key}{there}'
 
 
 def _ready(explanation: Explanation, entities: frozenset[int]) -> str:
@@ -69,8 +96,58 @@ def _ready(explanation: Explanation, entities: frozenset[int]) -> str:
     return f'; due and not taken: {", ".join(names)}' if names else ''
 
 
-def as_json(pid: int, explanation: Explanation) -> str:
+def _shared_deadlocks(explanations: Sequence[Explanation]) -> Iterator[str]:
+    """Say of each cycle over several processes which they are, and what each waits for."""
+    waits = {each.process: list(_stuck_on_others(each)) for each in explanations}
+    asked = {process: {other for other, _ in found} for process, found in waits.items()}
+    titles = {each.process: _title(each) for each in explanations}
+    left = sorted(process for process in asked if process in _reached(process, asked))
+    while left:
+        members = [each for each in left if left[0] in _reached(each, asked)]
+        members = [each for each in members if each in _reached(left[0], asked)]
+        left = [each for each in left if each not in members]
+        waiting = '; '.join(
+            f'{titles[process]} waits for {what} of process {other}'
+            for process in members
+            for other, what in waits[process]
+            if other in members
+        )
+        yield f'deadlock over {len(members)} processes: {waiting}'
+
+
+def _stuck_on_others(explanation: Explanation) -> Iterator[tuple[int, str]]:
+    for each in explanation.standings:
+        if not each.can_end:
+            what = explanation.look.entities.get(each.wait.resource or 0)
+            yield from ((process, str(what.key if what else '')) for process in each.asked)
+
+
+def _reached(process: int, asked: dict[int, set[int]]) -> set[int]:
+    """What is waited for by a process, and by those that it waits for."""
+    found: set[int] = set()
+    more = set(asked.get(process, ()))
+    while more:
+        found |= more
+        more = {other for each in more for other in asked.get(each, ())} - found
+    return found
+
+
+def as_json(explanation: Explanation) -> str:
     """Give one object."""
+    return json.dumps(_as_data(explanation), indent=2) + '\n'
+
+
+def all_as_json(explanations: Sequence[Explanation], failures: Mapping[int, str]) -> str:
+    """Give one object with a list of processes, and those that could not be looked at."""
+    found = {
+        'deadlocks_over_processes': list(_shared_deadlocks(explanations)),
+        'processes': [_as_data(each) for each in explanations],
+        'not_explained': [{'process': key, 'reason': failures[key]} for key in sorted(failures)],
+    }
+    return json.dumps(found, indent=2) + '\n'
+
+
+def _as_data(explanation: Explanation) -> dict[str, Any]:
     rows = [
         {
             'thread': each.activity.name,
@@ -82,12 +159,14 @@ def as_json(pid: int, explanation: Explanation) -> str:
             'timed': each.wait.timed,
             'moved': each.moved,
             'can_end': each.can_end,
-            'because': list(each.waits_for),
+            'asleep': each.asleep,
+            'because': list(each.reasons),
+            'of_processes': list(each.asked),
             'code': each.code,
         }
         for each in explanation.standings
     ]
-    groups = [
+    entities = [
         {
             'node': each.node,
             'kind': each.kind,
@@ -98,28 +177,44 @@ def as_json(pid: int, explanation: Explanation) -> str:
         }
         for each in explanation.look.entities.values()
     ]
-    found = {
-        'process': pid,
+    return {
+        'process': explanation.process,
+        'nodes': list(explanation.look.nodes),
         'verdict': explanation.verdict.value,
         'by': NOT_PROVEN,
         'activities': rows,
-        'entities': groups,
+        'entities': entities,
     }
-    return json.dumps(found, indent=2) + '\n'
 
 
-def as_mermaid(explanation: Explanation) -> str:
-    """Draw who waits for what, and what keeps it."""
+def as_mermaid(explanations: Sequence[Explanation]) -> str:
+    """Draw what waits for what, and what keeps it; an edge leads to a process that is asked."""
+    shown = {each.process for each in explanations}
     lines = ['flowchart LR']
+    for each in explanations:
+        own = list(_drawn(each))
+        if len(explanations) > 1:
+            own = [f'subgraph p{each.process}["{_plain(_title(each))}"]', *own, 'end']
+        lines += [f'  {line}' for line in own]
+    for each in explanations:
+        for index, standing in enumerate(each.standings):
+            for process in standing.asked:
+                if process in shown:
+                    lines.append(f'  w{each.process}_{index} -->|offered by| p{process}')
+    return '\n'.join(lines) + '\n'
+
+
+def _drawn(explanation: Explanation) -> Iterator[str]:
     for index, each in enumerate(explanation.standings):
         if each.wait.kind is Kind.WORK:
             continue
+        number = f'{explanation.process}_{index}'
         place = each.activity.place
-        lines.append(f'  a{index}["{_plain(place.function)} line {place.line}"]')
-        lines.append(f'  a{index} -->|waits for| w{index}(["{_plain(each.wait.kind.value)}"])')
-        for number, why in enumerate(each.waits_for):
-            lines.append(f'  w{index} -->|kept by| k{index}_{number}["{_plain(why)}"]')
-    return '\n'.join(lines) + '\n'
+        yield f'a{number}["{_plain(place.function)} line {place.line}"]'
+        what = _resource(each.wait, explanation.look)
+        yield f'a{number} -->|waits for| w{number}(["{_plain(what)}"])'
+        for count, why in enumerate(() if each.can_end else each.reasons):
+            yield f'w{number} -->|kept by| k{number}_{count}["{_plain(why)}"]'
 
 
 def _plain(text: str) -> str:

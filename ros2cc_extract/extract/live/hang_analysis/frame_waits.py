@@ -21,7 +21,7 @@ class Kind(Enum):
 
     ANSWER = 'the answer of a service'
     ACTION = 'the answer of an action server'
-    SERVICE = 'a service that is not there'
+    SERVER = 'a server that is not there'
     LOCK = 'a lock'
     EVENT = 'an event'
     CONDITION = 'a condition'
@@ -31,8 +31,8 @@ class Kind(Enum):
     RATE = 'a rate'
     SPIN = 'a nested spin, which ends at shutdown'
     SLEEP = 'time'
-    WORK = 'work: an executor that spins, or a pool of threads'
-    NOTHING = 'nothing that is known here'
+    WORK = 'work'
+    NOTHING = 'nothing that can be recognised'
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,10 @@ def wait_of(activity: Activity, look: Look) -> Wait:
         return _of_condition(activity, frame, look)
     if frame.is_in('threading', 'join', '_wait_for_tstate_lock', '_join_thread'):
         return Wait(Kind.JOIN, frame.objects.get('self'), timed=not frame.endless)
-    if frame.is_in('rclpy.client', 'wait_for_service'):
-        return Wait(Kind.SERVICE, frame.objects.get('self'), timed=not frame.endless)
+    if frame.is_in('rclpy.client', 'wait_for_service') or frame.is_in(
+        'rclpy.action.client', 'wait_for_server'
+    ):
+        return Wait(Kind.SERVER, frame.objects.get('self'), timed=not frame.endless)
     return _of_source(frame, look)
 
 
@@ -82,7 +84,7 @@ def _spin(activity: Activity, look: Look) -> Wait | None:
     future = next((f.objects['future'] for f in inner if 'future' in f.objects), None)
     timed = any(not f.endless for f in inner if f.function.startswith('spin'))
     if not any(f.entity is not None for f in outer) and future is None:
-        return Wait(Kind.WORK, spins=executor)
+        return Wait(Kind.WORK, timed=timed, spins=executor)
     if future is None:
         return Wait(
             Kind.SPIN, executor, timed=timed or inner[0].function != 'spin', spins=executor
@@ -94,7 +96,8 @@ def _spin(activity: Activity, look: Look) -> Wait | None:
 def _of_future(future: int, look: Look) -> Wait:
     for entity in look.entities.values():
         if future in entity.pending:
-            return Wait(Kind.ANSWER, entity.number)
+            kind = Kind.ANSWER if entity.kind == 'clients' else Kind.ACTION
+            return Wait(kind, entity.number)
     return Wait(Kind.FUTURE, future)
 
 
@@ -103,15 +106,14 @@ def _of_condition(activity: Activity, frame: Frame, look: Look) -> Wait:
     timed = not frame.endless
     if outer.is_in('threading', 'wait'):
         event, outer = outer.objects.get('self'), activity.frames[-3]
-        if outer.is_in('rclpy.client', 'call'):
-            future = outer.objects.get('future')
+        if outer.module in ('rclpy.client', 'rclpy.action.client'):
+            known = outer.objects
+            future = known.get('future', known.get('send_goal_future'))
             found = _of_future(future, look) if future is not None else Wait(Kind.FUTURE)
             return Wait(found.kind, found.resource, timed=timed)
         if outer.is_in('rclpy.timer', 'sleep'):
             rate = look.objects.get(outer.objects.get('self', 0), {})
             return Wait(Kind.RATE, rate.get('timer'), timed=timed)
-        if outer.module == 'rclpy.action.client':
-            return Wait(Kind.ACTION, timed=timed)
         return Wait(Kind.EVENT, event, timed=timed)
     kind = {'queue': Kind.QUEUE, 'concurrent.futures._base': Kind.FUTURE}.get(outer.module)
     return Wait(kind or Kind.CONDITION, outer.objects.get('self'), timed=timed)

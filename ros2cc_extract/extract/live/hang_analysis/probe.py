@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import json
+import os
 import sys
 import threading
 import time
@@ -18,25 +19,45 @@ from types import FrameType
 from typing import Any
 
 APART_S = 0.2
+# How long the second look is put off for those at other processes.
+PATIENCE_S = 10.0
+FIRST_SUFFIX = '.first'
 MOST_FRAMES = 60
 _KINDS = ('timers', 'subscriptions', 'services', 'clients', 'guards', 'waitables')
+# Of an action client: the futures of requests that are not answered (``action/client.py``).
+_GOALS = ('_pending_goal_requests', '_pending_cancel_requests', '_pending_result_requests')
 _OF_INTEREST = {
-    'lock', 'RLock', 'Condition', 'Event', 'Thread', 'Future', 'Task', 'Client', 'Queue',
-    'SimpleQueue', 'Semaphore', 'BoundedSemaphore', 'Barrier', 'Rate', 'SingleThreadedExecutor',
-    'MultiThreadedExecutor',
+    'lock', 'RLock', 'Condition', 'Event', 'Thread', 'Future', 'Task', 'Client', 'ActionClient',
+    'Queue', 'SimpleQueue', 'Semaphore', 'BoundedSemaphore', 'Barrier', 'Rate',
+    'SingleThreadedExecutor', 'MultiThreadedExecutor',
 }  # fmt: skip
 
 
-def look_twice(path: str) -> None:
-    """Write both looks into a new file."""
-    looks = [_look()]
+def look_twice(path: str, go: str) -> None:
+    """
+    Write both looks into a new file, which is there as soon as it is whole.
+
+    :param go: a file that is there once all processes have been looked at for the first time;
+        so there is a moment between both looks that all of them have in common.
+    :raises TimeoutError: when it does not come.
+    """
+    looks = [look()]
+    with open(path + FIRST_SUFFIX, 'x', encoding='utf-8'):  # noqa: PTH123
+        pass
     time.sleep(APART_S)
-    looks.append(_look())
-    with open(path, 'x', encoding='utf-8') as stream:  # noqa: PTH123
+    given_up = time.monotonic() + PATIENCE_S
+    while not os.path.exists(go):  # noqa: PTH110
+        if time.monotonic() > given_up:
+            raise TimeoutError('the other processes were not looked at in time')
+        time.sleep(0.01)
+    looks.append(look())
+    with open(path + '.new', 'x', encoding='utf-8') as stream:  # noqa: PTH123
         json.dump({'python': sys.version.split()[0], 'looks': looks}, stream)
+    os.replace(path + '.new', path)  # noqa: PTH105
 
 
-def _look() -> dict[str, Any]:
+def look() -> dict[str, Any]:
+    """Look at this process once, but not at the thread that looks."""
     frames = sys._current_frames()
     frames.pop(threading.get_ident(), None)
     objects: dict[int, dict[str, Any]] = {}
@@ -188,9 +209,12 @@ def _executor(executor: Any) -> dict[str, Any]:
 
 
 def _node(node: Any) -> dict[str, Any]:
-    row: dict[str, Any] = {'id': id(node), 'name': '', 'entities': [], 'unread': None}
+    row: dict[str, Any] = {
+        'id': id(node), 'name': '', 'domain': None, 'entities': [], 'unread': None,
+    }  # fmt: skip
     with contextlib.suppress(Exception):
         row['name'] = node.get_fully_qualified_name()
+        row['domain'] = node.context.get_domain_id()
     # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
     row['simulated_clock'] = bool(
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)
@@ -198,13 +222,13 @@ def _node(node: Any) -> dict[str, Any]:
     for kind in _KINDS:
         for entity in list(getattr(node, kind, ())):
             try:
-                row['entities'].append(_entity(entity, kind))
+                row['entities'].append(_entity(entity, kind, node))
             except Exception as error:
                 row['unread'] = f'{type(entity).__name__}: {error!r}'[:200]
     return row
 
 
-def _entity(entity: Any, kind: str) -> dict[str, Any]:
+def _entity(entity: Any, kind: str, node: Any) -> dict[str, Any]:
     function = getattr(entity, 'callback', None)
     code = getattr(getattr(function, '__func__', function), '__code__', None)
     group = entity.callback_group
@@ -228,9 +252,18 @@ def _entity(entity: Any, kind: str) -> dict[str, Any]:
     if kind == 'clients':
         row['there'] = bool(entity.service_is_ready())
         row['pending'] = [id(each) for each in list(entity._pending_requests.values())]
+        if row['pending'] and hasattr(node, 'count_services'):  # since Jazzy
+            row['servers'] = node.count_services(row['key'])
     if kind == 'timers':
         with entity.handle:
             row['ready'] = bool(entity.handle.is_timer_ready())
+            row['cancelled'] = bool(entity.handle.is_timer_canceled())
+    if kind == 'waitables' and hasattr(entity, _GOALS[0]):
+        row['key'] = str(entity._action_name)
+        row['there'] = bool(entity.server_is_ready())
+        row['pending'] = [
+            id(each) for name in _GOALS for each in list(getattr(entity, name).values())
+        ]
     return row
 
 
@@ -253,8 +286,10 @@ def _suspended(task: Any, objects: dict[int, dict[str, Any]]) -> dict[str, Any] 
         handler = getattr(handler, 'cr_await', None) or getattr(handler, 'gi_yieldfrom', None)
     if future is None or len(rows) < 2:
         return None
+    executor = task._executor()
     return {
         'entity': owner,
+        'executor': id(executor) if executor is not None else None,
         'frames': rows,
         'future': _object(future, objects),
         'done': bool(future.done()),

@@ -1,4 +1,4 @@
-"""What the probe has seen, as values: two looks at one process, some 200 ms apart."""
+"""What the probe has seen, as values: two looks at one process, at least 200 ms apart."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Any
 _LIBRARIES = frozenset(
     {'rclpy', 'threading', 'concurrent', 'queue', 'asyncio', 'runpy', 'importlib', 'selectors'}
 )
+# The hook, as it is called where the tool is installed and where it is not.
+_OWN = frozenset({'ros2cc_extract', '_ros2cc_live'})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +36,7 @@ class Frame:
 
     @property
     def of_program(self) -> bool:
-        return self.module.partition('.')[0] not in _LIBRARIES
+        return self.module.partition('.')[0] not in _LIBRARIES | _OWN
 
     def is_in(self, module: str, *functions: str) -> bool:
         return self.module == module and (not functions or self.function in functions)
@@ -47,6 +49,7 @@ class Activity:
 
     :param future: what a coroutine awaits.
     :param is_awaited_done: and it is done.
+    :param executor: that runs the coroutine.
     """
 
     name: str
@@ -56,6 +59,7 @@ class Activity:
     entity: int | None = None
     future: int | None = None
     is_awaited_done: bool = False
+    executor: int | None = None
 
     @property
     def entities(self) -> tuple[int, ...]:
@@ -76,6 +80,13 @@ class Activity:
 
 @dataclass(frozen=True, kw_only=True)
 class Entity:
+    """
+    :param key: name of the service or of the action.
+    :param there: a server for this client is there.
+    :param servers: how many, for a client of a service that has asked, where rclpy can say.
+    :param pending: futures of what a client has asked.
+    """
+
     number: int
     kind: str
     cls: str
@@ -88,9 +99,21 @@ class Entity:
     module: str
     place: tuple[str, int] | None
     key: str | None
+    domain: int | None
     there: bool
+    servers: int | None
     pending: frozenset[int]
     ready: bool
+    cancelled: bool
+
+    @property
+    def is_service(self) -> bool:
+        return self.kind == 'services'
+
+    @property
+    def service(self) -> tuple[int | None, str | None]:
+        """What a client and its servers have in common."""
+        return self.domain, self.key
 
     @property
     def builtin(self) -> bool:
@@ -117,10 +140,12 @@ class Executor:
 @dataclass(frozen=True, kw_only=True)
 class Look:
     """
+    :param nodes: their full names.
     :param unread: entities that could not be read, and why.
     """
 
     main: int
+    nodes: tuple[str, ...]
     activities: tuple[Activity, ...]
     entities: Mapping[int, Entity]
     executors: tuple[Executor, ...]
@@ -142,10 +167,12 @@ def look_of(row: Mapping[str, Any]) -> Look:
         of_node[node['id']] = [each['id'] for each in node['entities']]
         for each in node['entities']:
             entities[each['id']] = _entity(each, node)
-    threads = tuple(_thread(each) for each in row['threads'] if each['frames'])
+    threads = map(_thread, (each for each in row['threads'] if each['frames']))
+    own = tuple(each for each in threads if not _is_of_the_hook(each))
     return Look(
         main=int(row['main']),
-        activities=threads + tuple(map(_task, row['tasks'])),
+        nodes=tuple(sorted(filter(None, names.values()))),
+        activities=own + tuple(map(_task, row['tasks'])),
         entities=entities,
         executors=tuple(_executor(each, names, of_node) for each in row['executors']),
         objects={int(key): value for key, value in row['objects'].items()},
@@ -160,12 +187,19 @@ def _thread(row: Mapping[str, Any]) -> Activity:
     )
 
 
+def _is_of_the_hook(thread: Activity) -> bool:
+    """Whether it is the thread that writes the recording: it has no part in what is explained."""
+    first = next((f.module for f in thread.frames if f.module != 'threading'), '')
+    return first.partition('.')[0] in _OWN
+
+
 def _task(row: Mapping[str, Any]) -> Activity:
     frames = tuple(map(_frame, row['frames']))
     return Activity(
-        name='a coroutine',
+        name='suspended coroutine',
         frames=frames,
         entity=row['entity'],
+        executor=row['executor'],
         future=int(row['future']),
         is_awaited_done=bool(row['done']),
     )
@@ -200,9 +234,12 @@ def _entity(row: Mapping[str, Any], node: Mapping[str, Any]) -> Entity:
         module=str(row['module']),
         place=(str(row['place'][0]), int(row['place'][1])) if row['place'] else None,
         key=row['key'],
+        domain=node['domain'],
         there=bool(row.get('there')),
+        servers=row.get('servers'),
         pending=frozenset(map(int, row.get('pending', ()))),
         ready=bool(row.get('ready')),
+        cancelled=bool(row.get('cancelled')),
     )
 
 

@@ -1,30 +1,32 @@
 """
-Who waits for whom, and whether any of it can still end: the wait-for graph of one process.
+Who waits for whom, and whether any of it can still end: the wait-for graph of processes.
 
 What may end a wait is taken too wide rather than too narrow: an event may be set by any callback
-that can still be served and by any thread that still moves. So what is called a deadlock has
-nobody left, and what is not decided is said to be so. Source of who can be served: rclpy 7.1.6
-and 9.1.2, ``Executor.can_execute`` and ``_make_handler``.
+that can still be served and by any thread that still moves. So nothing is left that could end
+what is called a deadlock, and what is not decided is said to be so. Source of what can be served:
+rclpy 7.1.6 and 9.1.2, ``Executor.can_execute`` and ``_make_handler``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait, locks_held, wait_of
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Entity, Executor, Look
 
-_BY_ANYBODY = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE, Kind.ACTION)
+_BY_ANY_CODE = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE)
+_ANSWERS = (Kind.ANSWER, Kind.ACTION)
 _OWN_BUSINESS = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.WORK, Kind.FUTURE, Kind.JOIN)
 
 
 class Verdict(Enum):
-    """What the process does, in one word."""
+    """What the process does, in a few words."""
 
     DEADLOCK = 'deadlock'
-    NOBODY_SPINS = 'nobody spins'
+    NEVER_SPUN = 'never spun'
+    ASLEEP = 'asleep'
     OUTSIDE = 'waits for another process'
     UNDECIDED = 'undecided'
     BUSY = 'busy'
@@ -38,7 +40,9 @@ class Standing:
 
     :param moved: it was elsewhere at the other look.
     :param can_end: something is left that can end its wait.
-    :param waits_for: what keeps the wait from its end, in words.
+    :param asleep: it could go on, but the executor that runs it sleeps.
+    :param reasons: what keeps the wait from its end, or where the answer comes from, in words.
+    :param asked: other processes that offer the service whose answer is awaited.
     :param code: of the rule that finds such a wait in sources.
     """
 
@@ -46,7 +50,9 @@ class Standing:
     wait: Wait
     moved: bool
     can_end: bool
-    waits_for: tuple[str, ...] = ()
+    asleep: bool = False
+    reasons: tuple[str, ...] = ()
+    asked: tuple[int, ...] = ()
     code: str | None = None
 
     @property
@@ -56,80 +62,124 @@ class Standing:
 
 @dataclass(frozen=True)
 class Explanation:
+    process: int
     verdict: Verdict
     standings: tuple[Standing, ...]
     look: Look
 
 
-def explain(before: Look, after: Look) -> Explanation:
+Looks = tuple[Look, Look]
+"""What was seen of a process, and what was seen later."""
+
+
+def explain(process: int, looks: Looks) -> Explanation:
+    """Judge one process alone."""
+    return explain_together({process: looks})[process]
+
+
+def explain_together(looks: Mapping[int, Looks]) -> dict[int, Explanation]:
     """
-    Judge by two looks; only what stands still, and has nobody left, in both counts.
+    Judge processes that may wait for each other.
 
-    One look is no instant: the frames are read some milliseconds before the groups.
+    Only what stands still, and has nothing left that could end it, in both looks counts: one look
+    is no instant, as the frames are read some milliseconds before the groups.
+
+    :param looks: of all processes; each second one is later than each first one.
     """
-    first, graph = _Graph(after, before), _Graph(before, after)
-    stood = [each for each in map(first.standing, before.activities) if not each.can_end]
-    standings = tuple(_as_in(stood, each) for each in map(graph.standing, after.activities))
-    return Explanation(_verdict(standings, before, after, graph), standings, after)
+    first = _solved({each: (after, before) for each, (before, after) in looks.items()})
+    last = _solved(looks)
+    return {each: _explanation(first[each], last[each]) for each in looks}
 
 
-def _as_in(stood: list[Standing], now: Standing) -> Standing:
-    if now.can_end or any(now.activity.stands_as(each.activity) for each in stood):
-        return now
-    return replace(now, can_end=True, waits_for=(), code=None)
+def _solved(looks: Mapping[int, Looks]) -> dict[int, _Graph]:
+    """Find the least sets of those that can go on; what is outside of them never does."""
+    graphs = {each: _Graph(each, *of_one) for each, of_one in looks.items()}
+    for graph in graphs.values():
+        graph.others = tuple(each for each in graphs.values() if each is not graph)
+    while any([graph.grows() for graph in graphs.values()]):  # noqa: C419  each of them is to grow
+        pass
+    return graphs
+
+
+def _explanation(first: _Graph, last: _Graph) -> Explanation:
+    before, after = first.look, last.look
+    stood = [first.standing(index) for index in range(len(before.activities))]
+    standings = tuple(
+        _confirmed(last.standing(index), stood) for index in range(len(after.activities))
+    )
+    return Explanation(last.process, _verdict(standings, before, last), standings, after)
+
+
+def _confirmed(now: Standing, stood: Sequence[Standing]) -> Standing:
+    """Keep of what is found in the last look only what was found in the first one too."""
+    was = next((each for each in stood if now.activity.stands_as(each.activity)), None)
+    if was is None or (was.can_end and not now.can_end):
+        now = replace(now, can_end=True, reasons=(), code=None)
+    return replace(now, asleep=now.asleep and was is not None and was.asleep)
 
 
 class _Graph:
-    def __init__(self, before: Look, after: Look) -> None:
-        self.look = after
+    """
+    What can go on in one process.
+
+    :param before: the look to compare with; may be the later one.
+    :param look: the look that is judged.
+    """
+
+    def __init__(self, process: int, before: Look, look: Look) -> None:
+        self.process = process
+        self.look = look
+        self.others: tuple[_Graph, ...] = ()
+        self.live: set[int] = set()
         self.waits: Mapping[int, Wait] = {
-            index: wait_of(each, after) for index, each in enumerate(after.activities)
+            index: wait_of(each, look) for index, each in enumerate(look.activities)
         }
         self.moved = {
             index
-            for index, each in enumerate(after.activities)
+            for index, each in enumerate(look.activities)
             if not any(each.stands_as(other) for other in before.activities)
         }
         self.holders: dict[int, set[int]] = {}
-        for index, each in enumerate(after.activities):
+        for index, each in enumerate(look.activities):
             # Who waits for a condition has let go of its lock.
             if self.waits[index].kind is not Kind.CONDITION:
                 for lock, _ in locks_held(each):
                     self.holders.setdefault(lock, set()).add(index)
-        self.executor_of = {e: each for each in after.executors for e in each.entities}
-        self.live = self._least()
+        self.executor_of = {e: each for each in look.executors for e in each.entities}
 
-    def _least(self) -> set[int]:
-        """The least set of those that can go on; whoever is outside of it never does."""
-        live: set[int] = set()
-        while True:
-            more = {index for index in self.waits if self._goes_on(index, live)}
-            if more <= live:
-                return live
-            live |= more
+    @property
+    def title(self) -> str:
+        return f'process {self.process} ({", ".join(self.look.nodes)})'
 
-    def _goes_on(self, index: int, live: set[int]) -> bool:
+    def grows(self) -> bool:
+        """Add those that can go on, given what is known to go on; whether there were any."""
+        more = {index for index in self.waits if index not in self.live and self._goes_on(index)}
+        self.live |= more
+        return bool(more)
+
+    def _goes_on(self, index: int) -> bool:
         wait, look = self.waits[index], self.look
         if wait.kind is Kind.WORK:
             return False  # it acts by what it serves
         if index in self.moved or wait.timed or look.activities[index].is_awaited_done:
             return True
-        if wait.kind is Kind.ANSWER and wait.resource is not None:
+        if wait.kind in _ANSWERS and wait.resource is not None:
             client = look.entities[wait.resource]
-            return self.is_served(client, live) and self._is_answered(client, live)
+            return self.is_served(client) and self._is_answered(client)
         if wait.kind is Kind.RATE:
             timer = look.entities.get(wait.resource or 0)
             # Who moves a simulated clock is not of this process.
-            return timer is None or timer.simulated_clock or self.is_served(timer, live)
+            return timer is None or timer.simulated_clock or self.is_served(timer)
         if wait.kind is Kind.LOCK:
             holders = self._holders(wait.resource or 0)
-            return not holders or bool(holders & live)
+            return not holders or bool(holders & self.live)
         if wait.kind is Kind.JOIN:
             thread = look.objects.get(wait.resource or 0, {})
             joined = self._thread(thread.get('ident'))
-            return joined is None or joined in live or self.waits[joined].kind in _OWN_BUSINESS
-        if wait.kind in _BY_ANYBODY:
-            return self._may_anybody_act(live)
+            own = joined is None or self.waits[joined].kind in _OWN_BUSINESS
+            return own or joined in self.live
+        if wait.kind in _BY_ANY_CODE:
+            return self._may_any_code_act()
         return wait.kind is not Kind.SPIN
 
     def _holders(self, lock: int) -> set[int]:
@@ -143,35 +193,49 @@ class _Graph:
         found = (i for i, each in enumerate(self.look.activities) if each.ident == ident)
         return next(found, None) if ident is not None else None
 
-    def _is_answered(self, client: Entity, live: set[int]) -> bool:
-        """A server elsewhere may answer; one of this process has to be served, or at work."""
-        servers = [
-            each
-            for each in self.look.entities.values()
-            if each.kind == 'services' and each.key == client.key
-        ]
-        return not servers or any(
-            self.is_served(each, live) or self._runs(each.number) & live for each in servers
+    def _is_answered(self, client: Entity) -> bool:
+        """A server that is not known may answer; one that is has to be served, or at work."""
+        servers = self.servers_of(client)
+        return not servers or any(graph.answers(each) for graph, each in servers)
+
+    def servers_of(self, client: Entity) -> list[tuple[_Graph, Entity]]:
+        """Give all servers of its service; none where there may be one that is not known."""
+        own, all_known = (
+            [
+                (graph, each)
+                for graph in graphs
+                for each in graph.look.entities.values()
+                if each.is_service and each.service == client.service
+            ]
+            for graphs in ((self,), (self, *self.others))
         )
+        if client.servers is None or client.servers == len(own):
+            return own
+        return all_known if client.servers == len(all_known) else []
+
+    def answers(self, service: Entity) -> bool:
+        """Whether a request may be answered; so it is where not everything could be read."""
+        at_work = self._runs(service.number) & self.live
+        return bool(self.look.unread or at_work) or self.is_served(service)
 
     def _runs(self, entity: int) -> set[int]:
         return {i for i, each in enumerate(self.look.activities) if entity in each.entities}
 
-    def _may_anybody_act(self, live: set[int]) -> bool:
-        return bool(live) or any(
-            not each.builtin and self.is_served(each, live) for each in self.look.entities.values()
+    def _may_any_code_act(self) -> bool:
+        return bool(self.live) or any(
+            not each.builtin and self.is_served(each) for each in self.look.entities.values()
         )
 
-    def is_served(self, entity: Entity, live: set[int]) -> bool:
+    def is_served(self, entity: Entity) -> bool:
         """Whether some thread can still begin a callback of it."""
         executor = self.executor_of.get(entity.number)
         if executor is None:
-            return bool(live)
-        if self.keepers(entity) and not self.keepers(entity) & live:
+            return bool(self.live)
+        if self.keepers(entity) and not self.keepers(entity) & self.live:
             return False
-        if not self.spinners(executor) and not self._may_spin(executor, live):
+        if not self.spinners(executor) and not self.live - self.workers(executor):
             return False
-        return executor.workers is None or (len(self.workers(executor) - live) < executor.workers)
+        return executor.workers is None or len(self.stuck(executor)) < executor.workers
 
     def keepers(self, entity: Entity) -> set[int]:
         """Who runs the callback that keeps the group of ``entity`` closed."""
@@ -180,8 +244,9 @@ class _Graph:
     def spinners(self, executor: Executor) -> set[int]:
         return {index for index, wait in self.waits.items() if wait.spins == executor.number}
 
-    def _may_spin(self, executor: Executor, live: set[int]) -> bool:
-        return bool(live - self.workers(executor))
+    def stuck(self, executor: Executor) -> set[int]:
+        """Threads of its pool that never go on."""
+        return self.workers(executor) - self.live
 
     def workers(self, executor: Executor) -> set[int]:
         """Threads of its pool that run something."""
@@ -196,15 +261,52 @@ class _Graph:
             )
         }
 
-    def standing(self, activity: Activity) -> Standing:
-        index = self.look.activities.index(activity)
-        wait = self.waits[index]
+    def standing(self, index: int) -> Standing:
+        activity, wait = self.look.activities[index], self.waits[index]
         can_end = index in self.live or wait.kind is Kind.WORK
         if not activity.entities and wait.kind in _OWN_BUSINESS:
             can_end = True  # a thread that waits for work, or main for Ctrl-C
-        told = () if can_end else tuple(self._obstacles(index))
-        code = None if can_end else _code(self, index)
-        return Standing(activity, wait, index in self.moved, can_end, told, code)
+        elsewhere = self._servers_elsewhere(wait)
+        return Standing(
+            activity,
+            wait,
+            index in self.moved,
+            can_end,
+            self._is_asleep(index),
+            tuple(self._sources(elsewhere) if can_end else self._obstacles(index)),
+            tuple(sorted({graph.process for graph, _ in elsewhere})),
+            None if can_end else _code(self, index),
+        )
+
+    def _is_asleep(self, index: int) -> bool:
+        """
+        Whether what a coroutine awaits is done, and its executor sleeps.
+
+        It goes on as soon as something else wakes the executor, as a timer will.
+        """
+        activity = self.look.activities[index]
+        executor = next((e for e in self.look.executors if e.number == activity.executor), None)
+        if not activity.is_awaited_done or index in self.moved or executor is None:
+            return False
+        spinners = self.spinners(executor)
+        timers = (self.look.entities[each] for each in executor.entities)
+        return (
+            bool(spinners - self.moved)
+            and not any(self.waits[each].timed for each in spinners)
+            and all(each.kind != 'timers' or each.cancelled for each in timers)
+        )
+
+    def _servers_elsewhere(self, wait: Wait) -> list[tuple[_Graph, Entity]]:
+        client = self.look.entities.get(wait.resource or 0)
+        if wait.kind is not Kind.ANSWER or client is None:
+            return []
+        return [(graph, each) for graph, each in self.servers_of(client) if graph is not self]
+
+    def _sources(self, servers: Sequence[tuple[_Graph, Entity]]) -> Iterator[str]:
+        for graph, service in servers:
+            runs = sorted(graph._runs(service.number))
+            at = f'; {graph.say(runs[0])} is at work on a request' if runs else ''
+            yield f'it is offered by {graph.title}{at}'
 
     def _obstacles(self, index: int) -> Iterator[str]:
         wait = self.waits[index]
@@ -214,13 +316,18 @@ class _Graph:
                 yield f'the lock is held by {self.say(holder)}'
         elif entity is not None:
             yield from self._why_not_served(entity)
-            for each in self.look.entities.values():
-                if each.kind == 'services' and each.key == entity.key:
-                    yield from (f'the service: {told}' for told in self._why_not_served(each))
-        elif wait.kind in _BY_ANYBODY:
+            if wait.kind is Kind.ANSWER:
+                yield from self._why_not_answered(entity)
+        elif wait.kind in _BY_ANY_CODE:
             yield 'no thread moves, and no callback of the program that could end it can begin'
         elif wait.kind is Kind.SPIN:
             yield 'the callback ends when the executor is shut down, and not before'
+
+    def _why_not_answered(self, client: Entity) -> Iterator[str]:
+        for graph, service in self.servers_of(client):
+            where = '' if graph is self else f', offered by {graph.title},'
+            for reason in graph._why_not_served(service):
+                yield f'the service{where} is not served: {reason}'
 
     def _why_not_served(self, entity: Entity) -> Iterator[str]:
         for keeper in sorted(self.keepers(entity) - self.live):
@@ -228,23 +335,21 @@ class _Graph:
         executor = self.executor_of.get(entity.number)
         if executor is None:
             yield 'its node is in no executor'
-        elif executor.workers is not None and len(stuck := self.workers(executor) - self.live) >= (
-            executor.workers
-        ):
-            yield f'all {len(stuck)} threads of the pool stand'
+        elif executor.workers is not None and len(self.stuck(executor)) >= executor.workers:
+            yield f'no thread of the pool is free: {len(self.stuck(executor))} of them wait'
         elif not self.spinners(executor):
             runs = [
                 i
                 for i, each in enumerate(self.look.activities)
                 if executor.entities & set(each.entities) and self.waits[i].kind is not Kind.WORK
             ]
-            told = f', whose thread runs {self.say(runs[0])}' if runs else ''
-            yield f'nobody spins its {executor.cls}{told}'
+            by = f', whose thread runs {self.say(runs[0])}' if runs else ''
+            yield f'no thread spins its {executor.cls}{by}'
 
     def say(self, index: int) -> str:
         activity = self.look.activities[index]
         place = activity.place
-        return f'{activity.name}, {place.function} at {place.file}:{place.line}'
+        return f'{place.function} ({activity.name}) at {place.file}:{place.line}'
 
 
 def _code(graph: _Graph, index: int) -> str | None:
@@ -257,39 +362,44 @@ def _code(graph: _Graph, index: int) -> str | None:
         return 'CC106'
     if wait.kind is Kind.RATE:
         return 'CC105'
-    if wait.kind is not Kind.ANSWER or entity is None:
+    if wait.kind not in _ANSWERS or entity is None:
         return 'CC109' if wait.kind is Kind.EVENT else None
-    activity = look.activities[index]
-    needed = {entity.active} | {
-        each.active
-        for each in look.entities.values()
-        if each.kind == 'services' and each.key == entity.key
-    }
+    activity, servers = look.activities[index], graph.servers_of(entity)
+    needed = {entity.active} | {each.active for owner, each in servers if owner is graph}
     if needed & set(activity.entities):
         return 'CC106' if wait.spins else 'CC104' if activity.ident is None else 'CC101'
     executor = graph.executor_of.get(entity.number)
     if executor is None:
         return None
+    if graph.is_served(entity):
+        return 'CC109' if any(owner is not graph for owner, _ in servers) else None
     if executor.workers is not None:
-        return 'CC103' if len(graph.workers(executor) - graph.live) >= executor.workers else None
+        return 'CC103' if len(graph.stuck(executor)) >= executor.workers else None
     return None if graph.spinners(executor) else 'CC102'
 
 
-def _verdict(standings: tuple[Standing, ...], before: Look, after: Look, graph: _Graph) -> Verdict:
+def _verdict(standings: Sequence[Standing], before: Look, graph: _Graph) -> Verdict:
+    after = graph.look
     if any(not each.can_end for each in standings):
         return Verdict.UNDECIDED if before.unread or after.unread else Verdict.DEADLOCK
     spun_before = {each.number for each in before.executors if each.spun}
     for each in after.executors:
         unspun = not each.spun and each.number not in spun_before
         if each.nodes and unspun and not graph.spinners(each):
-            return Verdict.NOBODY_SPINS
+            return Verdict.NEVER_SPUN
+    if any(each.asleep for each in standings):
+        return Verdict.ASLEEP
+    return _verdict_on_waits(standings)
+
+
+def _verdict_on_waits(standings: Sequence[Standing]) -> Verdict:
     # Waits of main and of own threads count where only a callback, or another process, ends them.
     asking = [s for s in standings if s.activity.entities or s.wait.kind not in _OWN_BUSINESS]
     kinds = {s.wait.kind for s in asking if not s.wait.timed and not s.moved}
-    if Kind.ANSWER in kinds and not kinds & {Kind.LOCK, *_BY_ANYBODY}:
+    if kinds & set(_ANSWERS) and not kinds & {Kind.LOCK, *_BY_ANY_CODE}:
         return Verdict.OUTSIDE
-    if any(s.wait.kind is Kind.SERVICE for s in asking):
+    if any(s.wait.kind is Kind.SERVER for s in asking):
         return Verdict.OUTSIDE
-    if kinds & {Kind.LOCK, Kind.JOIN, *_BY_ANYBODY}:
+    if kinds & {Kind.LOCK, Kind.JOIN, *_BY_ANY_CODE}:
         return Verdict.UNDECIDED
     return Verdict.BUSY if any(s.in_callback for s in standings) else Verdict.HEALTHY

@@ -22,6 +22,8 @@ from ..recorder.record import Recorder
 from .events_executor import mark_spinning, measure_callbacks
 from .groups import reporting
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
+from .watch import VARIABLE as WATCH_VARIABLE
+from .watch import Watch, limit_of
 from .writer import Writer
 
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
@@ -38,9 +40,14 @@ MEASURED_FOR_EVENTS = (
 class Hook:
     """The recorder of this process, its writer, and what is wrapped."""
 
-    def __init__(self, directory: str, *, traced: bool = False) -> None:
+    def __init__(
+        self, directory: str, *, traced: bool = False, limit_s: float | None = None
+    ) -> None:
         self.recorder = Recorder(traced=traced)
-        self.writer = Writer(self.recorder, lambda: _file_of_process(directory), traced=traced)
+        watch = None if limit_s is None else Watch(self.recorder, limit_s)
+        self.writer = Writer(
+            self.recorder, lambda: _file_of_process(directory), traced=traced, watch=watch
+        )
         self._traced = traced
         self._wrapped: list[tuple[type, str, Any]] = []
         self._measures_events = False
@@ -243,7 +250,8 @@ class _Finder:
 
 def install(directory: str, *, traced: bool = False) -> Hook:
     """Install the hook; recordings go into ``directory``, one file for each process."""
-    hook = Hook(directory, traced=traced)
+    limit_s = limit_of(os.environ.get(WATCH_VARIABLE))
+    hook = Hook(directory, traced=traced, limit_s=limit_s)
     hook.install()
     return hook
 

@@ -20,6 +20,7 @@ from ..recorder.record import EVENTS_KEPT, Recorder
 from ..recorder.snapshot import snapshot
 from ..recorder.spinning import look_for_spinning_threads
 from .tracefile import TraceFile
+from .watch import Watch
 
 # The file is at most 0.5 s old: something new is written at once, mere counts every other time.
 INTERVAL_S = 0.24
@@ -34,11 +35,17 @@ class Writer:
     """Rewrites one file, by way of a temporary one, whenever the recorder has changed."""
 
     def __init__(
-        self, recorder: Recorder, path: Callable[[], str], *, traced: bool = False
+        self,
+        recorder: Recorder,
+        path: Callable[[], str],
+        *,
+        traced: bool = False,
+        watch: Watch | None = None,
     ) -> None:
         self._recorder = recorder
         self._path_of_process = path
         self._traced = traced
+        self._watch = watch
         self.forget()
 
     def forget(self) -> None:
@@ -53,6 +60,8 @@ class Writer:
         self._not_before = 0.0
         self._counts_turn = False
         self._complained = False
+        if self._watch is not None:
+            self._watch.forget()
 
     def start(self) -> None:
         """Start the thread, unless it runs."""
@@ -78,6 +87,8 @@ class Writer:
         while not self._stop.wait(INTERVAL_S):
             try:
                 self.update()
+                if self._watch is not None:
+                    self._watch.update(self._path)
             except Exception as error:
                 self._recorder.lose(error)
 

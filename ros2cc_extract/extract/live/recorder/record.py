@@ -60,6 +60,8 @@ class Recorder:
         # Counted up when something is new, and when something was measured.
         self.changes = 0
         self.measured = 0
+        # Callbacks that have ended.
+        self.ended = 0
         self.loss_count = 0
         # Set only if no executor was made before ours was the way to make one.
         self.sees_every_executor = False
@@ -246,10 +248,17 @@ class Recorder:
                     timings.begin(clock, thread)
                 elif what == END:
                     timings.end(clock, thread)
+                    self.ended += 1
                 else:
                     timings.refused += 1
         self.measured += len(taken) // SIZE
         return taken
+
+    def running(self) -> list[tuple[int, int]]:
+        """Give the entities whose callbacks run, each with when the first run of them began."""
+        with self.lock:
+            begun = [(number, each.oldest) for number, each in self._timings.items()]
+        return [(number, clock) for number, clock in begun if clock is not None]
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)

@@ -76,6 +76,11 @@ class Timings:
         self.threads.add(thread)
         self._begun.append((clock_ns, thread))
 
+    @property
+    def oldest(self) -> int | None:
+        """When the first of the runs began that have not ended."""
+        return self._begun[0][0] if self._begun else None
+
     def end(self, clock_ns: int, thread: int) -> None:
         """Close the last run begun by this thread; a coroutine may end in another one."""
         begun = self._begun
