@@ -113,8 +113,9 @@ def _client(address: str) -> Iterator[Any]:
 def _connected(address: str) -> Any:
     from distributed import Client
 
+    connect: Callable[..., Any] = Client
     try:
-        return Client(address, timeout=CONNECTING_S, set_as_default=False)
+        return connect(address, timeout=CONNECTING_S, set_as_default=False)
     except (OSError, ValueError) as error:
         raise _unreachable(address, error) from None
 

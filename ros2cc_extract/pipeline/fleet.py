@@ -135,9 +135,7 @@ def _revision(folder: Path) -> str | None:
     return answer.out.decode().strip() if answer.status == 0 else None
 
 
-def kept_result(
-    repository: Repository, path: Path, origin: Mapping[str, Any]
-) -> Result | None:
+def kept_result(repository: Repository, path: Path, origin: Mapping[str, Any]) -> Result | None:
     """The result of an earlier call, where it stands."""
     try:
         data = read_json(path.read_bytes())

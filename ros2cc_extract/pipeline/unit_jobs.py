@@ -164,7 +164,7 @@ def examine_all(
     if known is not None:
         found = dict(enumerate(_all_known(tasks, known)))
     else:
-        found = {n: kept for n, task in enumerate(tasks) if (kept := _load(task, folder))}
+        found = {n: each for n, task in enumerate(tasks) if (each := _load(task, folder))}
     left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
     left = [] if interrupted else left
     pool = pool or Processes(usable_cores() if len(left) >= FEWEST_TO_SHARE else 1)

@@ -74,9 +74,7 @@ def test_what_has_not_changed_is_not_checked_again(
     node = tmp_path / 'service_deadlock' / 'node.py'
     node.write_text(node.read_text() + '\n')
     again = run('fleet', *fleet, '-o', 'results')
-    assert states(again.out) == dict.fromkeys(fleet, 'unchanged') | {
-        'service_deadlock': 'checked'
-    }
+    assert states(again.out) == dict.fromkeys(fleet, 'unchanged') | {'service_deadlock': 'checked'}
     assert (path.stat().st_mtime_ns, again.status) == (before, first.status)
     assert again.out.splitlines()[-1] == first.out.splitlines()[-1]
     (tmp_path / 'two_groups' / 'pyproject.toml').write_text('[tool.ros2cc]\nignore = ["CC4"]\n')

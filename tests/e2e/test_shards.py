@@ -115,9 +115,7 @@ def test_results_that_do_not_fit_are_refused(run: Run, tree: Path, tmp_path: Pat
         (line,) = outcome.err.splitlines()
         return line.removeprefix('ros2cc-extract: error: ')
 
-    assert refused(first, third) == (
-        'there is no result of shard 2/3; name the files of all'
-    )
+    assert refused(first, third) == ('there is no result of shard 2/3; name the files of all')
     text = second.read_text()
     second.write_text(text.replace('"of": 3', '"of": 4'))
     assert refused(*paths) == 'some are of 3 and 4 shards; name the results of one check'

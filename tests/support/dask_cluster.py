@@ -67,6 +67,8 @@ def _wait_for(path: Path) -> None:
 
 def _wait_for_workers(address: str, number: int) -> None:
     """Ask in a process of its own: a client leaves threads behind, and tests fork."""
+    if not number:
+        return
     program = (
         'import sys; from distributed import Client; '
         f'Client(sys.argv[1], timeout={PATIENCE_S}).wait_for_workers({number})'

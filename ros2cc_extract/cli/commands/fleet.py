@@ -37,9 +37,9 @@ ALL_SECONDS = 3600.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'Each repository gets DIR/NAME.json, as check --output-format json writes it. A repository '
-        'that\nhas not changed since is not checked again, so that a call goes on where another '
-        'was cut;\n--no-cache checks all.'
+        'Each repository gets DIR/NAME.json, as check --output-format json writes it. One that\n'
+        'has not changed since is not checked again, so that a call goes on where another was\n'
+        'cut; --no-cache checks all.'
     )
     parser.add_argument('folders', nargs='+', type=Path, metavar='DIR', help='a repository')
     parser.add_argument(

@@ -17,7 +17,7 @@ Row = tuple[str, Mapping[str, int], str]
 
 def print_fleet(rows: Sequence[Row], line: str, console: Console) -> None:
     """Print all rows in their order, and the line."""
-    cells = [('repository', *COLUMNS, 'result')]
+    cells: list[tuple[str, ...]] = [('repository', *COLUMNS, 'result')]
     for name, counts, told in rows:
         numbers = (str(counts[column]) if column in counts else '-' for column in COLUMNS)
         cells.append((one_line(name), *numbers, one_line(told)))

@@ -20,7 +20,6 @@ from ros2cc_extract.jobs.dask_cluster import cluster_at
 from ros2cc_extract.jobs.pools import Processes, in_order
 from tests.support.dask_cluster import Cluster, dask_cluster
 
-HERE = os.getpid()
 needs_dask = pytest.mark.skipif(
     importlib.util.find_spec('distributed') is None, reason='Dask is not installed'
 )
@@ -29,15 +28,19 @@ needs_dask = pytest.mark.skipif(
 @pytest.fixture
 def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cluster]:
     """Workers that find this file's functions."""
-    monkeypatch.setenv('PYTHONPATH', str(Path(__file__).parents[3]))
+    here = Path(__file__)
+    monkeypatch.setenv('PYTHONPATH', f'{here.parent}{os.pathsep}{here.parents[3]}')
     with dask_cluster(tmp_path, 2) as found:
         yield found
 
 
-def squared(job: int) -> tuple[int, bool]:
+def _squared(here: int, job: int) -> tuple[int, bool]:
     """With whether it was done in the process that runs the tests."""
     time.sleep(0.05)
-    return job * job, os.getpid() == HERE
+    return job * job, os.getpid() == here
+
+
+squared = partial(_squared, os.getpid())
 
 
 def test_dask_may_not_be_there(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,15 +74,15 @@ def test_answers_are_those_of_this_machine(cluster: Cluster) -> None:
     assert there == [(n * n, False) for n in range(20)]
 
 
-def grumbling(job: int) -> tuple[int, bool]:
-    if job % 2 and os.getpid() != HERE:
+def grumbling(here: int, job: int) -> tuple[int, bool]:
+    if job % 2 and os.getpid() != here:
         raise LookupError(job)
-    return squared(job)
+    return _squared(here, job)
 
 
 @needs_dask
 def test_what_fails_there_is_done_here(cluster: Cluster) -> None:
-    assert in_order(cluster_at(cluster.address), grumbling, range(4)) == [
+    assert in_order(cluster_at(cluster.address), partial(grumbling, os.getpid()), range(4)) == [
         (0, False),
         (1, True),
         (4, False),
@@ -108,16 +111,14 @@ def test_without_any_worker_the_rest_is_done_here(
         if len(answers) == 5:
             cluster.kill(0)
             cluster.kill(1)
-    assert {number: root for number, (root, _) in answers.items()} == {
-        n: n * n for n in range(30)
-    }
+    assert {number: root for number, (root, _) in answers.items()} == {n: n * n for n in range(30)}
     assert sum(is_here for _, is_here in answers.values()) > 0
 
 
 def endless(until: Deadline, job: int) -> str:
     if until.is_over:
         return 'not begun'
-    time.sleep(600)
+    time.sleep(30)
     return 'done'
 
 
@@ -125,9 +126,8 @@ def endless(until: Deadline, job: int) -> str:
 def test_nobody_waits_past_the_time(cluster: Cluster) -> None:
     until = Deadline(time.monotonic() + 1, 'over')
     pool = cluster_at(cluster.address)
-    assert dict(pool.each(partial(endless, until), range(3), until)) == {
-        n: 'not begun' for n in range(3)
-    }
+    answers = dict(pool.each(partial(endless, until), range(3), until))
+    assert answers == dict.fromkeys(range(3), 'not begun')
 
 
 @needs_dask

@@ -10,9 +10,9 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.report.text.sweep import print_sweep
-from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.sweep import points, run_sweep
