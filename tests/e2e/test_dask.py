@@ -43,8 +43,8 @@ def test_answers_of_workers_are_kept_here(run: Run, tmp_path: Path, cluster: Clu
 def sweep(run: Run, *more: object) -> Any:
     """The sweep as data, without what each run of it costs."""
     told = run(
-        *('verify', EXAMPLES / 'pool_exhaustion' / 'node.py', '--profile', 'rclpy'),
-        *('--threads', '1..4', '--max-cycle', '1..2', '--output-format', 'json', *more),
+        *('verify', EXAMPLES / 'two_groups' / 'node.py', '--threads', '1..4'),
+        *('--max-cycle', '1..2', '--output-format', 'json', *more),
     )
     assert (told.status, told.err) == (0, '')
     return [without_cost(point) for point in json.loads(told.out)]
@@ -62,7 +62,7 @@ def test_a_sweep_says_the_same(run: Run, cluster: Cluster) -> None:
 def test_a_worker_that_is_killed_changes_nothing(
     run: Run, tmp_path: Path, cluster: Cluster, cache: Path
 ) -> None:
-    write_knots(tmp_path / 'src', 12)
+    write_knots(tmp_path / 'src', 30, callers=3)
     expected = run('src', '--no-cache', '--max-seconds', 600)
     told = ('src', '--max-seconds', '600', '--dask', cluster.address)
     child = subprocess.Popen(

@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2cc_extract.jobs.process_pool import ends_with_us
+
 PATIENCE_S = 60.0
 
 
@@ -51,7 +53,14 @@ def _started(folder: Path, kind: str, *arguments: object) -> subprocess.Popen[by
     command = [sys.executable, '-m', f'distributed.cli.dask_{kind}', *map(str, options)]
     command += ['--scheduler-file', str(where), '--no-dashboard']
     with (folder / f'{kind}.log').open('ab') as log:
-        return subprocess.Popen(command, cwd=folder, stdout=log, stderr=log, env=_environment())
+        return subprocess.Popen(
+            command,
+            cwd=folder,
+            stdout=log,
+            stderr=log,
+            env=_environment(),
+            preexec_fn=ends_with_us(),
+        )
 
 
 def _environment() -> dict[str, str]:

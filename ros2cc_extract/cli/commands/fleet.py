@@ -181,8 +181,6 @@ def _print(
     rows = [results.get(member, Result(member, State.LEFT)) for member in members]
     found: Counter[str] = sum((row.found for row in rows), Counter())
     done = sum(row.state in (State.CHECKED, State.UNCHANGED) for row in rows)
-    told = [
-        (row.repository.name, row.summary, row.state.value + (row.error and f': {row.error}'))
-        for row in rows
-    ]
-    print_fleet(told, fleet_line(done, len(members), found), console_for(stdout))
+    told = [(row.repository.name, row.summary, row.state.value) for row in rows]
+    errors = [f'{row.repository.name}: {row.error}' for row in rows if row.error]
+    print_fleet(told, errors, fleet_line(done, len(members), found), console_for(stdout))

@@ -15,13 +15,15 @@ Row = tuple[str, Mapping[str, int], str]
 """Name, counts and what has come of it."""
 
 
-def print_fleet(rows: Sequence[Row], line: str, console: Console) -> None:
-    """Print all rows in their order, and the line."""
+def print_fleet(rows: Sequence[Row], errors: Sequence[str], line: str, console: Console) -> None:
+    """Print all rows in their order, what went wrong, and the line."""
     cells: list[tuple[str, ...]] = [('repository', *COLUMNS, 'result')]
     for name, counts, told in rows:
         numbers = (str(counts[column]) if column in counts else '-' for column in COLUMNS)
         cells.append((one_line(name), *numbers, one_line(told)))
     print_rows(cells, console)
+    for error in errors:
+        console.print(one_line(error), soft_wrap=True)
     console.print(line, style='bold', soft_wrap=True)
 
 
