@@ -29,6 +29,7 @@ from ros2cc_extract.version import PROGRAM, __version__
 DEFAULT_COMMAND = 'check'
 COMMANDS = {
     'check': 'extract, model, verify and tell (the default: `ros2cc-extract my_node.py`)',
+    'fleet': 'check many repositories, with one result each',
     'spec': 'print the YAML specification of a node',
     'model': 'write the UPPAAL model and its queries',
     'verify': 'print the verdict table of a specification or a model',
@@ -45,7 +46,7 @@ COMMANDS = {
     'merge': 'join a specification from source with one from a live run',
 }
 WRITES_DATA = ('spec', 'merge')
-HEARS_ITSELF = ('check', 'run', 'attach')
+HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
 """Requests to end: they tell what is known by then, or hand them on to what they have begun."""
 LONGEST_MESSAGE = 300
 

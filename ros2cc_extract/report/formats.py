@@ -24,6 +24,10 @@ def _sarif(checked: Checked) -> str:
     return sarif(checked.findings, line=line, root=checked.root, docs_url=checked.docs_url)
 
 
+def _json(checked: Checked) -> str:
+    return to_text({**check_data(checked), **checked.more})
+
+
 def _junit(checked: Checked) -> str:
     line = last_line(checked.summary)
     return junit(checked.findings, checked.files, checked.package, line=line)
@@ -34,7 +38,7 @@ def _mermaid(checked: Checked) -> str:
 
 
 WRITERS: Mapping[str, Callable[[Checked], str]] = {
-    'json': lambda checked: to_text(check_data(checked)),
+    'json': _json,
     'sarif': _sarif,
     'junit': _junit,
     'github': lambda checked: workflow_commands(checked.findings, root=checked.root),

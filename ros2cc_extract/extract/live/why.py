@@ -27,7 +27,7 @@ from ros2cc_extract.extract.live.injection import (
     user_to_enter,
 )
 from ros2cc_extract.files import read_regular
-from ros2cc_extract.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import Crew
 
 T = TypeVar('T')
 # From when it was let in; a busy process on a busy machine takes a second for each look.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.promises import Judgement
@@ -24,6 +24,7 @@ class Checked:
     :param package: name of the test suite.
     :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
     :param with_verdicts: people want to see the table of queries of each unit too.
+    :param more: what else the JSON holds, such as where a result comes from.
     """
 
     units: Sequence[Spec]
@@ -37,3 +38,4 @@ class Checked:
     package: str = 'ros2cc'
     docs_url: str = ''
     with_verdicts: bool = False
+    more: Mapping[str, object] = field(default_factory=dict)
