@@ -22,6 +22,8 @@ class Deadline:
     """
     When several searches together have to end.
 
+    It travels to another machine as the seconds that are left.
+
     :param at: by ``time.monotonic``.
     :param reason: to give up then.
     """
@@ -33,6 +35,9 @@ class Deadline:
     def is_over(self) -> bool:
         """Whether nothing more is to begin."""
         return time.monotonic() > self.at
+
+    def __reduce__(self) -> tuple[Callable[[float, str], Deadline], tuple[float, str]]:
+        return _deadline_after, (self.at - time.monotonic(), self.reason)
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,10 @@ PATIENT = Patience()
 def deadline_in(seconds: float, of: float) -> Deadline:
     """Give the moment so many seconds from now, which are left ``of`` so many."""
     reason = f'the limit of {of:g} s for all units was reached; see --max-seconds'
+    return Deadline(time.monotonic() + seconds, reason)
+
+
+def _deadline_after(seconds: float, reason: str) -> Deadline:
     return Deadline(time.monotonic() + seconds, reason)
 
 

@@ -1,5 +1,5 @@
 """
-Verdicts and findings of many units: from the cache, or on all cores.
+Verdicts and findings of many units: from the cache, or by a pool of workers.
 
 What travels between processes is plain data, and what the cache keeps is JSON. A run that nobody
 has asked for stays behind; whoever asks for it later has the unit verified once more.
@@ -8,7 +8,8 @@ has asked for stays behind; whoever asks for it later has the unit verified once
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import count
@@ -16,15 +17,17 @@ from pathlib import Path
 
 from ros2cc_extract.cache_file import load_value, store_value, tidy, tool_version
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
+from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.by_release import of_all_releases
 from ros2cc_extract.findings.collect import findings_of_unit
 from ros2cc_extract.findings.waits_across_executors import findings_of_joined
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.generator.releases import felt
+from ros2cc_extract.jobs.pools import Pool, Processes
+from ros2cc_extract.jobs.process_pool import usable_cores
 from ros2cc_extract.pipeline.progress import Meter
 from ros2cc_extract.plain_data import Packer
-from ros2cc_extract.process_pool import Crew, usable_cores
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
@@ -140,7 +143,7 @@ class Kept:
         return Examined(self.shown, judged, self.findings, self.elsewhere)
 
 
-_KEPT: Packer[Kept] = Packer(Kept)
+KEPT: Packer[Kept] = Packer(Kept)
 
 
 @dataclass(frozen=True)
@@ -148,10 +151,12 @@ class Examination:
     """
     All units.
 
+    :param found: what is known of them as plain data; ``None`` where nobody has come to it.
     :param interrupted: somebody has ended it: what was not reached by then is undecided.
     """
 
     units: tuple[Examined, ...]
+    found: tuple[Examined | None, ...]
     interrupted: bool
 
 
@@ -161,6 +166,8 @@ def examine_all(
     meter: Meter,
     deadline: Deadline | None = None,
     *,
+    pool: Pool | None = None,
+    known: Mapping[str, Examined] | None = None,
     interrupted: bool = False,
 ) -> Examination:
     """
@@ -169,30 +176,30 @@ def examine_all(
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
     :param deadline: for all of them; what is not decided by then is undecided.
+    :param pool: who verifies, by default the cores of this machine.
+    :param known: answers of others by ``Task.key``; where they are given, nothing is verified.
     :param interrupted: somebody has ended it before: only what the cache knows is told.
     """
     engines = {task.options.engine.value for task in tasks}
     shelf = Shelf(folder, '\0'.join((tool_version(), *sorted(engines))))
-    found = {n: known for n, task in enumerate(tasks) if (known := _load(task, folder))}
+    if known is not None:
+        found = dict(enumerate(_all_known(tasks, known)))
+    else:
+        found = {n: each for n, task in enumerate(tasks) if (each := _load(task, folder))}
     left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
     left = [] if interrupted else left
-    size = min(usable_cores(), len(left)) if len(left) >= FEWEST_TO_SHARE else 1
+    pool = pool or Processes(usable_cores() if len(left) >= FEWEST_TO_SHARE else 1)
+    # Others keep nothing for us, and a meter is here or nowhere.
+    kept = (None, Shelf()) if pool.is_remote else (folder, shelf)
+    work = partial(_answer, kept, deadline, meter if pool.size == 1 else None)
     finished = count(len(found))
     meter.step(next(finished), len(tasks))
-
-    def answer(number: int) -> Examined:
-        task = tasks[number]
-        if deadline is not None and deadline.is_over:
-            return _unasked(task, deadline.reason)
-        watch = meter.search(task.closed.spec.name) if size == 1 else None
-        examined = examine(task, watch, deadline, shelf)
-        _store(task, examined, folder)
-        return examined
-
     try:
-        with Crew(answer, size) as crew:
-            for place, (given, _) in crew.each(left):
-                found[left[place]] = given
+        with closing(pool.each(work, [tasks[number] for number in left], deadline)) as answers:
+            for place, examined in answers:
+                found[left[place]] = examined
+                if pool.is_remote:
+                    _store(tasks[left[place]], examined, folder)
                 meter.step(next(finished), len(tasks))
     except KeyboardInterrupt:
         interrupted = True
@@ -202,7 +209,29 @@ def examine_all(
         _with_runs(found[number], task, shelf) if number in found else _unasked(task, INTERRUPTED)
         for number, task in enumerate(tasks)
     )
-    return Examination(tuple(units), interrupted)
+    return Examination(tuple(units), tuple(map(found.get, range(len(tasks)))), interrupted)
+
+
+def _all_known(tasks: Sequence[Task], known: Mapping[str, Examined]) -> Iterator[Examined]:
+    for task in tasks:
+        examined = known.get(task.key)
+        if examined is None:
+            what = f'unit {task.unit.name} is in none of the results as it is asked for now'
+            raise InputError(what, None, 'give the same sources and options to all shards')
+        yield examined
+
+
+def _answer(
+    kept: tuple[Path | None, Shelf], deadline: Deadline | None, meter: Meter | None, task: Task
+) -> Examined:
+    """One job of ``examine_all``, wherever it is done."""
+    folder, shelf = kept
+    if deadline is not None and deadline.is_over:
+        return _unasked(task, deadline.reason)
+    watch = meter.search(task.closed.spec.name) if meter is not None else None
+    examined = examine(task, watch, deadline, shelf)
+    _store(task, examined, folder)
+    return examined
 
 
 def _findings(task: Task, judged: Verification | None) -> tuple[Finding, ...]:
@@ -332,7 +361,7 @@ class _Again:
 def _load(task: Task, folder: Path | None) -> Examined | None:
     if folder is None or task.options.checker is not Checker.EMBEDDED:
         return None
-    kept = load_value(folder / f'{task.key}.verdicts', _KEPT)
+    kept = load_value(folder / f'{task.key}.verdicts', KEPT)
     return kept.examined if kept is not None else None
 
 
@@ -340,4 +369,4 @@ def _store(task: Task, examined: Examined, folder: Path | None) -> None:
     if folder is None or task.options.checker is not Checker.EMBEDDED:
         return
     if examined.is_final:
-        store_value(folder / f'{task.key}.verdicts', Kept.of(examined), _KEPT)
+        store_value(folder / f'{task.key}.verdicts', Kept.of(examined), KEPT)

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import IO
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
-from ros2cc_extract.process_pool import ends_with_us
+from ros2cc_extract.jobs.process_pool import ends_with_us
 
 KNOWN = 'name a revision git knows'
 PATIENCE_S = 300.0

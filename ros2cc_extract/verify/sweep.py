@@ -1,5 +1,5 @@
 """
-Verifies one unit for a range of thread counts and arrival bounds, on all cores.
+Verifies one unit for a range of thread counts and arrival bounds.
 
 A sweep answers what one verification cannot: from how many threads on a verdict is another one.
 """
@@ -7,12 +7,12 @@ A sweep answers what one verification cannot: from how many threads on a verdict
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family
+from ros2cc_extract.jobs.pools import Pool, in_order
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import Verification
@@ -93,27 +93,18 @@ def run_sweep(
     policy: Policy,
     options: Options,
     settings: Sequence[Point],
-    workers: int,
+    pool: Pool,
     on_done: Callable[[int], None] = lambda _done: None,
 ) -> Sweep:
     """
     Verify ``unit`` at every point.
 
-    :param workers: processes at once; 1 stays in this process.
+    :param pool: who does it.
     :param on_done: told how many points are done.
     """
     tasks = [(unit, replace(policy, threads=p.threads), _at(options, p)) for p in settings]
-    done: list[Verification] = []
-    if workers < 2 or len(tasks) < 2:
-        for task in tasks:
-            done.append(_verify(task))
-            on_done(len(done))
-        return Sweep(unit.name, tuple(settings), tuple(done))
-    with ProcessPoolExecutor(min(workers, len(tasks))) as pool:
-        for verification in pool.map(_verify, tasks):
-            done.append(verification)
-            on_done(len(done))
-    return Sweep(unit.name, tuple(settings), tuple(done))
+    verifications = in_order(pool, _verify, tasks, on_done)
+    return Sweep(unit.name, tuple(settings), tuple(verifications))
 
 
 def _hangs(verification: Verification) -> bool:

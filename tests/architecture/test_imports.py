@@ -22,7 +22,7 @@ LEAVES = {
     'source_locations',
     'diagnostics',
     'version',
-    'process_pool',
+    'jobs',
     'cache_file',
     'files',
     'json_text',

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ros2cc_extract.process_pool import ends_with_us
+from ros2cc_extract.jobs.process_pool import ends_with_us
 from tests.support.repositories import environment
 
 PATIENCE_S = 120

@@ -19,7 +19,7 @@ import yaml
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.extract.static.scan import scanning
-from ros2cc_extract.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import Crew
 from tests.attack.running import PATIENCE_S, TOOL, Ended, assert_orderly, run_tool
 from tests.support.packages import DEADLOCK, MENDED
 from tests.support.repositories import environment

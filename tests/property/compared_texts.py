@@ -22,7 +22,7 @@ from closed_specs import random_rclpy_unit, random_unit
 
 from ros2cc_extract.checker.api import Fairness, Limits, Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.process_pool import Crew, usable_cores
+from ros2cc_extract.jobs.process_pool import Crew, usable_cores
 from ros2cc_extract.spec.close import ClosedSpec
 
 Verdicts = dict[str, Verdict]

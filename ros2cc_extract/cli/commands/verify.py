@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import (
+    add_dask_argument,
     add_search_arguments,
     add_unit_arguments,
     options_of,
@@ -70,6 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_unit_arguments(parser, ranges=True)
     add_search_arguments(parser, seconds=None, ranges=True)
+    add_dask_argument(parser, 'the points of a sweep')
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -78,6 +80,11 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
         _refuse_with_ranges(args)
         return run_sweeps(args, stdout, stderr)
+    if args.dask is not None:
+        from ros2cc_extract.errors import InputError
+
+        what = 'only the points of a sweep are independent jobs'
+        raise InputError(what, None, 'give a range of threads or of arrivals with --dask')
     if args.replay is not None:
         return _replay(args, stdout, stderr)
     from ros2cc_extract.verify.results.results import with_fewer_runs

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ros2cc_extract.jobs.pools import Pool
     from ros2cc_extract.spec.close import Policy
     from ros2cc_extract.verify.search.options import Options
 
@@ -129,6 +130,24 @@ def add_search_arguments(
         metavar='S',
         help=f'stop a model after S seconds{limit}; what is open then is undecided',
     )
+
+
+def add_dask_argument(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add who verifies; ``what`` names the jobs."""
+    parser.add_argument(
+        '--dask',
+        metavar='tcp://HOST:PORT',
+        help=f'have {what} verified by the workers of this Dask scheduler (extra dask)',
+    )
+
+
+def pool_of(args: argparse.Namespace) -> Pool | None:
+    """The cluster that ``--dask`` names, ``None`` without one."""
+    if args.dask is None:
+        return None
+    from ros2cc_extract.jobs.dask_cluster import cluster_at
+
+    return cluster_at(args.dask)
 
 
 def policy_of(args: argparse.Namespace) -> Policy:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Sequence
 from typing import TextIO
 
-from ros2cc_extract.cli.shared.arguments import options_of, policy_of
+from ros2cc_extract.cli.shared.arguments import options_of, policy_of, pool_of
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_UNDECIDED
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.jobs.pools import Pool, Processes
+from ros2cc_extract.jobs.process_pool import usable_cores
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.sources import load_units
 from ros2cc_extract.source_locations import Place
@@ -23,8 +24,9 @@ def run_sweeps(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         raise InputError(
             'a sweep needs a specification or source', Place(str(args.path)), 'give one number'
         )
+    pool = pool_of(args) or Processes(usable_cores())
     sweeps = [
-        _sweep(unit, args, stderr)
+        _sweep(unit, args, pool, stderr)
         for unit in load_units(args.path, stderr, lists_builtin=args.builtin)
     ]
     if args.output_format == 'json':
@@ -35,7 +37,7 @@ def run_sweeps(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     return EXIT_UNDECIDED if undecided else EXIT_CLEAN
 
 
-def _sweep(unit: Spec, args: argparse.Namespace, stderr: TextIO) -> Sweep:
+def _sweep(unit: Spec, args: argparse.Namespace, pool: Pool, stderr: TextIO) -> Sweep:
     threads = args.threads or range(len(unit.executor.threads), len(unit.executor.threads) + 1)
     settings = points(threads, args.max_cycle)
     with bar(stderr, 'verifying') as meter:
@@ -44,7 +46,7 @@ def _sweep(unit: Spec, args: argparse.Namespace, stderr: TextIO) -> Sweep:
             policy_of(args),
             options_of(args),
             settings,
-            len(os.sched_getaffinity(0)),
+            pool,
             lambda done: meter.step(done, len(settings)),
         )
 

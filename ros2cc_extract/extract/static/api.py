@@ -11,7 +11,7 @@ from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 from ros2cc_extract.extract.static.scan.scanning import Progress, scan_project
 from ros2cc_extract.files import DISK, Files
-from ros2cc_extract.process_pool import usable_cores
+from ros2cc_extract.jobs.process_pool import usable_cores
 
 
 def scan(

@@ -24,7 +24,7 @@ from pathlib import Path
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import ToolNotFoundError
-from ros2cc_extract.process_pool import ends_with_us
+from ros2cc_extract.jobs.process_pool import ends_with_us
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.uppaal.verifyta_trace import PrintedRun, read_runs
 

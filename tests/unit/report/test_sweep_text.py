@@ -10,6 +10,7 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.report.text.sweep import print_sweep
 from ros2cc_extract.spec.close import Policy
@@ -32,7 +33,7 @@ def width_of_a_log(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def printed(example: str, threads: range, cycles: Cycles, options: Options) -> str:
     (unit,) = scan([EXAMPLES / example / 'node.py']).units
-    swept = run_sweep(unit, Policy(), options, points(threads, cycles), workers=1)
+    swept = run_sweep(unit, Policy(), options, points(threads, cycles), Processes(1))
     out = io.StringIO()
     print_sweep(swept, console_for(out))
     return out.getvalue()

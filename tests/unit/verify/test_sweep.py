@@ -8,6 +8,7 @@ from pathlib import Path
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.generator.build import Family, Profile
+from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.spec.close import Policy
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.search.options import Options
@@ -23,7 +24,7 @@ def unit_of(example: str) -> Spec:
 
 def sweep(unit: Spec, threads: range, profile: Profile = Profile.RCLPY) -> Sweep:
     options = Options(profile=profile, structural=False)
-    return run_sweep(unit, Policy(), options, points(threads, (1,)), workers=1)
+    return run_sweep(unit, Policy(), options, points(threads, (1,)), Processes(1))
 
 
 def test_two_arms_need_a_third_thread() -> None:

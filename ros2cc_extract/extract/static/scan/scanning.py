@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
 from ros2cc_extract.extract.static.units.entity_aliases import each_once
 from ros2cc_extract.extract.static.units.units import joined_of, specs_of
-from ros2cc_extract.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import Crew
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec

@@ -13,7 +13,7 @@ from tests.support.trees import write_tree
 PROGRAM = """
 import sys
 from pathlib import Path
-from ros2cc_extract import process_pool
+from ros2cc_extract.jobs import process_pool
 from ros2cc_extract.extract.static.api import scan
 
 started = []

@@ -27,16 +27,19 @@ Answer = TypeVar('Answer')
 Done = Callable[[int], None]
 Prctl = Callable[[int, int], int]
 _PR_SET_PDEATHSIG = 1
+_is_child = False
 
 
 def usable_cores(wanted: int | None = None) -> int:
     """
     How many processes may share the work; one where a fork is not possible or not safe.
 
+    One in a child too: its parent has all cores at work.
+
     :param wanted: as the user says; by default all cores this process may use.
     """
     alone = threading.active_count() == 1
-    if not alone or sys.platform != 'linux' or not hasattr(os, 'fork'):
+    if _is_child or not alone or sys.platform != 'linux' or not hasattr(os, 'fork'):
         return 1
     return wanted or len(os.sched_getaffinity(0))
 
@@ -204,6 +207,8 @@ def _serve(
 
     :param of_parent: the parent's ends of all lines: nobody hangs up while a child holds one.
     """
+    global _is_child
+    _is_child = True
     end_with_parent(*parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for number in (signal.SIGTERM, signal.SIGHUP):

@@ -8,7 +8,7 @@ import sys
 
 # Each in a process of its own: under some test runners threads run, and a fork is not safe.
 HEAD = 'import os, signal, threading, time\n'
-HEAD += 'from ros2cc_extract.process_pool import Crew, usable_cores\n'
+HEAD += 'from ros2cc_extract.jobs.process_pool import Crew, usable_cores\n'
 
 
 def said(program: str) -> str:
