@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TextIO
 
@@ -24,13 +24,16 @@ from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.findings.waits_across_executors import without_what_is_told
+from ros2cc_extract.jobs.pools import Pool
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
+from ros2cc_extract.pipeline.shards import Shard
 from ros2cc_extract.pipeline.sources import scan_sources
 from ros2cc_extract.pipeline.unit_jobs import Examined, Task, examine_all, joined_task
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
+from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verification
@@ -52,6 +55,9 @@ class Job:
     :param spent_s: of these seconds, on what was checked before.
     :param files: those of the disk, or of another revision.
     :param noticed: what is known already, such as folders that cannot be looked into.
+    :param pool: who verifies; the cores of this machine by default.
+    :param shard: of all units only its own are verified and told.
+    :param known_units: what shards have found, by ``Task.key``; nothing is verified then.
     """
 
     paths: Sequence[Path]
@@ -67,6 +73,14 @@ class Job:
     spent_s: float = 0.0
     files: Files = DISK
     noticed: tuple[Diagnostic, ...] = ()
+    pool: Pool | None = None
+    shard: Shard | None = None
+    known_units: Mapping[str, Examined] | None = None
+
+    @property
+    def sees_all(self) -> bool:
+        """Whether it can say of something that it is nowhere."""
+        return self.shard is None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +92,7 @@ class Outcome:
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
     :param interrupted: somebody has ended it before all units were verified.
+    :param answers: of a shard, what is known of its units, by ``Task.key``.
     """
 
     extraction: Extraction
@@ -89,6 +104,7 @@ class Outcome:
     sources: Mapping[str, str]
     promises: tuple[tuple[Judgement, ...], ...] = ()
     interrupted: bool = False
+    answers: Mapping[str, Examined] = field(default_factory=dict)
 
     @property
     def summary(self) -> dict[str, int]:
@@ -148,54 +164,89 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         files=job.files,
         patience=_patience(deadline, left_s),
     )
-    units = tuple(
-        assume(unit, job.assumptions)
-        for unit in extraction.units
-        if job.policy.builtin or _has_callbacks(unit)
-    )
-    closed = tuple(close(unit, job.policy) for unit in units)
-    tasks = [
-        Task(unit, each, job.options, job.keeps_runs)
-        for unit, each in zip(with_arrivals(units), closed, strict=True)
-    ]
+    units, tasks = _units_of(job, extraction)
+    more = [joined_task(each, job.policy, job.options) for each in _joined(job, extraction)]
     with bar(stderr, 'verifying') as meter:
-        folder = default_cache_folder() if job.cached else None
-        is_over = extraction.interrupted
-        more = [joined_task(each, job.policy, job.options) for each in extraction.joined]
-        examination = examine_all([*tasks, *more], folder, meter, deadline, interrupted=is_over)
+        examination = examine_all(
+            [*tasks, *more],
+            default_cache_folder() if job.cached else None,
+            meter,
+            deadline,
+            pool=job.pool,
+            known=job.known_units,
+            interrupted=extraction.interrupted,
+        )
     examined, together = examination.units[: len(tasks)], examination.units[len(tasks) :]
-    own = [each.findings for each in examined]
-    across = without_what_is_told(
-        (finding for each in together for finding in each.findings),
-        (finding for found in own for finding in found),
-    )
     defects = tuple(_defects(units, examined))
     noticed = (*job.noticed, *extraction.diagnostics, *defects)
     extraction = replace(extraction, diagnostics=noticed)
-    findings = (
-        *all_findings(
-            [*own, findings_across(units), across],
-            extraction.diagnostics,
-            {unit.rclpy for unit in units},
-        ),
-        *check_requirements(job.config.requirements, units, [each.judged for each in examined]),
-    )
+    findings = _findings(job, extraction, units, examined, together)
     root = job.root.as_posix()
     selected = select(findings, job.config.selection, root)
     sources = _sources(job.files, {*extraction.files_seen, *_files_shown(selected)})
-    suppressed = suppress(selected, sources, extraction.files_seen)
+    suppressed = suppress(selected, sources, extraction.files_seen if job.sees_all else ())
     compared = compare(suppressed.kept, job.known, root)
     return Outcome(
         extraction=extraction,
         units=units,
-        closed=closed,
+        closed=tuple(task.closed for task in tasks),
         verifications=tuple(each.shown for each in examined),
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
         promises=tuple(_promises(tasks, examined, findings)),
         interrupted=examination.interrupted,
+        answers={} if job.sees_all else _answers([*tasks, *more], examination.found),
     )
+
+
+def _findings(
+    job: Job,
+    extraction: Extraction,
+    units: Sequence[Spec],
+    examined: Sequence[Examined],
+    together: Sequence[Examined],
+) -> tuple[Finding, ...]:
+    """All findings: of the scan, of each unit, of several units, and of what is demanded."""
+    own = [each.findings for each in examined]
+    across = without_what_is_told(
+        (finding for each in together for finding in each.findings),
+        (finding for found in own for finding in found),
+    )
+    demands = job.config.requirements if job.sees_all else ()
+    return (
+        *all_findings(
+            [*own, findings_across(units), across],
+            extraction.diagnostics,
+            {unit.rclpy for unit in units},
+        ),
+        *check_requirements(demands, units, [each.judged for each in examined]),
+    )
+
+
+def _units_of(job: Job, extraction: Extraction) -> tuple[tuple[Spec, ...], list[Task]]:
+    """What there is to verify: all units, or those of a shard."""
+    units = [
+        assume(unit, job.assumptions)
+        for unit in extraction.units
+        if job.policy.builtin or _has_callbacks(unit)
+    ]
+    pairs = zip(units, with_arrivals(units), strict=True)  # who sends may be in another shard
+    own = [pair for pair in pairs if job.shard is None or job.shard.holds(pair[0])]
+    tasks = [
+        Task(each, close(unit, job.policy), job.options, job.keeps_runs) for unit, each in own
+    ]
+    return tuple(unit for unit, _ in own), tasks
+
+
+def _joined(job: Job, extraction: Extraction) -> list[Joined]:
+    shard = job.shard
+    return [each for each in extraction.joined if shard is None or shard.holds(each.spec)]
+
+
+def _answers(tasks: Sequence[Task], found: Sequence[Examined | None]) -> dict[str, Examined]:
+    pairs = zip(tasks, found, strict=True)
+    return {task.key: examined for task, examined in pairs if examined is not None}
 
 
 def _promises(

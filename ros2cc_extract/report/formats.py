@@ -20,7 +20,7 @@ def write(checked: Checked, format: str) -> str:
 
 def _json(checked: Checked) -> str:
     data = check_data(checked.units, checked.verifications, checked.findings, checked.summary)
-    return to_text(data)
+    return to_text({**data, **checked.more})
 
 
 def _html(checked: Checked) -> str:

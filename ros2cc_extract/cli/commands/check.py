@@ -12,12 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import (
+    add_dask_argument,
     add_paths,
     add_search_arguments,
     add_unit_arguments,
     number_of_seconds,
     options_of,
     policy_of,
+    pool_of,
 )
 from ros2cc_extract.cli.shared.exit_status import (
     EXIT_CLEAN,
@@ -30,6 +32,7 @@ from ros2cc_extract.cli.shared.termination import Termination, termination_as_in
 if TYPE_CHECKING:
     from ros2cc_extract.pipeline.check import Job, Outcome
     from ros2cc_extract.pipeline.config import Config
+    from ros2cc_extract.pipeline.shards import Shard
     from ros2cc_extract.report.shared.checked import Checked
 
 DEFAULT_SECONDS = 20.0
@@ -91,6 +94,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='scan and verify all together for S seconds at most (default %(default)g); what '
         'is open then is undecided',
     )
+    add_dask_argument(parser, 'units')
+    _add_shards(parser)
+
+
+def _add_shards(parser: argparse.ArgumentParser) -> None:
+    parts = parser.add_argument_group('in several jobs').add_mutually_exclusive_group()
+    parts.add_argument(
+        '--shard',
+        type=_shard,
+        metavar='I/N',
+        help='verify and report the I-th of N parts of the units only; with --output-format json',
+    )
+    parts.add_argument(
+        '--from-shards',
+        nargs='+',
+        type=Path,
+        metavar='JSON',
+        help='verify nothing: report what the shards of all units have written',
+    )
+
+
+def _shard(text: str) -> Shard:
+    from ros2cc_extract.pipeline.shards import Shard
+
+    number, slash, of = text.partition('/')
+    if not (slash and number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of)):
+        raise argparse.ArgumentTypeError(f'{text!r} is no shard; write 1/4')
+    return Shard(int(number), int(of))
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
@@ -98,6 +129,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.pipeline.config import load_config
     from ros2cc_extract.pipeline.sources import has_unread
 
+    _refuse_to_judge_parts(args)
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
     _tell_release(job.assumptions.rclpy, stderr)
@@ -123,14 +155,31 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if outcome.interrupted:
         print('interrupted: what was not verified by then is undecided', file=stderr)
         return termination.status
-    if not outcome.units and not has_unread(outcome.extraction.diagnostics):
+    if not outcome.units and job.sees_all and not has_unread(outcome.extraction.diagnostics):
         _tell_nothing_judged(outcome.extraction.files_seen, stderr)
     return _status(args, outcome)
+
+
+def _refuse_to_judge_parts(args: argparse.Namespace) -> None:
+    """
+    One part of the units says nothing of the whole.
+
+    :raises InputError: when it is asked to.
+    """
+    from ros2cc_extract.errors import InputError
+
+    if args.shard is not None and args.write_baseline is not None:
+        what = 'a shard does not find all there is to accept'
+        raise InputError(what, None, 'write the baseline with --from-shards')
+    if args.shard is not None and args.output_format != 'json':
+        what = 'a shard is no check of its own'
+        raise InputError(what, None, 'add --output-format json, and report with --from-shards')
 
 
 def _job(args: argparse.Namespace, config: Config) -> Job:
     from ros2cc_extract.pipeline.check import Job
     from ros2cc_extract.pipeline.config import assumptions_of
+    from ros2cc_extract.pipeline.shards import read_shards
 
     options, assumptions = options_of(args), assumptions_of(config, args.assume)
     if config.timeout is not None and args.timeout == DEFAULT_SECONDS:
@@ -143,8 +192,11 @@ def _job(args: argparse.Namespace, config: Config) -> Job:
         assumptions=replace(assumptions, rclpy=args.rclpy or assumptions.rclpy),
         root=config.root.resolve(),
         cached=not args.no_cache,
-        keeps_runs=args.output_format in WITH_RUNS,
+        keeps_runs=args.output_format in WITH_RUNS or bool(args.from_shards),
         max_seconds=args.max_seconds,
+        pool=pool_of(args),
+        shard=args.shard,
+        known_units=read_shards(args.from_shards) if args.from_shards else None,
     )
 
 
@@ -193,8 +245,10 @@ def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> N
 def _tell(
     args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO, seconds: float
 ) -> None:
+    from ros2cc_extract.cli.shared.checked import checked_of
+
     form = args.output_format
-    checked = _checked(outcome, job)
+    checked = checked_of(outcome, job)
     if form == 'text':
         _print_text(args, checked, stdout, seconds)
         return
@@ -203,23 +257,6 @@ def _tell(
     stdout.write(write(checked, form))
     if form == 'github':
         _append_step_summary(checked)
-
-
-def _checked(outcome: Outcome, job: Job) -> Checked:
-    from ros2cc_extract.report.shared.checked import Checked
-
-    return Checked(
-        units=outcome.units,
-        verifications=outcome.verifications,
-        findings=outcome.findings,
-        summary=outcome.summary,
-        promises=outcome.promises,
-        files=outcome.extraction.files_seen,
-        sources=outcome.sources,
-        root=job.root.as_posix(),
-        package=job.root.name,
-        docs_url=job.config.docs_url,
-    )
 
 
 def _print_text(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.promises import Judgement
@@ -23,6 +23,7 @@ class Checked:
     :param root: absolute path of the repository; paths below it become relative.
     :param package: name of the test suite.
     :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
+    :param more: what else the JSON holds, such as where a result comes from.
     """
 
     units: Sequence[Spec]
@@ -35,3 +36,4 @@ class Checked:
     root: str = ''
     package: str = 'ros2cc'
     docs_url: str = ''
+    more: Mapping[str, object] = field(default_factory=dict)
