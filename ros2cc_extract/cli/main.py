@@ -45,6 +45,7 @@ COMMANDS = {
     'init': 'write the test file, hook and job that guard a ROS 2 package',
     'merge': 'join a specification from source with one from a live run',
 }
+OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why')
 WRITES_DATA = ('spec', 'merge')
 HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
 """Requests to end: they tell what is known by then, or hand them on to what they have begun."""
@@ -120,7 +121,8 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     name = argv.pop(0) if argv[0] in COMMANDS else DEFAULT_COMMAND
     if name == DEFAULT_COMMAND and argv:
         _ask_for_the_command(argv[0])
-    command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.commands.{name}'))
+    module = f'live.{name}' if name in OF_RUNNING_NODES else name
+    command = cast(Command, importlib.import_module(f'ros2cc_extract.cli.commands.{module}'))
     parser = argparse.ArgumentParser(
         prog=f'{PROGRAM} {name}',
         description=COMMANDS[name],

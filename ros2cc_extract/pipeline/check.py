@@ -183,26 +183,10 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
             interrupted=extraction.interrupted,
         )
     examined, together = examination.units[: len(tasks)], examination.units[len(tasks) :]
-    own = [each.findings for each in examined]
-    across = without_what_is_told(
-        (finding for each in together for finding in each.findings),
-        (finding for found in own for finding in found),
-    )
     defects = tuple(_defects(units, examined))
     noticed = (*job.noticed, *extraction.diagnostics, *defects)
     extraction = replace(extraction, diagnostics=noticed)
-    findings = (
-        *all_findings(
-            [*own, findings_across(units), across],
-            extraction.diagnostics,
-            {unit.rclpy for unit in units},
-        ),
-        *check_requirements(
-            job.config.requirements if job.sees_all else (),
-            units,
-            [each.under_all for each in examined],
-        ),
-    )
+    findings = _findings(job, extraction, units, examined, together)
     root = job.root.as_posix()
     selected = select(findings, job.config.selection, root)
     sources = _sources(job.files, {*extraction.files_seen, *_files_shown(selected)})
@@ -246,6 +230,30 @@ def _joined(job: Job, extraction: Extraction) -> list[Joined]:
 def _answers(tasks: Sequence[Task], found: Sequence[Examined | None]) -> dict[str, Examined]:
     pairs = zip(tasks, found, strict=True)
     return {task.key: examined for task, examined in pairs if examined is not None}
+
+
+def _findings(
+    job: Job,
+    extraction: Extraction,
+    units: Sequence[Spec],
+    examined: Sequence[Examined],
+    together: Sequence[Examined],
+) -> tuple[Finding, ...]:
+    """All findings: of the scan, of each unit, of several units, and of what is demanded."""
+    own = [each.findings for each in examined]
+    across = without_what_is_told(
+        (finding for each in together for finding in each.findings),
+        (finding for found in own for finding in found),
+    )
+    demands = job.config.requirements if job.sees_all else ()
+    return (
+        *all_findings(
+            [*own, findings_across(units), across],
+            extraction.diagnostics,
+            {unit.rclpy for unit in units},
+        ),
+        *check_requirements(demands, units, [each.under_all for each in examined]),
+    )
 
 
 def _promises(

@@ -93,6 +93,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'is open then is undecided',
     )
     add_dask_argument(parser, 'units')
+    _add_shards(parser)
+
+
+def _add_shards(parser: argparse.ArgumentParser) -> None:
     parts = parser.add_argument_group('in several jobs').add_mutually_exclusive_group()
     parts.add_argument(
         '--shard',
