@@ -16,6 +16,7 @@ from expectations import EXPECTED
 from held import of_spec, without_unknown_keys
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
+from ros2cc_extract.extract.live import injection
 from ros2cc_extract.extract.live.attach import attach_process
 from ros2cc_extract.extract.live.injection import inject, injectors
 from ros2cc_extract.source_locations import Unknown
@@ -100,6 +101,40 @@ def test_process_that_is_no_python_is_left_alone(tmp_path: Path) -> None:
             other.kill()
 
 
+MANY_WANT_THE_LOCK = """
+import threading, time
+def work():
+    while True:
+        sum(range(100_000))
+threading.Thread(target=time.sleep, args=(600,), daemon=True).start()
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+print(flush=True)
+work()
+"""
+ENTRIES = 60
+
+
+@needs_a_way_in
+def test_process_whose_threads_wait_for_the_interpreter_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Entered in such a thread, it would stand for good, and soon."""
+    monkeypatch.setattr(injection, 'PATIENCE_S', 20.0)  # the machine may be busy
+    script, heard = tmp_path / 'hear.py', tmp_path / 'heard'
+    script.write_text(f"open({str(heard)!r}, 'a').write('.')\n")
+    command = [sys.executable, '-c', MANY_WANT_THE_LOCK]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as other:
+        try:
+            assert other.stdout is not None
+            other.stdout.readline()
+            for _ in range(ENTRIES):
+                inject(other.pid, script, injectors())
+        finally:
+            other.kill()
+    assert heard.read_text() == ENTRIES * '.'
+
+
 KEEPS_THE_LOCK = """
 import re, threading, time
 threading.Thread(target=time.sleep, args=(600,), daemon=True).start()
@@ -123,7 +158,7 @@ def test_process_that_keeps_the_interpreter_in_c_is_given_up_in_time_and_goes_on
                 attach_process(other.pid, tmp_path / 'attached.yaml', io.StringIO())
             assert time.monotonic() - begun < 4
             if not hasattr(sys, 'remote_exec'):  # which stops nothing
-                with pytest.raises(ToolNotFoundError, match=r'process \d+ traces it: a debugger'):
+                with pytest.raises(InputError, match=r'is traced by process \d+: a debugger'):
                     attach_process(other.pid, tmp_path / 'attached.yaml', io.StringIO())
             with pytest.raises(subprocess.TimeoutExpired):
                 other.wait(1)

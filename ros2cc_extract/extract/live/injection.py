@@ -16,6 +16,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +28,7 @@ from ros2cc_extract.file_ownership import open_to_others, user_of_process
 # for, and given up every 5 ms (`sys.getswitchinterval`).
 PATIENCE_S = 1.5
 MOST_TOLD_BYTES = 2000
+_QUIET_S = 0.03
 _EXTRA = 'pip install "hypno>=1.1"'
 _PTRACE_SCOPE = Path('/proc/sys/kernel/yama/ptrace_scope')
 
@@ -133,6 +135,7 @@ def _hypno() -> Injector | None:
 
     def inject(pid: int, script: Path) -> None:
         refuse_what_would_end(pid)
+        refuse_what_is_traced(pid)
         # Who was given up is let in late: by then the script may have been taken away.
         path = repr(str(script))
         lines = f'import os\nif os.path.exists({path}): exec(open({path}).read(), {{}})'
@@ -155,24 +158,72 @@ def refuse_what_would_end(pid: int) -> None:
         raise OSError(f'{program.resolve().name} is no Python interpreter that lets others in')
 
 
+def refuse_what_is_traced(pid: int) -> None:
+    """
+    Look whether somebody else has stopped a thread of the process, or is about to.
+
+    :raises InputError: then; a debugger, or one of us who was not let in.
+    """
+    for thread in Path(f'/proc/{pid}/task').iterdir():
+        fields = _status(thread)
+        tracer = int(fields.get('TracerPid', '0'))
+        if tracer:
+            raise InputError(
+                f'process {pid} is traced by process {tracer}: a debugger, or an attempt to enter '
+                'it that is not over'
+            )
+
+
 def thread_to_enter(pid: int) -> int:
     """
-    Choose the thread that is to run the lines: one that sleeps in the system, the main one first.
+    Choose the thread that is to run the lines: one that has slept for a while, and does so most.
 
-    It is stopped where it stands, and one that runs may just hold a lock of the C library, which
-    the injected call needs too. One that sleeps in a system call holds no such lock, and its call
-    is taken up again.
+    It is stopped where it stands. One that runs may just hold a lock of the C library, which the
+    injected call needs too. One that waits for the lock of the interpreter is worse: who gives
+    that lock away waits until it has left the condition variable, and it is kept by our call,
+    which needs the lock (glibc, ``__condvar_quiesce_and_switch_g1``): both wait forever. It looks
+    again every 5 ms (CPython, ``take_gil``), so a thread that was not once at work for longer is
+    not such a one. Those of the middleware, which run no Python, sleep most.
+
+    :raises InputError: when none sleeps for long.
     """
-    threads = sorted(int(each.name) for each in Path(f'/proc/{pid}/task').iterdir())
-    return next((each for each in (pid, *threads) if _sleeps(pid, each)), pid)
+    given_up = time.monotonic() + PATIENCE_S
+    while time.monotonic() < given_up:
+        threads = [int(each.name) for each in Path(f'/proc/{pid}/task').iterdir()]
+        if len(threads) == 1:
+            return pid
+        before = {each: _switches(pid, each) for each in threads}
+        time.sleep(_QUIET_S)
+        quiet = [
+            (switches, each)
+            for each, switches in before.items()
+            if switches is not None and _switches(pid, each) == switches
+        ]
+        if quiet:
+            return min(quiet)[1]
+    raise InputError(
+        f'process {pid} has no thread that sleeps for {_QUIET_S:g} s: entered in another one, it '
+        'could stop for good',
+        None,
+        'try again',
+    )
 
 
-def _sleeps(pid: int, thread: int) -> bool:
+def _switches(pid: int, thread: int) -> int | None:
+    """How often a thread was at work so far; ``None`` where it is now."""
+    fields = _status(Path(f'/proc/{pid}/task/{thread}'))
+    if not fields.get('State', '').startswith('S'):
+        return None
+    return int(fields['voluntary_ctxt_switches']) + int(fields['nonvoluntary_ctxt_switches'])
+
+
+def _status(thread: Path) -> dict[str, str]:
+    """What the system says of a thread (proc(5), status); nothing where it has ended."""
     try:
-        stat = Path(f'/proc/{pid}/task/{thread}/stat').read_text(errors='replace')
+        lines = (thread / 'status').read_text(errors='replace').splitlines()
     except OSError:
-        return False
-    return stat.rpartition(')')[2].split()[:1] == ['S']
+        return {}
+    return {name: value.strip() for name, _, value in (line.partition(':') for line in lines)}
 
 
 def in_time(enter: Callable[[], None], pid: int, refusals: tuple[type[Exception], ...]) -> None:
@@ -247,13 +298,10 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
             return
     # Some tell whole pages.
     told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
-    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(pid, refused))
+    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
 
 
-def _mend(pid: int, refused: Container[str]) -> str:
-    tracer = _tracer_of(pid)
-    if tracer:
-        return f'process {tracer} traces it: a debugger, or an attempt to enter that is not over'
+def _mend(refused: Container[str]) -> str:
     try:
         scope = _PTRACE_SCOPE.read_text().strip()
     except OSError:
@@ -266,15 +314,3 @@ def _mend(pid: int, refused: Container[str]) -> str:
     if 'hypno' not in refused:
         return f'a process of another Python version needs the injector hypno: {_EXTRA}'
     return 'it must be a Python process of yours with a shared libpython, outside containers'
-
-
-def _tracer_of(pid: int) -> int:
-    """Give the process that traces a thread of another; 0 where none does (proc(5), status)."""
-    try:
-        texts = [
-            (each / 'status').read_text(errors='replace')
-            for each in Path(f'/proc/{pid}/task').iterdir()
-        ]
-    except OSError:
-        return 0
-    return max(int(text.partition('TracerPid:')[2].split()[0]) for text in texts)
