@@ -157,6 +157,7 @@ def _job(member: Repository, args: argparse.Namespace) -> Job:
         assumptions=replace(assumptions, rclpy=args.rclpy or assumptions.rclpy),
         root=config.root.resolve(),
         cached=not args.no_cache,
+        shows_verdicts=True,
         keeps_runs=True,
         max_seconds=DEFAULT_MAX_SECONDS,
     )
