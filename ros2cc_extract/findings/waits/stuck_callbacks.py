@@ -102,7 +102,7 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     if len(late) == len(enders):
         starters = dict.fromkeys(start.by for each in late for start in each.starts)
         return f'{_names(late)} begins only when {listing(starters)} has ended, on one thread'
-    early = 'comes too early, or is used up by another wait'
+    early = 'comes too early, or another wait uses it up'
     if stuck.wait.block.needs is not Needs.EACH:
         early = 'is not sure to come'
     return f'what {_names(enders)} does for it {early}'
@@ -137,7 +137,7 @@ def _why_nobody(stuck: Stuck, context: Context) -> str:
             f'{_names(late)}, which ends it, comes with an answer that the same client takes, and '
             f'{group_words(context.group_of(client))} is closed meanwhile'
         )
-    return 'nobody ends that wait'
+    return 'nothing ends that wait'
 
 
 def _names(doers: Sequence[Doer]) -> str:
@@ -146,7 +146,7 @@ def _names(doers: Sequence[Doer]) -> str:
 
 def _waits_too(stuck: Stuck) -> str:
     what = f' for {stuck.what}' if stuck.what else ''
-    return f'{called(stuck.doer)}, which ends it, waits itself{what}'
+    return f'{called(stuck.doer)}, which ends it, itself waits{what}'
 
 
 def _keeper(ender: Callback, others: Sequence[Stuck], context: Context) -> Callback | None:

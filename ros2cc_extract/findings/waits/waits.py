@@ -223,15 +223,13 @@ def how_it_ends(waits: Sequence[Wait]) -> str:
     """Say what becomes of waits that nobody can end, of callbacks at one place."""
     wait, is_one = waits[0], len(callers_of(waits)) == 1
     if wait.has_timeout:
-        runs = 'it always runs into its' if is_one else 'they always run into their'
+        runs = 'it always times out' if is_one else 'they always time out'
         is_call = wait.block.call == _CALL
-        raises = (
-            ', which from Kilted on raises TimeoutError and ends the spin if nobody catches it'
-        )
-        return f'{runs} time-out{raises if is_call else ""}'
+        raises = ', which from Kilted on raises TimeoutError and ends the spin if it is not caught'
+        return f'{runs}{raises if is_call else ""}'
     is_event = wait.block.call == EVENT_WAIT and not is_done_callback(wait.needs[0])
-    for_ever = 'it waits for ever' if is_one else 'they wait for ever'
-    return for_ever + (', unless the event was set before' if is_event else '')
+    forever = 'it waits forever' if is_one else 'they wait forever'
+    return forever + (', unless the event is already set' if is_event else '')
 
 
 def at_one_place(waits: Iterable[W]) -> Iterator[tuple[W, ...]]:

@@ -103,8 +103,8 @@ def _taken_twice(step: Step) -> Hit:
     name = called(step.doer)
     return Hit(
         place=step.place,
-        message=f'{name} takes {step.wanted} while it holds it: a threading.Lock waits for its '
-        'own holder, for ever',
+        message=f'{name} takes {step.wanted} while it holds it: its holder waits for a '
+        'threading.Lock too, forever',
         help='use a threading.RLock, or take the lock in one of the two functions only',
         subjects=(step.doer.name, step.held),
         chain=step.chain,
@@ -129,7 +129,7 @@ def _crossed(one: Step, other: Step, run: Evidence | None) -> Hit:
     return Hit(
         place=one.place,
         message=f'{first} holds {one.held} and waits for {one.wanted}, and {whom} may hold '
-        f'{other.held} and wait for {other.wanted} at the same time: both wait for ever',
+        f'{other.held} and wait for {other.wanted} at the same time: both wait forever',
         help='take the two locks in the same order everywhere, or use one lock',
         subjects=(one.doer.name, other.doer.name, one.held, one.wanted),
         chain=one.chain,
@@ -145,16 +145,15 @@ RULE = Rule(
     code='CC111',
     slug='lock-order',
     severity=Severity.ERROR,
-    title='Locks taken in a circle',
-    what='Two callbacks, or a callback and a thread of the program, that may run at the same time '
-    'take two locks in opposite order; or one takes a `threading.Lock` that it holds already. '
-    'Each waits for the other, and the threads and groups they keep never come back.',
-    why='A `threading.Lock` knows no owner: its holder waits for it like everybody else. Whether '
-    'two callbacks may overlap is decided by the model where it was verified, else by their '
-    'groups and the number of threads. Locks taken with a time-out, read locks, and circles of '
-    'three are not looked at. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, '
-    '`executors.py` (`MultiThreadedExecutor`). Measured on 7.1.6: both callbacks stop within a '
-    'second.',
+    title='Locks taken in opposite order',
+    what='Two callbacks, or a callback and a thread, that may run at the same time take two '
+    'locks in opposite order; or one takes a `threading.Lock` that it already holds. Each waits '
+    'for the other forever and keeps its thread and group.',
+    why='A `threading.Lock` has no owner: its holder waits for it like everybody else. The model '
+    'decides whether two callbacks may overlap; if the unit was not verified, their groups and '
+    'the number of threads do. Locks taken with a time-out, read locks, and cycles of three '
+    'locks are not checked. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor`). Measured on 7.1.6: both callbacks stop within a second.',
     bad="""\
 class Arm(Node):
     def on_move(self, msg):            # on_move and on_stop in different groups

@@ -85,7 +85,7 @@ def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{caller.display_name} holds {lock} while it waits in {wait.block.call}, and '
-        f'{who} may wait for {lock} meanwhile: then {how_many} wait for ever',
+        f'{who} may wait for {lock} meanwhile: then {how_many} wait forever',
         help=f'give {lock} back before the wait, and take it again afterwards',
         severity=_severity_by_rates(one_thread) if rests_on_rates else None,
         subjects=(caller.name, lock),
@@ -114,17 +114,16 @@ RULE = Rule(
     slug='lock-over-wait',
     severity=Severity.ERROR,
     title='Lock held over a wait that others must end',
-    what='A callback waits for others while it holds a lock, in a synchronous call, for an event, '
-    'at an `await` or in a nested spin; and a callback that must run, or that runs inside the '
-    'spin, takes that lock. Neither goes on.',
-    why='Whoever waits for a lock keeps its thread and its mutually exclusive group. In a nested '
-    'spin of a single-threaded executor it even stands on the stack above the callback that '
-    'holds the lock. Where it takes several runs of one callback in a reentrant group at a time, '
-    'it is a warning on one thread, and a note where they have to fill a pool. Decided by the '
-    'model of profile `rclpy`: the run is shown. Semaphores, '
-    'locks of classes of your own and locks that are only tried are left out, and an '
-    '`RLock` counts where another thread waits for it. Sources: Python, `threading`; rclpy 7.1.6 '
-    'and 9.1.2, `executors.py`, `client.py`.',
+    what='A callback waits for others while it holds a lock: in a synchronous call, for an '
+    'event, at an `await` or in a nested spin. A callback that must run first, or that runs '
+    'inside the spin, takes the same lock. Neither can continue.',
+    why='A callback that waits for a lock keeps its thread and its mutually exclusive group. In '
+    'a nested spin of a single-threaded executor it even sits on the stack above the callback '
+    'that holds the lock. If the deadlock needs several runs of one reentrant callback at the '
+    'same time, it is a warning on one thread, and a note where they must fill a pool. The model '
+    'of profile `rclpy` decides, and the run is shown. Semaphores, your own lock classes and '
+    'locks that are only tried are not checked; an `RLock` is checked where another thread waits '
+    'for it. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py`, `client.py`.',
     bad="""\
 class Planner(Node):
     def replan(self):                       # a timer

@@ -69,8 +69,8 @@ def _consequence(wait: Wait, context: Context) -> str:
         return 'the node leaves the executor it is in, and none of its callbacks runs again'
     if isinstance(unit.executor.kind, Unknown):
         return (
-            'under an executor of its own the node leaves that executor and none of its '
-            'callbacks runs again; under rclpy.spin it runs others inside this one'
+            'with its own executor, the node leaves that executor and none of its callbacks '
+            'runs again; under rclpy.spin, other callbacks run inside this one'
         )
     if is_global(unit) and not _loses_node(unit):
         return _spun_twice(wait.caller, context)
@@ -80,7 +80,7 @@ def _consequence(wait: Wait, context: Context) -> str:
 def _spun_twice(caller: Callback, context: Context) -> str:
     refused = SPIN_REFUSED_TWICE.holds(context.unit.rclpy)
     if refused:
-        return 'it raises RuntimeError, since that executor spins already'
+        return 'it raises RuntimeError, because that executor is already spinning'
     inside = _runs_inside(caller, context)
     if refused is None:
         return f'{inside}, and from rclpy 7.1.9 on the executor refuses to be spun twice'
@@ -129,15 +129,13 @@ RULE = Rule(
     what='A callback calls `rclpy.spin_until_future_complete`, `rclpy.spin_once` or `rclpy.spin` '
     'on the node it belongs to.',
     why='These functions add the node to the global executor, or to the one that `executor=` '
-    'names, which takes it out of the executor it is in, and remove it afterwards: '
-    'then it is in none, and none of its callbacks runs '
-    'again. Under plain `rclpy.spin` it is the same executor: callbacks of other groups run '
-    'inside this one, members of its own group do not; before 3.3.15 (Humble) and 7.1.2 (Jazzy) '
-    'the node was lost there too, and from 7.1.9 on that raises '
-    '`RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` '
-    '(`spin_until_future_complete`), '
-    '`node.py` (setter of `executor`), `executors.py` (`add_node`). Measured: a timer fires once '
-    'instead of about 20 times.',
+    'names, which removes it from its current executor, and remove it again afterwards. Then the '
+    'node is in no executor, and none of its callbacks runs again. Under plain `rclpy.spin` it '
+    'is the same executor: callbacks of other groups run inside this one, members of its own '
+    'group do not. Before 3.3.15 (Humble) and 7.1.2 (Jazzy) the node was lost there too; from '
+    '7.1.9 on this raises `RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and '
+    '9.1.2, `__init__.py` (`spin_until_future_complete`), `node.py` (setter of `executor`), '
+    '`executors.py` (`add_node`). Measured: a timer fires once instead of about 20 times.',
     bad="""\
 class Arm(Node):
     def on_timer(self):

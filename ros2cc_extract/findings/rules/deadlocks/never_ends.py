@@ -95,8 +95,8 @@ def _unread(waits: Sequence[AnyWait]) -> Hit:
     it = 'it waits' if len(callers_of(waits)) == 1 else 'they wait'
     return Hit(
         place=wait.place,
-        message=f'{who_waits(waits)} in {waits_in(wait)} for a child process, and nobody reads '
-        f'{pipe} meanwhile: once that is full the child waits for a reader, and {it} for ever',
+        message=f'{who_waits(waits)} in {waits_in(wait)} for a child process while nothing '
+        f'reads {pipe}: once the pipe is full, the child waits for a reader, and {it} forever',
         help='use communicate(), which reads while it waits; read the pipe before or in a thread, '
         'or write to a file or DEVNULL',
         severity=Severity.WARNING,
@@ -117,13 +117,13 @@ def _once_used_up(wait: Wait, context: Context) -> Hit:
     ]
     who, what = called(wait.caller), wait.block.resource or 'it'
     by, kept = shown(doers), shown(needed)
-    cannot = f'{by} cannot run meanwhile' if givers else 'nobody gives back'
+    cannot = f'{by} cannot run meanwhile' if givers else 'nothing refills it'
     if needed:
-        cannot = f'{by} may be waiting for {kept} then, which cannot run meanwhile'
+        cannot = f'{by} may then wait for {kept}, which cannot run meanwhile'
     return Hit(
         place=wait.place,
-        message=f'{who} waits in {waits_in(wait)} for {what} once nothing of it is left, and '
-        f'{cannot}: it waits for ever',
+        message=f'{who} waits in {waits_in(wait)} for {what} once that is used up, and '
+        f'{cannot}: it waits forever',
         help=f'let {kept or by} run beside {who}, on a thread and in a group of its own, or do '
         'not wait'
         if givers
@@ -198,7 +198,7 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
     severity = Severity.WARNING if is_counted or _keeps_the_program(first) else None
     return Hit(
         place=first.wait.place,
-        message=f'{who}{named}, but {reason}: it waits for ever{where}',
+        message=f'{who}{named}, but {reason}: it waits forever{where}',
         help=_help_where_repeated(repeated) if where else _help(first, together, context),
         severity=Severity.NOTE if where else severity,
         subjects=tuple(dict.fromkeys([*names, *first.enders])),
@@ -271,24 +271,23 @@ RULE = Rule(
     code='CC109',
     slug='never-ends',
     severity=Severity.ERROR,
-    title='Callback that waits for ever',
-    what='The model of the unit knows a run after which a callback, `main` or a thread of the '
-    'program waits and nothing moves any more: nobody ends the wait, or whoever could cannot '
-    'run, comes too early, or waits itself. This is the general rule; where a cause has a name '
-    'of its own, its rule speaks instead. Executors of one program that run at the same time '
-    'and wait for each other are judged together. The run is shown. As a note: it takes '
-    'several runs of one callback at a time, which a reentrant group allows, to hold all '
-    'threads or a lock; whether so many come together the rates decide. As a warning: a bounded '
-    'queue or a semaphore is used up by earlier runs, and who gives back, or whom the thread that '
-    'does so waits for, cannot run while somebody waits; or the end of a child process is waited '
-    'for while nobody reads the pipe it writes to.',
-    why='A thread of the program that is no daemon keeps the process from its end. A callback '
-    'keeps its thread and its mutually exclusive group while it waits. Two services that call '
-    'each other each keep the group that the other needs. Decided by the model of profile '
-    '`rclpy`, in which a waiting callback stays where it is until what it needs has run. '
-    'A pipe holds 64 KiB on Linux; a child that writes more waits for a reader. Sources: '
-    'Python 3.12, library reference, `subprocess` (`Popen.wait`); pipe(7); '
-    'rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, `callback_groups.py`.',
+    title='Wait that never ends',
+    what='The model of the unit has a run after which a callback, `main` or a thread waits and '
+    'nothing can move any more: nothing ends the wait, or what could end it cannot run, comes '
+    'too early, or waits itself. This is the general rule; a more specific rule reports the wait '
+    'where one applies. Executors of one program that run at the same time and wait for each '
+    'other are checked together. The run is shown. A note: several runs of one reentrant '
+    'callback at the same time are needed to hold all threads or a lock; whether so many occur '
+    'depends on the rates. A warning: earlier runs use up a bounded queue or a semaphore, and '
+    'what refills it, or what the refilling thread waits for, cannot run during the wait; or the '
+    'callback waits for a child process while nothing reads the pipe that it writes to.',
+    why='A thread that is not a daemon keeps the process alive. A callback keeps its thread and '
+    'its mutually exclusive group while it waits. Two services that call each other each keep '
+    'the group that the other needs. The model of profile `rclpy` decides: in it, a waiting '
+    'callback stays where it is until what it needs has run. A pipe holds 64 KiB on Linux; a '
+    'child that writes more waits for a reader. Sources: Python 3.12, library reference, '
+    '`subprocess` (`Popen.wait`); pipe(7); rclpy 7.1.6 and 9.1.2, `client.py`, `executors.py`, '
+    '`callback_groups.py`.',
     bad="""\
 class Arms(Node):            # on_left and on_right each in a group of its own,
     def on_left(self, request, response):     # as are the clients

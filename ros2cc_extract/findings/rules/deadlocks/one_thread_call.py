@@ -42,11 +42,11 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
     executor = context.unit.executor
     is_answer = is_client(wait.needs[0]) or is_done_callback(wait.needs[0])
     one = len(dict.fromkeys(_names(waits))) == len(wait.needs)
-    nobody = f'nobody can take {"it" if one else "them"}' if is_answer else 'it cannot run'
+    stuck = f'nothing can take {"it" if one else "them"}' if is_answer else 'it cannot run'
     return Hit(
         place=wait.place,
         message=f'{who_waits(waits)} in {waits_in(wait)} for {all_wait_for(waits)} on '
-        f'the only thread of the {executor.kind or "executor"}, so {nobody}: {how_it_ends(waits)}',
+        f'the only thread of the {executor.kind or "executor"}, so {stuck}: {how_it_ends(waits)}',
         help=_help(wait, is_answer, context),
         severity=Severity.WARNING if wait.has_timeout else None,
         subjects=(*callers_of(waits), *_names(waits)),
@@ -81,7 +81,7 @@ RULE = Rule(
     '`MultiThreadedExecutor(num_threads=1)` has one worker, and the spinning thread runs no '
     'callbacks. The `EventsExecutor` is single-threaded too. Sources: rclpy 7.1.6 and 9.1.2, '
     '`executors.py`, `experimental/events_executor.py`, `client.py`. Measured: 0 completed calls '
-    'on one thread, whatever the groups.',
+    'on one thread, whatever groups are used.',
     bad="""\
 class Navigator(Node):
     def __init__(self):

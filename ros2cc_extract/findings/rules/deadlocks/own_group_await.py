@@ -34,8 +34,8 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{caller} awaits {waits_for(wait)} while it keeps {group_words(group)} closed, '
-        f'and {shut_out.display_name} is in that group: it never resumes{where}, and no other '
-        'member of the group runs again',
+        f'and {shut_out.display_name} is in that group: it never resumes{where}, and no '
+        'other member of the group runs again',
         help=f'give {shut_out.display_name} a callback group of its own or a reentrant one',
         severity=Severity.WARNING if is_open else None,
         subjects=(wait.caller.name, shut_out.name),
@@ -51,12 +51,12 @@ RULE = Rule(
     severity=Severity.ERROR,
     title='Await within the own callback group',
     what='A coroutine callback awaits something that only another callback of the same mutually '
-    'exclusive group can deliver. No thread is blocked, but the group stays closed for ever.',
-    why='An `await` gives the thread back and not the group: `ending_execution` is called when '
-    'the coroutine has ended. Until then no member of the group runs, and neither does the '
-    'client whose answer is awaited. The `EventsExecutor` never asks the groups and is not '
-    'concerned. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `task.py`. '
-    'Measured: 0 completions, the sibling timer frozen too.',
+    'exclusive group can deliver. No thread is blocked, but the group stays closed forever.',
+    why='An `await` releases the thread but not the group: `ending_execution` is called only '
+    'when the coroutine has ended. Until then no member of the group runs, and neither does the '
+    'client whose answer is awaited. The `EventsExecutor` ignores groups and is not affected. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `task.py`. Measured: 0 '
+    'completions, and the other timer of the group frozen too.',
     bad="""\
 class Gate(Node):
     def __init__(self):

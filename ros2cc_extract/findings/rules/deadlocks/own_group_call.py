@@ -112,11 +112,11 @@ RULE = Rule(
     code='CC101',
     slug='own-group-call',
     severity=Severity.ERROR,
-    title='Blocking call into the own callback group',
+    title='Blocking call into its own callback group',
     what='A callback waits synchronously for something that only another callback of the same '
     'mutually exclusive group can deliver: the answer of a client in that group, a service of '
-    'that group, or an event that a member of the group sets. No number of threads helps, and '
-    'neither does a nested spin: the group stays closed while it spins.',
+    'that group, or an event that a member of the group sets. More threads do not help, and '
+    'neither does a nested spin: the group stays closed meanwhile.',
     why='The group is closed from `beginning_execution` until `ending_execution` of the caller, '
     'and the executor neither waits for nor runs members of a closed group. `Client.call` '
     'waits for a `threading.Event` that is set when the executor has run the client. '

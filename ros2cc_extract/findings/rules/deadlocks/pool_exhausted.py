@@ -145,10 +145,10 @@ def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown
 def _what_becomes_of(waits: Sequence[Wait]) -> str:
     """A wait with a time-out ends, and gives a thread back to the others."""
     if all(wait.has_timeout for wait in waits):
-        return 'all run into their time-outs'
+        return 'all waits time out'
     if any(wait.has_timeout for wait in waits):
         return 'all wait, at least until the first time-out'
-    return 'all wait for ever'
+    return 'all wait forever'
 
 
 def _awaited(waits: Sequence[Wait]) -> str:
@@ -187,7 +187,7 @@ def _help(capacity: Capacity) -> str:
     if not capacity.unbounded:
         return f'{capacity.at_least + 1} threads are the smallest number that is enough'
     return (
-        f'at least {capacity.at_least + 1} threads, but no number is surely enough: '
+        f'at least {capacity.at_least + 1} threads, but no number is certainly enough: '
         f'{shown(capacity.unbounded)} may also overlap {_itself(capacity.unbounded)}; '
         f'{_remedy(capacity.unbounded)}'
     )
@@ -252,26 +252,24 @@ RULE = Rule(
     severity=Severity.ERROR,
     title='Every worker thread may wait at once',
     what='As many callbacks can wait synchronously at the same time as the executor has worker '
-    'threads. The groups are right, but nobody is left to run what they wait for. The '
-    'number is exact: a mutually exclusive group counts once, a reentrant callback for '
-    'itself, branches of which only one is taken do not add up. That a callback may also '
-    'overlap itself is a note; where a subscription or timer sleeps by a `Rate`, a '
-    'warning, since each run sleeps a period long, and of a service that waits without a '
-    'time-out where the model shows a run in which all threads are taken by what arrives '
-    'once for each callback. A service of a reentrant group counts as often as clients in '
-    'sight may ask it at a time, on whatever executor they are. Where it takes more requests '
-    'than these, the run is shown and it stays a note. It is not said of one that claims a '
-    'state under a lock, waits, and gives it back. Loops that sleep and look again whether '
-    'another callback has written something take threads too, where they end otherwise as '
-    'well: a warning.',
+    'threads. Their groups are right, but no thread is left to run what they wait for. The '
+    'number is exact: a mutually exclusive group counts once, a reentrant callback counts by '
+    'itself, and of alternative branches only one counts. That a callback may also overlap '
+    'itself is a note. It is a warning for a subscription or timer that sleeps by a `Rate`, '
+    'since each run sleeps for a period, and for a service that waits without a time-out where '
+    'the model has a run in which all threads are taken by one arrival for each callback. A '
+    'service of a reentrant group counts as often as clients in sight may call it at the same '
+    'time, on any executor. If it takes more requests than these, it stays a note, and the run '
+    'is shown. A callback that claims a state under a lock, waits, and releases it is not '
+    'reported. Loops that sleep and then check whether another callback has written something '
+    'take threads too, even if they can end otherwise: a warning.',
     why='A `MultiThreadedExecutor` runs callbacks in a pool of `num_threads` workers; answers '
     'are handled by the same workers, and the spinning thread runs no callbacks. Without '
-    '`num_threads` the pool has as many workers as the machine has CPUs, so the same node works '
-    'on one machine and hangs on another. In a reentrant group an entity may be started again '
-    'before its last run has ended. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` '
-    '(`MultiThreadedExecutor`, `_make_handler`). Measured: 4 reentrant callers, 0 completed '
-    'calls on 4 threads, 64 of 64 on 8; a reentrant timer of 10 Hz that sleeps by a rate of 2 Hz '
-    'on 4 threads: no sleep ends.',
+    '`num_threads` the pool has one worker for each CPU, so the same node works on one machine '
+    'and hangs on another. In a reentrant group a callback may start again before its last run '
+    'has ended. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`MultiThreadedExecutor`, '
+    '`_make_handler`). Measured: 4 reentrant callers, 0 completed calls on 4 threads, 64 of 64 '
+    'on 8; a reentrant timer of 10 Hz that sleeps by a rate of 2 Hz on 4 threads: no sleep ends.',
     bad="""\
 class Arms(Node):
     def __init__(self):

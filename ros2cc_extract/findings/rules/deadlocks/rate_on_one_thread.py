@@ -37,14 +37,14 @@ RULE = Rule(
     slug='rate-on-one-thread',
     severity=Severity.ERROR,
     title='Rate.sleep on an executor with one thread',
-    what='A callback sleeps by `Rate.sleep`, but the timer that ends the sleep must be run by '
-    'the thread that sleeps. With simulated time the clock stands still as well, because the '
-    '`/clock` subscription is served by that thread.',
+    what='A callback sleeps by `Rate.sleep`, but the timer that ends the sleep must run on the '
+    'thread that sleeps. With simulated time the clock stands still too, because the same thread '
+    'serves the `/clock` subscription.',
     why='`create_rate` makes a timer in a private reentrant group of the node; its callback sets '
-    'the event for which `sleep` waits, so another thread must run it. A first sleep may return '
-    'at once, because the timer was due before, and hides the fault. Sources: rclpy 7.1.6 and '
-    '9.1.2, `timer.py` (`Rate`), `node.py` (`create_rate`). Measured: 0 of 3 sleeps done on one '
-    'thread, 9 on four.',
+    'the event for which `sleep` waits, so another thread must run it. The first sleep may '
+    'return at once, because the timer was already due, and hide the bug. Sources: rclpy 7.1.6 '
+    'and 9.1.2, `timer.py` (`Rate`), `node.py` (`create_rate`). Measured: 0 of 3 sleeps done on '
+    'one thread, 9 on four.',
     bad="""\
 class Arm(Node):
     def on_command(self, msg):

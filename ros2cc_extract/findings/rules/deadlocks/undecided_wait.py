@@ -30,7 +30,7 @@ from ros2cc_extract.verify.results.results import Verdict
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
 _FOREIGN = frozenset({'await', 'unknown wait'})
-_NOBODY_KNOWN = 'it is not known who ends it'
+_UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
     'only a thread ends it, which wakes no executor: it goes on once something else does so'
 )
@@ -105,10 +105,10 @@ def _open(
 
 def _reason(block: Blocking) -> str:
     if block.escapes is not None:
-        return f'it is not known who ends it: {block.escapes.reason}'
+        return f'{_UNKNOWN_END}: {block.escapes.reason}'
     if isinstance(block.on, Unknown):
-        return f'{_NOBODY_KNOWN}: {block.on.reason}'
-    return _NOBODY_KNOWN
+        return f'{_UNKNOWN_END}: {block.on.reason}'
+    return _UNKNOWN_END
 
 
 def _ends_outside(block: Blocking) -> bool:
@@ -237,17 +237,17 @@ def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside:
     named = f' for {what}' if what else ''
     verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
     start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
-    ends = f'and {verb} for ever if {_nobody_else(wait)} ends it'
+    ends = f'and {verb} forever unless {_others(wait)} ends it'
     if wait.block.answer_to is not None and is_outside:
         topic = wait.block.answer_to
         ends = (
-            f'and {verb} for ever if nobody outside this program answers the message on {topic}, '
-            'or one of the two is lost'
+            f'and {verb} forever unless another program answers the message on {topic}, or if '
+            'one of the two is lost'
         )
     elif wait.block.unsent is not None and is_outside:
         topic = wait.block.unsent
         ends = (
-            f'and {verb} for ever if nobody outside this program publishes {topic}, as '
+            f'and {verb} forever unless another program publishes {topic}, as '
             f'{shown(_senders(topic, context))} cannot do so meanwhile'
         )
     return Hit(
@@ -275,7 +275,7 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
     return 'give it a time-out, or see to it that whoever ends it can be followed'
 
 
-def _nobody_else(wait: AnyWait) -> str:
+def _others(wait: AnyWait) -> str:
     """
     Whom the unit does not show, with those of the unit that end it too.
 
@@ -283,7 +283,7 @@ def _nobody_else(wait: AnyWait) -> str:
     """
     inside = [waker.by for waker in wait.block.wakers if waker.by not in (OUTSIDE, TIME)]
     others = 'else' if isinstance(wait.caller, Activity) else 'outside its executor'
-    return f'neither {listing(inside)} nor anybody {others}' if inside else f'nobody {others}'
+    return ' or '.join([*([listing(inside)] if inside else []), f'something {others}'])
 
 
 UNDECIDED = Rule(
@@ -291,14 +291,14 @@ UNDECIDED = Rule(
     slug='undecided-wait',
     severity=Severity.NOTE,
     title='Wait that could not be decided',
-    what='A callback, `main` or a thread waits for something, and whoever ends that wait could '
-    'not be followed: the object was handed to code that is not in sight, or nobody in sight '
-    'ends it. So is an await of what a thread makes done: that wakes no executor, and nobody '
-    'knows when something else does. Whether the wait ends is open, and so is every claim that '
-    'rests on it. There is one line for each wait, not for each callback that it may hold up. '
-    'With `--strict` the exit status is 3.',
+    what='A callback, `main` or a thread waits for something, and the code that ends the wait '
+    'could not be followed: the object was passed to code that is not in sight, or nothing in '
+    'sight ends the wait. The same holds for an await of something that a thread completes: that '
+    'wakes no executor, and it is unknown when something else does. Whether the wait ends is '
+    'open, and so is every claim that depends on it. There is one line for each wait, not for '
+    'each callback that it may block. With `--strict` the exit status is 3.',
     why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
-    'result means that no wait can last for ever; where that is not known it is said. Sources: '
+    'result means that no wait lasts forever; this note says where that is not known. Sources: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py`.',
     bad="""\
 class Feeder(Node):
@@ -324,13 +324,13 @@ OUTSIDE_WAIT = Rule(
     code='CC121',
     slug='outside-wait',
     severity=Severity.NOTE,
-    title='Wait that nobody on its executor ends',
-    what='A callback, `main` or a thread waits without a time-out for a process, a socket, a '
-    'serial line or a person, for what another executor or program does, for the message by '
-    'which another program answers one that was published before, or for a message that nobody '
-    'in this program publishes before the wait has ended, as its publishers are in the same '
-    'group. The verdicts assume that it ends. If it does not, a callback keeps its thread and its '
-    'mutually exclusive group for ever, and a thread keeps the process.',
+    title='Wait that nothing on its executor ends',
+    what='A callback, `main` or a thread waits without a time-out for something outside: a '
+    'process, a socket, a serial port or a person; another executor or program; the answer of '
+    'another program to a message that was published before; or a message that nothing in this '
+    'program publishes during the wait, because its publishers are in the same group. The '
+    'verdicts assume that the wait ends. If it does not, a callback keeps its thread and its '
+    'mutually exclusive group forever, and a thread keeps the process alive.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '
     'rclpy 7.1.6 and 9.1.2, `executors.py`: a callback holds its thread and its group until it '
