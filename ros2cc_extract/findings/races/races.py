@@ -202,14 +202,15 @@ def describe(race: Race) -> str:
     it = 'it' if len(race.names) == 1 else 'them'
     old = 'its old value' if len(race.names) == 1 else 'their old values'
     return {
-        RaceKind.CHANGED_IN_LOOP: f'{first} goes over {names} in a loop, and {others} may change '
+        RaceKind.CHANGED_IN_LOOP: f'{first} iterates over {names}, and {others} may change '
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
         RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
-        f'{it} to None in between: the use then ends in an exception',
-        RaceKind.TORN: f'{first} publishes {names}, and {others} may be changing {it} piece by '
-        'piece at the same time: the message is part old and part new',
+        f'{it} to None in between: then the use raises an exception',
+        RaceKind.TORN: f'{first} publishes {names} while {others} may change {it} piece by '
+        'piece: the '
+        'message is half old and half new',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
-        'at the same time: one of the changes can get lost',
+        'at the same time: one change can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
         f'write {it} in between: what was read no longer holds',
         RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '

@@ -42,7 +42,7 @@ def _of_itself(callback: Callback, use: Use, context: Context) -> Hit:
     return Hit(
         place=use.place,
         message=f'{callback.display_name} tests {name} and then uses it, and another run of it '
-        'may set it to None in between: the use then ends in an exception',
+        'may set it to None in between: then the use raises an exception',
         help=HELP,
         severity=Severity.NOTE if is_quick(callback, context) or not use.access.later else None,
         subjects=(callback.name, name),
@@ -56,17 +56,16 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Object set to None between a test and its use',
     what='A callback tests whether an object is there (`if self.goal is not None`) and then uses '
-    'it (`self.goal.cancel()`), and a callback that may run at the same time sets it to None. '
-    'Where that happens between the test and the use, the use ends in an AttributeError or '
-    'TypeError, which ends the spin. No lock is held around both. Where nothing is called between '
-    'the test and the use, it is only a note: an interpreter with a global lock does not switch '
-    'threads there.',
-    why='Each reading of an attribute looks anew. CPython switches threads at calls and at the '
-    'ends of rounds of loops (3.12, `Python/bytecodes.c`, `CHECK_EVAL_BREAKER`), a build without '
-    'the global lock anywhere. '
-    'Whether two callbacks may overlap is decided by the model where it was verified, else by '
-    'their groups and the number of threads. An exception in a callback leaves `spin`. Source: '
-    'rclpy 7.1.6 and 9.1.2, `executors.py` (`MultiThreadedExecutor`, `_spin_once_impl`).',
+    'it (`self.goal.cancel()`), and a callback that may run at the same time sets it to None. If '
+    'that happens between the test and the use, the use raises AttributeError or TypeError, '
+    'which ends the spin. No lock is held around both. If nothing is called between the test and '
+    'the use, it is only a note: an interpreter with a global lock does not switch threads there.',
+    why='Every read of an attribute looks it up again. CPython switches threads at calls and at '
+    'the ends of loop iterations (3.12, `Python/bytecodes.c`, `CHECK_EVAL_BREAKER`), and in a '
+    'build without the global lock anywhere. The model decides whether two callbacks may '
+    'overlap; if the unit was not verified, their groups and the number of threads do. An '
+    'exception in a callback leaves `spin`. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor`, `_spin_once_impl`).',
     bad="""\
 class Arm(Node):
     def __init__(self):

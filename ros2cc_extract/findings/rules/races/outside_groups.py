@@ -35,8 +35,9 @@ def _hit(late: LateClaim) -> Hit:
     claimed = late.claim.source
     return Hit(
         place=place,
-        message=f'{asks} lets a goal in because of {name}, which {execute.display_name} changes '
-        'only when it runs: of two goals that come together both may get in',
+        message=f'{asks} accepts goals by {name}, which {execute.display_name} changes only '
+        'when it '
+        'runs: of two goals that arrive together, both may be accepted',
         help=f'change {name} in {asks}, under the lock under which it is asked for, and undo it '
         f'at the end of {execute.display_name}',
         subjects=(late.server.name, execute.name, name),
@@ -62,11 +63,12 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Race with work outside every callback group',
     what='An attribute is updated by a callback and by a done-callback, an executor task or the '
-    'execute callback of an action server. These look as if a group protected them, but they '
-    'run in none. So is a state because of which a goal callback lets goals in, where the execute '
-    'callback claims it later and gives it back: goals that come together all find it free.',
+    'execute callback of an action server. These look as if a group protected them, but they run '
+    'outside every group. The same holds for a state by which a goal callback accepts goals, if '
+    'the execute callback claims it only later and then releases it: goals that arrive together '
+    'all find it free.',
     why='`ActionServer.notify_execute`, `Executor.create_task` and done-callbacks of '
-    '`call_async` futures become tasks without entity and without group, so that they may '
+    '`call_async` futures become tasks without an entity and without a group, so they may '
     'overlap every callback and each other. Sources: rclpy 7.1.6 and 9.1.2, `action/server.py`, '
     '`executors.py` (`create_task`), `task.py`. Measured: a done-callback overlapped with the '
     'timers of the one exclusive group of its node.',

@@ -29,8 +29,8 @@ from ros2cc_extract.spec.model import Activity, Callback, EntityKind
 
 _TWICE = {
     EntityKind.TIMER: 'when a run lasts longer than the period',
-    EntityKind.ACTION_EXECUTE: 'when there are two goals',
-    EntityKind.DONE_CALLBACK: 'when two answers come together',
+    EntityKind.ACTION_EXECUTE: 'when there are two goals at a time',
+    EntityKind.DONE_CALLBACK: 'when two answers arrive together',
 }
 
 
@@ -69,7 +69,7 @@ def _late_hit(callback: Callback, cancel: Act | None, context: Context) -> Hit:
     return Hit(
         place=(cancel and cancel.source) or callback.defined or Place(callback.name),
         message=f'{callback.display_name} {waits} {when} before it cancels its timer here: what '
-        f'is to be done once {how}',
+        f'should run once {how}',
         help='cancel the timer first, or put it into a mutually exclusive group',
         severity=None if is_sure else Severity.NOTE,
         subjects=(callback.name,),
@@ -164,20 +164,19 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Callback that may overlap itself updates an attribute',
     what='A callback of a reentrant group, or one outside every group, reads an attribute and '
-    'writes it back without a lock, at once (`+=`), after a test, or from a copy; or it writes '
-    'one, waits, and reads it back; or it looks for an item in a collection, waits, and changes '
-    'that one. Two runs of the same callback may coincide. So do those of a timer that is to run '
-    'once and cancels itself only after it has slept longer than its period (a note where it '
-    'waits and nobody knows how long): everything in it is done several times. An update is only '
-    'a note where it is one of a number with nothing but constants and names between its read and '
-    'its write (`self.n += 1`), see CC301, '
-    'for a timer whose runs are known to be shorter than its period, for a done-callback where '
-    'one such timer alone asks, once in a run, and for a test that is followed by the write '
-    'without a wait in between. Where another callback may lose the same update, CC301 or CC303 '
-    'stands for both.',
-    why='An entity may be collected again as soon as its data was taken; a reentrant group '
-    'refuses nothing, so that one subscription runs on several threads at once. Source: rclpy '
-    '7.1.6 and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '
+    'writes it back without a lock: at once (`+=`), after a test, or from a copy; or it writes '
+    'an attribute, waits, and reads it back; or it looks for an item in a collection, waits, and '
+    'changes that item. Two runs of the same callback may overlap. So may those of a timer that '
+    'should run once and cancels itself only after it has slept longer than its period (a note '
+    'where it waits for an unknown time): everything in it is done several times. The finding is '
+    'only a note for an update of a number with nothing but constants and names between its read '
+    'and its write (`self.n += 1`, see CC301), for a timer whose runs are known to be shorter '
+    'than its period, for a done-callback that one such timer alone requests, once in a run, and '
+    'for a test that is followed by the write without a wait in between. Where another callback '
+    'may lose the same update, CC301 or CC303 is reported instead.',
+    why='The executor may take an entity again as soon as its data was taken; a reentrant group '
+    'refuses nothing, so one subscription runs on several threads at once. Source: rclpy 7.1.6 '
+    'and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '
     '(`ReentrantCallbackGroup`). Measured: three overlapping runs of one timer.',
     bad="""\
 class Arm(Node):

@@ -22,11 +22,11 @@ RULE = Rule(
     severity=Severity.NOTE,
     title='Attribute assigned by callbacks that may overlap',
     what='Two callbacks that may run at the same time assign the same attribute, and neither '
-    'reads it; threads that the program starts count as callbacks do. Nothing breaks by itself, '
-    'but which value stays is a matter of chance. A note.',
-    why='A single assignment is atomic in CPython, so no value is torn; several attributes that '
-    'belong together are not written as one. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
-    '(`MultiThreadedExecutor`), `callback_groups.py`.',
+    'reads it; threads that the program starts count like callbacks. Nothing breaks by itself, '
+    'but which value remains is a matter of chance. A note.',
+    why='A single assignment is atomic in CPython, so no value is torn; but several attributes '
+    'that belong together are not written together. Source: rclpy 7.1.6 and 9.1.2, '
+    '`executors.py` (`MultiThreadedExecutor`), `callback_groups.py`.',
     bad="""\
 class Arm(Node):
     def on_start(self, msg):
