@@ -75,12 +75,12 @@ RULE = Rule(
     code='CC204',
     slug='absent-service',
     severity=Severity.WARNING,
-    title='Waiting for a service to be there on the only thread',
+    title='Wait for a service on the only thread',
     what='A callback calls `wait_for_service` or `wait_for_server` without a time-out on an '
-    'executor with one thread. As long as nobody offers the service, nothing else of the node '
+    'executor with one thread. As long as the service does not exist, nothing else of the node '
     'runs, its parameter services included.',
-    why='`wait_for_service` looks at the graph and sleeps in between; it gives its thread to '
-    'nobody. No callback must run for it to end, so it ends when the service is there. Sources: '
+    why='`wait_for_service` checks the graph and sleeps in between; it keeps its thread '
+    'meanwhile. It needs no callback to end, so it returns when the service is there. Sources: '
     'rclpy 7.1.6 and 9.1.2, `client.py` (`wait_for_service`), `action/client.py` '
     '(`wait_for_server`).',
     bad="""\

@@ -73,7 +73,7 @@ def _hit_of_server(wait: Wait, execute: Callback, context: Context) -> Hit:
         place=wait.place,
         message=f'{wait.caller.display_name} waits in {wait.block.call} until '
         f'{execute.display_name} has executed a goal, and holds {held}: no cancel '
-        'request and no other goal is seen until then',
+        'request and no other goal is handled until then',
         help='keep the goals in a queue and return: let the end of one execute the next one',
         subjects=(wait.caller.name,),
         chain=wait.chain,
@@ -86,7 +86,7 @@ def _hit(wait: Wait, context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{wait.caller.display_name} sleeps while it executes a goal on the only thread '
-        f'of the {kind}: no cancel request and no other goal is seen until it has ended',
+        f'of the {kind}: no cancel request and no other goal is handled until it ends',
         help='serve the action with a MultiThreadedExecutor of at least two threads',
         subjects=(wait.caller.name,),
         chain=wait.chain,
@@ -100,16 +100,16 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Execute callback holds the only thread',
     what='The execute callback of an action server sleeps, on an executor with one thread. A '
-    'request to cancel is only taken when it has ended, so `is_cancel_requested` stays false. Or '
+    'cancel request is taken only when it has ended, so `is_cancel_requested` stays false. Or '
     'another callback of the server (`handle_accepted_callback`, `goal_callback`) waits in a '
-    'mutually exclusive group until a goal has been executed, and has not told that to stop.',
-    why='The cancel request is taken by the waitable of the action server, which the executor '
-    'must run, and its only thread executes the goal. A coroutine that gives '
-    'way between its sleeps (`await asyncio.sleep(0)`, or a bare `yield` behind an `__await__`) '
-    'lets it. With two threads the cancel arrives at '
-    'once, whatever the groups, because execute runs as a task outside them; the goal, cancel and '
-    'accepted callbacks of a server run in its group, one after the other. Sources: rclpy '
-    '7.1.6 and 9.1.2, `action/server.py` (`notify_execute`), `executors.py`.',
+    'mutually exclusive group until a goal has been executed, without a request to stop it.',
+    why='The waitable of the action server takes the cancel request; the executor must run it, '
+    'and its only thread executes the goal. A coroutine that yields between its sleeps (`await '
+    'asyncio.sleep(0)`, or a bare `yield` behind an `__await__`) lets it run. With two threads '
+    'the cancel request arrives at once, whatever groups are used, because execute runs as a '
+    'task outside them; the goal, cancel and accepted callbacks of a server run in its group, '
+    'one after the other. Sources: rclpy 7.1.6 and 9.1.2, `action/server.py` (`notify_execute`), '
+    '`executors.py`.',
     bad="""\
 class Mover(Node):
     def execute(self, goal_handle):

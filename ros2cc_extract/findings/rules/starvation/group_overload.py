@@ -82,13 +82,12 @@ RULE = Rule(
     slug='group-overload',
     severity=Severity.WARNING,
     title='Group kept busy by callbacks that are served first',
-    what='Callbacks of a mutually exclusive group take at least as long as their periods '
-    'allow, so that one of them is always due when the group opens. Members that are served '
-    'after them never get a turn on a multi-threaded executor, or with Python 3.13 and later '
-    'hardly ever. Periods and durations are those '
-    'of `verify --profile rclpy`: written down, measured in a run, or read from timers and '
-    'sleeps in the source; those of a subscription from the one timer that publishes for it, in '
-    'whatever program of the sources it is.',
+    what='Callbacks of a mutually exclusive group take at least as long as their periods allow, '
+    'so one of them is always due when the group opens. Members that are served after them never '
+    'get a turn on a multi-threaded executor (with Python 3.13 and later: hardly ever). Periods '
+    'and durations are those of `verify --profile rclpy`: written by hand, measured in a run, or '
+    'read from timers and sleeps in the source; for a subscription, those of the one timer that '
+    'publishes for it, in any program of the sources.',
     why='After each end the executor looks again from the start: timers first, then '
     'subscriptions, guard conditions, clients and services, each in order of creation. Source: '
     'rclpy 7.1.6 and 9.1.2, `executors.py` (`_wait_for_ready_callbacks`). Measured for two '

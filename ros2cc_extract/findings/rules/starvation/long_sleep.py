@@ -238,24 +238,24 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Long sleep in a callback that others wait for',
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
-    'default group of its node; for half a second or longer where a timer there misses five '
-    'runs meanwhile. Everything else there waits, also the parameter services: '
-    '`ros2 param` hangs. So it is with a lock that is held over a long sleep, or over a '
-    'loop that sleeps in each round, where other callbacks take the lock: an execute '
-    'callback that holds it during its whole run holds up the request to cancel. A wait '
-    'with a time-out counts too: it lasts that long where nothing comes. So does a sleep by '
-    'a `Rate`. It is only a note where a timer misses five runs and somebody may end the wait '
-    'sooner, and where nobody waits but the services that rclpy itself has made: they wait that '
-    'long in the rare case alone, and then go on. Rounds of a loop are counted where their '
-    'number is known, and short sleeps are added up where no branch skips them. A callback '
-    'has one finding, at the longest of them.',
-    why='Who holds a lock keeps all others from it that long, in whatever group and on however '
-    'many threads; a loop of unknown length counts from 0.1 s a round on. Every node has six '
-    'parameter services and a type-description service in its default group, which is '
-    'mutually exclusive. On one thread no group helps. Sources: rclpy 7.1.6 and 9.1.2, '
-    '`node.py`, `parameter_service.py`, `executors.py`. What counts as long, one second or '
-    'five runs of a timer, is our choice. Measured with rclpy 7.1.6 and 9.1.2, four threads: a '
-    'subscription of the default group that sleeps 0.9 s makes a timer of 0.1 s 0.8 s late.',
+    'default group of its node; or for half a second or longer where a timer there misses five '
+    'runs meanwhile. Everything else there waits, also the parameter services: `ros2 param` '
+    'hangs. The same holds for a lock that is held over a long sleep, or over a loop that sleeps '
+    'in each iteration, where other callbacks take the lock: an execute callback that holds it '
+    'during its whole run delays the cancel request. A wait with a time-out counts too: it lasts '
+    'that long if nothing arrives. So does a sleep by a `Rate`. It is only a note where a timer '
+    'misses five runs but something may end the wait sooner, and where only the services that '
+    'rclpy itself creates wait: they are rarely called, and go on afterwards. Iterations of a '
+    'loop are counted where their number is known, and short sleeps are added up where no branch '
+    'skips them. Each callback has one finding, at its longest sleep.',
+    why='A callback that holds a lock blocks all others that take it for that long, in any group '
+    'and on any number of threads; a loop of unknown length counts from 0.1 s for each '
+    'iteration. Every node has six parameter services and a type-description service in its '
+    'default group, which is mutually exclusive. On one thread, groups do not help. Sources: '
+    'rclpy 7.1.6 and 9.1.2, `node.py`, `parameter_service.py`, `executors.py`. What counts as '
+    'long (one second, or five runs of a timer) is our choice. Measured with rclpy 7.1.6 and '
+    '9.1.2, four threads: a subscription of the default group that sleeps 0.9 s makes a timer of '
+    '0.1 s 0.8 s late.',
     bad="""\
 class Arm(Node):
     def on_dock(self, request, response):

@@ -40,13 +40,13 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Awaiting callbacks under a spin with a time-out',
     what='A callback awaits, and its single-threaded executor is spun by '
-    '`spin_until_future_complete`. With a time-out, releases before 3.3.11 (Humble) step to the '
-    'awaiting callback again and again and never reach the others. Only said where the release '
-    'is known: `--assume rclpy=3.3.9`.',
-    why='The remaining time was a new argument at each step, which threw away what was found '
-    'ready; the search then began with the suspended coroutine. Sources: rclpy 3.3.9, '
-    '`executors.py` (`wait_for_ready_callbacks`); ros2/rclpy issue 1159, pull request 1165; '
-    'mended in rclpy 7.1.6 and 9.1.2 as well.',
+    '`spin_until_future_complete`. With a time-out, releases before 3.3.11 (Humble) resume the '
+    'awaiting callback again and again and never reach the others. Reported only where the '
+    'release is known: `--assume rclpy=3.3.9`.',
+    why='Each step passed the remaining time as a new argument, which discarded what was ready; '
+    'the search then began with the suspended coroutine. Sources: rclpy 3.3.9, `executors.py` '
+    '(`wait_for_ready_callbacks`); ros2/rclpy issue 1159, pull request 1165; fixed in rclpy '
+    '7.1.6 and 9.1.2 as well.',
     bad="""\
 class Asker(Node):
     async def on_timer(self):

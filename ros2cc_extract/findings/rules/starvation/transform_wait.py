@@ -49,15 +49,15 @@ RULE = Rule(
     code='CC205',
     slug='transform-wait',
     severity=Severity.WARNING,
-    title='Waiting for a transform on the thread that must take it',
-    what='A callback looks a transform up with a time-out, on an executor with one thread that '
-    'also serves the listener of the buffer. A transform that is there is found at once; one '
-    'that is not never comes while the callback waits, so that the time-out only costs its time. '
-    'A time-out below 0.1 s, our choice, gets a note.',
-    why='`Buffer.lookup_transform` sleeps and looks again until the time-out. New transforms come '
-    'by the subscriptions of the `TransformListener`, which the same thread would have to run. '
-    'The C++ buffer refuses such a call in words. Sources: tf2_ros (Jazzy), `buffer.py`, '
-    '`transform_listener.py`; rclpy 7.1.6 and 9.1.2, `executors.py`.',
+    title='Wait for a transform on the thread that must receive it',
+    what='A callback looks up a transform with a time-out, on an executor with one thread that '
+    'also serves the listener of the buffer. A transform that is already there is found at once; '
+    'one that is not cannot arrive while the callback waits, so the time-out only costs time. A '
+    'time-out below 0.1 s (our choice) gets a note.',
+    why='`Buffer.lookup_transform` sleeps and checks again until the time-out. New transforms '
+    'arrive by the subscriptions of the `TransformListener`, which the same thread would have to '
+    'run. The C++ buffer refuses such a call with a message. Sources: tf2_ros (Jazzy), '
+    '`buffer.py`, `transform_listener.py`; rclpy 7.1.6 and 9.1.2, `executors.py`.',
     bad="""\
 class Arm(Node):
     def __init__(self):
