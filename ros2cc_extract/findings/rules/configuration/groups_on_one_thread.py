@@ -23,7 +23,7 @@ def find(context: Context) -> Iterator[Hit]:
         executor = context.unit.executor
         yield Hit(
             place=groups[0].source or context.home(),
-            message=f'{listing(group.name for group in groups)}: no effect, the '
+            message=f'{listing(group.name for group in groups)}: no effect, because the '
             f'{executor.kind or "executor"} runs all callbacks one after the other',
             help='serve the node with a MultiThreadedExecutor, or leave the groups out',
             subjects=tuple(group.name for group in groups),
@@ -54,9 +54,9 @@ RULE = Rule(
     slug='groups-on-one-thread',
     severity=Severity.NOTE,
     title='Callback groups on an executor with one thread',
-    what='Callback groups were made, but one thread runs all callbacks one after the other: '
-    'neither a reentrant group nor several groups change anything. Not said where a callback '
-    'awaits or spins. A note: a library node may be meant for other executors.',
+    what='Callback groups were created, but one thread runs all callbacks one after the other: '
+    'neither a reentrant group nor several groups change anything. Not reported where a callback '
+    'awaits or spins. A note: a library node may be written for other executors.',
     why='`rclpy.spin` and `SingleThreadedExecutor` run each callback to its end, to an `await`, '
     'or to a nested spin, before the next. Source: rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`SingleThreadedExecutor`).',

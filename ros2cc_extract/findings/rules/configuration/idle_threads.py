@@ -55,8 +55,8 @@ RULE = Rule(
     slug='idle-threads',
     severity=Severity.NOTE,
     title='More threads than can ever be used',
-    what='The executor has more worker threads than its callback groups ever let run. The '
-    'number is exact: a maximum over groups and exclusive branches. A note.',
+    what='The executor has more worker threads than its callback groups ever let run at the same '
+    'time. The number is exact: a maximum over groups and exclusive branches. A note.',
     why='A mutually exclusive group lets one callback run at a time, so that its members never '
     'need more than one thread. Source: rclpy 7.1.6 and 9.1.2, `callback_groups.py`.',
     bad="""\

@@ -65,10 +65,10 @@ RULE = Rule(
     slug='not-served',
     severity=Severity.WARNING,
     title='Node that no executor serves',
-    what='A program makes a node with callbacks, was followed to its end, and neither adds the '
-    'node to an executor that is spun nor spins it. None of its callbacks ever runs.',
-    why='Callbacks run in an executor, which serves the nodes that were added to it and no '
-    'others. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`add_node`, '
+    what='A program creates a node with callbacks and was followed to its end, but neither adds '
+    'the node to an executor that is spun nor spins it. None of its callbacks ever runs.',
+    why='Callbacks run in an executor, and an executor serves only the nodes that were added to '
+    'it. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`add_node`, '
     '`_wait_for_ready_callbacks`), `__init__.py` (`spin`).',
     bad="""\
 arm, leg = Arm(), Leg()

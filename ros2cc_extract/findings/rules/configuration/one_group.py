@@ -35,7 +35,7 @@ RULE = Rule(
     slug='one-group',
     severity=Severity.WARNING,
     title='Multi-threaded executor with one exclusive group',
-    what='Every callback that the multi-threaded executor serves is in the same mutually '
+    what='All callbacks that the multi-threaded executor serves are in the same mutually '
     'exclusive group. It never runs two of them at once, and costs more than one thread would.',
     why='Entities created without `callback_group` are in the default group of their node, '
     'which is mutually exclusive. Source: rclpy 7.1.6 and 9.1.2, `node.py` '

@@ -21,7 +21,7 @@ def find(context: Context) -> Iterator[Hit]:
         if group.name not in used and is_made(group) and group.source is not None:
             yield Hit(
                 place=group.source,
-                message=f'no callback is in group {group.name!r}',
+                message=f'no callback uses group {group.name!r}',
                 help='pass it as callback_group, or leave it out',
                 subjects=(group.name,),
             )
@@ -31,11 +31,11 @@ RULE = Rule(
     code='CC404',
     slug='unused-group',
     severity=Severity.WARNING,
-    title='Callback group never used',
-    what='A callback group is made, but no entity is created with it. Most often the argument '
+    title='Unused callback group',
+    what='A callback group is created, but no entity uses it. Most often the argument '
     '`callback_group=` was forgotten, and the entity is in the default group.',
-    why='Entities are put into a group by the argument `callback_group` only; without it they '
-    'are in the default group. Source: rclpy 7.1.6 and 9.1.2, `node.py` (`create_timer`, '
+    why='Only the argument `callback_group` puts an entity into a group; without it, the entity '
+    'is in the default group. Source: rclpy 7.1.6 and 9.1.2, `node.py` (`create_timer`, '
     '`create_subscription` …).',
     bad="""\
 class Arm(Node):

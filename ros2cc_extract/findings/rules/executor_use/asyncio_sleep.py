@@ -15,8 +15,8 @@ def find(context: Context) -> Iterator[Hit]:
         if wait.caller.coroutine and is_real_sleep(wait):
             yield Hit(
                 place=wait.place,
-                message=f'{wait.caller.display_name} awaits asyncio.sleep, but its coroutine is '
-                'run by the executor and not by asyncio: it raises RuntimeError',
+                message=f'{wait.caller.display_name} awaits asyncio.sleep, but the executor '
+                'runs its coroutine, not asyncio: it raises RuntimeError',
                 help='let a timer that cancels itself go on after the pause, or await a future '
                 'that a timer in another callback group sets',
                 subjects=(wait.caller.name,),
@@ -38,8 +38,8 @@ RULE = Rule(
     title='asyncio.sleep in a coroutine callback',
     what='A coroutine callback awaits `asyncio.sleep`. It raises `RuntimeError: no running event '
     "loop`, or `await wasn't used with future` where a loop runs around the executor.",
-    why='An executor runs coroutines by itself: its tasks send `None` into them and understand '
-    'rclpy futures only. No asyncio loop is involved. Source: rclpy 7.1.6 and 9.1.2, `task.py` '
+    why='An executor runs coroutines itself: its tasks send `None` into them and understand only '
+    'rclpy futures. No asyncio loop is involved. Source: rclpy 7.1.6 and 9.1.2, `task.py` '
     '(`Task.__call__`). Measured on 7.1.6: under `rclpy.spin`, a multi-threaded executor, and '
     '`spin_once` within an asyncio loop.',
     bad="""\

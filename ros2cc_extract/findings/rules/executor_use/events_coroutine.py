@@ -45,12 +45,12 @@ RULE = Rule(
     severity=Severity.ERROR,
     title='Coroutine callback on an EventsExecutor that cannot run it',
     what='A service or subscription callback is a coroutine, and an `EventsExecutor` serves it. '
-    'Releases before 7.1.11 (Jazzy), 9.1.2 (Kilted) and 10.0.1 take the coroutine for the '
+    'Releases before 7.1.11 (Jazzy), 9.1.2 (Kilted) and 10.0.1 mistake the coroutine for the '
     'result: a service raises `TypeError` out of the spin, a subscription does nothing. A '
-    'warning where the release is not known; `--assume rclpy=7.1.6` says it.',
-    why='`EventsExecutor` looked for a coroutine only after timer callbacks. Sources: rclpy '
-    '7.1.6, `events_executor.cpp`; ros2/rclpy issue 1473, pull requests 1478 and 1613. '
-    'Measured on 7.1.6.',
+    'warning where the release is not known; `--assume rclpy=7.1.6` sets it.',
+    why='`EventsExecutor` checked for a coroutine only after timer callbacks. Sources: rclpy '
+    '7.1.6, `events_executor.cpp`; ros2/rclpy issue 1473, pull requests 1478 and 1613. Measured '
+    'on 7.1.6.',
     bad="""\
 class Gate(Node):
     def __init__(self):

@@ -50,18 +50,18 @@ RULE = Rule(
     code='CC107',
     slug='executor-spun-twice',
     severity=Severity.WARNING,
-    title='Executor spun while it spins',
+    title='Executor spun while it is spinning',
     what='An executor is spun from two threads, by two callbacks that may run at the same time, '
-    'or from inside a callback that it runs itself. `rclpy.spin` and its kin without `executor=` '
-    'all spin one executor, the global one, whatever node they are given. '
-    'Libraries do so too: the methods of `BasicNavigator` spin a node of their own by the global '
-    'executor, which under `rclpy.spin` runs the callback that calls them.',
-    why='The executor walks through what is ready by one generator. From two threads that ends '
-    'in `ValueError: generator already executing` where both ask with the same time-out; nested, '
-    'other callbacks run inside the one '
-    'that waits, and members of its group do not. From rclpy 7.1.9 (Jazzy) and 9.1.5 (Kilted) on '
-    'both raise `RuntimeError: Executor is already spinning`. Sources: rclpy 7.1.6 and 9.1.2, '
-    '`executors.py` (`wait_for_ready_callbacks`); ros2/rclpy pull request 1510.',
+    'or inside a callback that it runs itself. `rclpy.spin` and its relatives without '
+    '`executor=` all spin one executor, the global one, for any node. Libraries do so too: the '
+    'methods of `BasicNavigator` spin their own node with the global executor, which under '
+    '`rclpy.spin` runs the callback that calls them.',
+    why='The executor uses one generator to find what is ready. From two threads that raises '
+    '`ValueError: generator already executing` if both use the same time-out; nested, other '
+    'callbacks run inside the waiting one, but members of its group do not. From rclpy 7.1.9 '
+    '(Jazzy) and 9.1.5 (Kilted) on both raise `RuntimeError: Executor is already spinning`. '
+    'Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`wait_for_ready_callbacks`); ros2/rclpy '
+    'pull request 1510.',
     bad="""\
 class Arm(Node):
     def on_timer(self):

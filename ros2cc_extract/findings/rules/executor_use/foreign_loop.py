@@ -10,15 +10,15 @@ RULE = Rule(
     slug='foreign-loop',
     severity=Severity.WARNING,
     title='asyncio object touched by another thread',
-    what='A callback, or a thread of the program, puts into an `asyncio.Queue`, sets an '
-    '`asyncio.Event` or future, or calls `call_soon` or `create_task` of a loop, and another '
-    'thread runs that loop. The loop is not woken: the coroutine that waits goes on when '
-    'something else wakes it, or never.',
-    why='A loop sleeps until a time or a file descriptor wakes it; `call_soon_threadsafe` writes '
-    'to one, `put_nowait`, `set`, `set_result` and `call_soon` do not, and they keep no lock. '
-    'Sources: Python 3.12, library reference, "Developing with asyncio" (concurrency and '
-    'multithreading), `asyncio/base_events.py`. Measured with rclpy 7.1.6 and 9.1.2: nothing is '
-    'taken out of the queue.',
+    what='A callback, or a thread of the program, puts an item into an `asyncio.Queue`, sets an '
+    '`asyncio.Event` or future, or calls `call_soon` or `create_task` of a loop that another '
+    'thread runs. The loop does not wake up: the waiting coroutine continues when something else '
+    'wakes the loop, or never.',
+    why='A loop sleeps until a timer or a file descriptor wakes it. `call_soon_threadsafe` '
+    'writes to such a descriptor; `put_nowait`, `set`, `set_result` and `call_soon` do not, and '
+    'they take no lock. Sources: Python 3.12, library reference, "Developing with asyncio" '
+    '(concurrency and multithreading), `asyncio/base_events.py`. Measured with rclpy 7.1.6 and '
+    '9.1.2: nothing leaves the queue.',
     bad="""\
 class Bridge(Node):
     def __init__(self, loop, outbox):

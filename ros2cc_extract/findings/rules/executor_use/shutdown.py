@@ -14,17 +14,17 @@ SERVED_NO_MORE = Rule(
     code='CC116',
     slug='served-no-more',
     severity=Severity.WARNING,
-    title='Nothing is served any more',
-    what='A callback destroys its node, or takes it out of its executor, and that executor has no '
-    'other node: the spin goes on, and nothing runs. Or a client is destroyed while somebody '
-    'waits for its answer, a publisher while a thread or another callback may publish by it, or '
-    'one is used in a callback that has shut rclpy down.',
-    why='`spin` ends with rclpy and not with the last node. `Client.call` waits for an event that '
-    'the executor sets when it has taken the answer, which it does only for clients that are '
-    'there. Who publishes by a publisher that is gone gets an exception, which ends its thread. '
-    'Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`spin`), `client.py` (`call`), '
-    '`publisher.py`. Measured on both: a timer of 0.2 s falls silent, a call waits for ever, and '
-    'a publisher raises `RCLError` or `InvalidHandle`.',
+    title='Nothing is served anymore',
+    what='A callback destroys its node, or removes it from its executor, and that executor has '
+    'no other node: the spin continues, and nothing runs. Or a client is destroyed during a wait '
+    'for its answer, a publisher while a thread or another callback may still use it, or an '
+    'entity is used in a callback that has shut rclpy down.',
+    why='`spin` ends when rclpy is shut down, not when the last node is gone. `Client.call` '
+    'waits for an event that the executor sets when it has taken the answer, which it does only '
+    'for clients that exist. Publishing with a destroyed publisher raises an exception, which '
+    'ends the thread. Sources: rclpy 7.1.6 and 9.1.2, `executors.py` (`spin`), `client.py` '
+    '(`call`), `publisher.py`. Measured on both: a timer of 0.2 s falls silent, a call never '
+    'returns, and a publisher raises `RCLError` or `InvalidHandle`.',
     bad="""\
 class Job(Node):
     def work(self):
@@ -45,14 +45,15 @@ DESTROYED_WHILE_SPUN = Rule(
     slug='destroyed-while-spun',
     severity=Severity.WARNING,
     title='Entity destroyed while another thread spins it',
-    what='A callback of a pool, or a thread of the program, destroys a subscription, timer, '
-    'client or service of a node that another thread spins. A note for one that the set-up or a '
-    'life-cycle transition has made: it goes once, and each time the spin most likely goes on.',
-    why='The thread that spins reads the handle of each entity behind its wait; of one that was '
-    'destroyed meanwhile that raises `InvalidHandle`, which ends the spin. Measured: on rclpy '
+    what='A callback in a thread pool, or a thread of the program, destroys a subscription, '
+    'timer, client or service of a node that another thread spins. A note for an entity that the '
+    'set-up or a life-cycle transition created: it is destroyed once, and the spin most likely '
+    'survives.',
+    why='The spinning thread reads the handle of each entity after its wait; if the entity was '
+    'destroyed meanwhile, that raises `InvalidHandle`, which ends the spin. Measured: on rclpy '
     '7.1.6 after 34 to 43 times, on 3.3.21 after 3, on 9.1.2 not in 243. The timer of a `Rate` '
-    'may go at any time: no spin ended in 10,385 rounds on 7.1.6. Sources: rclpy 7.1.6, '
-    '`executors.py` (`_wait_for_ready_callbacks`); ros2/rclpy issue 1206.',
+    'may be destroyed at any time: no spin ended in 10,385 rounds on 7.1.6. Sources: rclpy '
+    '7.1.6, `executors.py` (`_wait_for_ready_callbacks`); ros2/rclpy issue 1206.',
     bad="""\
 class View(Node):                 # on a MultiThreadedExecutor
     def on_topic(self, request, response):
@@ -73,12 +74,12 @@ SHUT_DOWN_IN_CALLBACK = Rule(
     code='CC118',
     slug='shut-down-in-callback',
     severity=Severity.NOTE,
-    title='Shut down inside a callback',
+    title='Shutdown inside a callback',
     what='A callback calls `rclpy.shutdown()` under `rclpy.spin`, or `shutdown()` of the '
     'single-threaded executor that runs it.',
-    why='On Humble (rclpy 3.3) the shutdown waits until all callbacks have ended, that one too. '
-    'Later releases go on. Measured: 3.3.21 hangs, rclpy 7.1.6 and 9.1.2 end. Sources: 3.3.21, '
-    '`executors.py` (`shutdown`); ros2/rclpy issue 944.',
+    why='On Humble (rclpy 3.3) the shutdown waits until all callbacks have ended, including the '
+    'one that calls it. Later releases do not wait. Measured: 3.3.21 hangs, rclpy 7.1.6 and '
+    '9.1.2 end. Sources: 3.3.21, `executors.py` (`shutdown`); ros2/rclpy issue 944.',
     bad="""\
 class Job(Node):
     def on_done(self, msg):

@@ -14,11 +14,11 @@ NOT_SPUN = Rule(
     slug='executor-not-spun',
     severity=Severity.WARNING,
     title='Executor never spun',
-    what='An executor is made and given nodes, but never spun; the nodes are run by another '
-    'executor, or by none. Most often `rclpy.spin(node)` is called where `executor.spin()` was '
+    what='An executor is created and given nodes, but never spun; another executor runs the '
+    'nodes, or none does. Most often `rclpy.spin(node)` is called where `executor.spin()` was '
     'meant, and everything runs on one thread.',
-    why='`rclpy.spin(node)` adds the node to the global single-threaded executor, which takes it '
-    'out of the one it was in. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` (`spin`), '
+    why='`rclpy.spin(node)` adds the node to the global single-threaded executor, which removes '
+    'it from its previous executor. Sources: rclpy 7.1.6 and 9.1.2, `__init__.py` (`spin`), '
     '`node.py` (setter of `executor`).',
     bad="""\
 executor = MultiThreadedExecutor()
@@ -36,11 +36,11 @@ TAKEN_OUT = Rule(
     code='CC406',
     slug='node-taken-out',
     severity=Severity.WARNING,
-    title='Node taken out of its executor',
-    what='A node that an executor serves is given to another one. A node is in one executor '
-    'only, the one that added it last, and in none after `rclpy.spin_until_future_complete` or '
-    '`rclpy.spin_once` has taken it. Code counts that `main` or a thread runs beside a spin, and '
-    'what is handed to others, as to the buttons of a window.',
+    title='Node removed from its executor',
+    what='A node that one executor serves is given to another one. A node is in one executor '
+    'only: the one that added it last. After `rclpy.spin_until_future_complete` or '
+    '`rclpy.spin_once` it is in none. This rule checks code that `main` or a thread runs beside '
+    'a spin, and code that is passed to others, such as the handlers of a window.',
     why='`add_node` sets `node.executor`, and that setter removes the node from its previous '
     'executor. Sources: rclpy 7.1.6 and 9.1.2, `node.py`, `executors.py`.',
     bad="""\
@@ -59,19 +59,18 @@ MESSAGE_TAKEN = Rule(
     code='CC122',
     slug='message-taken',
     severity=Severity.WARNING,
-    title='Message waited for that an executor may take',
-    what='`wait_for_message` is called with a node that an executor spins meanwhile: by `main` or '
-    'a thread beside the spin, by a callback of another executor, or by one that lets the pool '
-    'run the default group of the node. Where the group is closed meanwhile, or the only thread '
-    'waits itself, the executor takes nothing.',
-    why='`wait_for_message` makes a subscription of the node, and looks at it by a wait set of '
-    'its own. The executor that spins the node sees the subscription too, and who comes first '
-    'takes the message. `wait_for_message` then gives `(False, None)`, long before any time-out, '
-    'or waits for the next message; of a latched topic none comes. Measured: `main` read twelve '
-    'latched topics by a node that a thread spun, and hung in four of four runs (after one to '
-    'nine of them, when it was killed after 25 s); by a node that nobody spun it got all. '
-    'Sources: rclpy 7.1.6 and 9.1.2, `wait_for_message.py`, `executors.py` '
-    '(`_take_subscription`).',
+    title='Message that an executor may take first',
+    what='`wait_for_message` is called with a node that an executor spins at the same time: in '
+    '`main` or a thread beside the spin, in a callback of another executor, or in one that lets '
+    'the pool run the default group of the node. If the group is closed meanwhile, or the only '
+    'thread is the one that waits, the executor takes nothing.',
+    why='`wait_for_message` creates a subscription of the node and uses its own wait set. The '
+    'executor that spins the node sees the subscription too, and whichever comes first takes the '
+    'message. Then `wait_for_message` returns `(False, None)`, long before any time-out, or '
+    'waits for the next message; a latched topic has none. Measured: `main` read twelve latched '
+    'topics with a node that a thread spun, and hung in four of four runs (after one to nine of '
+    'them, when it was killed after 25 s); with a node that nothing spun it got all. Sources: '
+    'rclpy 7.1.6 and 9.1.2, `wait_for_message.py`, `executors.py` (`_take_subscription`).',
     bad="""\
 threading.Thread(target=rclpy.spin, args=(node,)).start()
 got, grid = wait_for_message(OccupancyGrid, node, 'map')
@@ -89,12 +88,12 @@ UNREADABLE = Rule(
     slug='unreadable',
     severity=Severity.ERROR,
     title='Not read, or not followed to its end',
-    what='A file is no UTF-8 text, does not parse as Python, or could not be opened: nothing in '
-    'it was checked. Or the model of a unit could not be used, which is a defect of this tool: '
-    'the other units were verified. As a warning: a program is too long to be followed to its '
-    'end, or makes entities of an object that is no node in sight; they are missing from the '
+    what='A file is not UTF-8 text, is not valid Python, or could not be opened: nothing in it '
+    'was checked. Or the model of a unit could not be used, which is a bug in this tool: the '
+    'other units were verified. As a warning: a program is too long to be followed to its end, '
+    'or creates entities of an object that is not known to be a node; they are missing from the '
     'units.',
-    why='The extractor reads source by the syntax of the Python version it runs on.',
+    why='The scanner reads source by the syntax of the Python version it runs on.',
     bad="""\
 def on_timer(self:
 """,

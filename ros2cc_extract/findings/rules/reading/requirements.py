@@ -25,7 +25,7 @@ VIOLATED = Rule(
     slug='requirement-violated',
     severity=Severity.ERROR,
     title='Requirement violated',
-    what='The project demands something of its callbacks, and the model of their unit refutes '
+    what='The project requires something of its callbacks, and the model of their unit refutes '
     'it. Callbacks of different executors may always overlap.',
     why=_WHY,
     bad=_TABLE,
@@ -42,10 +42,10 @@ UNKNOWN_NAME = Rule(
     slug='requirement-about-nothing',
     severity=Severity.ERROR,
     title='Requirement about a callback that does not exist',
-    what='The project demands something of a callback, and no unit has a callback of that name. '
-    'A requirement that silently demands nothing would be worse than none.',
-    why='A callback is named by its function (`on_stop`), its qualified function, or as '
-    '`ros2cc-extract spec` shows it.',
+    what='The project requires something of a callback, and no unit has a callback of that name. '
+    'A requirement that silently requires nothing would be worse than none.',
+    why='A callback is named by its function (`on_stop`), by its qualified function name, or as '
+    'in the output of `ros2cc-extract spec`.',
     bad="""\
 [tool.ros2cc]
 never_starves = ["on_stopp"]
@@ -61,7 +61,7 @@ UNDECIDED = Rule(
     slug='requirement-undecided',
     severity=Severity.WARNING,
     title='Requirement undecided',
-    what='The project demands something of its callbacks, and the check ended by a limit before '
+    what='The project requires something of its callbacks, and a limit ended the check before '
     'the model could decide it.',
     why=_WHY,
     bad=_TABLE,

@@ -43,10 +43,10 @@ RULE = Rule(
     severity=Severity.NOTE,
     title='Fact not resolved',
     what='A callback, group, executor or one of their properties could not be followed in the '
-    'source. Rules that rest on it are silent, and models state what was assumed instead.',
+    'source. Rules that depend on it report nothing, and models state what was assumed instead.',
     why='Python allows what no scanner can follow: groups from parameters, executors from '
-    'factories, names computed at run time. Nothing is guessed: an unknown group is not the '
-    'default group.',
+    'factories, names computed at run time. The scanner never guesses: an unknown group is not '
+    'the default group.',
     bad="""\
 class Arm(Node):
     def __init__(self):
