@@ -308,7 +308,7 @@ class _Scan:
                 place=Place(places[0], 1, 1),
                 message=f'{len(places)} of {len(cut)} files are not followed to their end: '
                 f'{next(filter(None, cut))}',
-                help='what they would make is missing from the units',
+                help='what they would create is missing from the units',
             )
 
     def _step(self, files: int) -> None:

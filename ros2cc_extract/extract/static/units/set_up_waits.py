@@ -24,9 +24,9 @@ from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import s
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
-_UNSPUN = 'nobody is seen to spin {node} meanwhile'
-_NOBODY = 'nobody in sight ends it'
-_STAYS = 'the thread may go round for ever'
+_UNSPUN = 'nothing in sight spins {node} meanwhile'
+_NOBODY = 'nothing in sight ends it'
+_STAYS = 'the thread may loop forever'
 
 
 def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
@@ -101,7 +101,7 @@ def _why_open(
     if reasons and is_met:
         return None
     if wait.uncalled:
-        return f'nobody in sight calls {wait.uncalled}'
+        return f'nothing in sight calls {wait.uncalled}'
     return open_ones[0] if open_ones else _NOBODY
 
 

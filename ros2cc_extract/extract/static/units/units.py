@@ -76,8 +76,8 @@ def _not_told(cut: Cut) -> Diagnostic:
         severity=Severity.WARNING,
         slug='not-followed',
         place=cut.place,
-        message=f'{cut.reason}: its object is no node that is known',
-        help='what it would make is missing from the units',
+        message=f'{cut.reason}: its object is not known to be a node',
+        help='what it would create is missing from the units',
     )
 
 

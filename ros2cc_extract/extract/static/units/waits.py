@@ -384,7 +384,7 @@ class UnitWaits(DataWriters):
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(
-                f'nobody in sight calls {uncalled.uncalled}, which ends it', uncalled.place
+                f'nothing in sight calls {uncalled.uncalled}, which ends it', uncalled.place
             )
         return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
@@ -477,7 +477,7 @@ def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) ->
         return Unknown('how many threads come there is not known', raw.source)
     if words == {Word.END}:
         is_join = raw.call.endswith('.join')
-        reason = 'nobody in sight starts it' if is_join else 'its end is not in sight'
+        reason = 'nothing in sight starts it' if is_join else 'its end is not in sight'
         return Unknown(reason, raw.source)
     kept = world.kept_inside.get(raw.resource.number)
     return Unknown(_KEPT, kept) if kept is not None else None

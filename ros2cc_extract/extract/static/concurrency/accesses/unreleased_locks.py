@@ -186,6 +186,6 @@ def _kept(function: Function, call: ast.Call, lock: str, way: ast.stmt) -> Diagn
         slug='lock-kept',
         place=Place(file, way.lineno, way.col_offset + 1),
         message=f'{function.name} {"returns" if is_return else "may end"} here and keeps {lock}, '
-        f'taken at line {call.lineno}: whoever takes it next waits for ever',
+        f'taken at line {call.lineno}: the next one that takes it waits forever',
         help=f'write "with {lock}:", which gives it back however it is left',
     )

@@ -111,7 +111,7 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
         slug=_ASYNCIO_AWAIT,
         place=place,
         message='asyncio awaits an rclpy future: from rclpy 7.1.9 on this raises RuntimeError '
-        'unless the future is done already',
+        'unless the future is already done',
         help='await it in a callback or an executor task, or await an asyncio future that its '
         'done-callback sets by loop.call_soon_threadsafe',
     )

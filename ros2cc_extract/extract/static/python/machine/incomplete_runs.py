@@ -17,7 +17,7 @@ def note_cut(world: World, place: Place, message: str) -> None:
             slug='not-followed',
             place=place,
             message=message,
-            help='what it would make is missing from the units',
+            help='what it would create is missing from the units',
         )
     )
     world.cut.append(Cut(message, place))

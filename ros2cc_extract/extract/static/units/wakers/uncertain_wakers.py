@@ -77,7 +77,7 @@ def _why_one_is_gone(
         return None
     its_name = name(waker) or 'a callback'
     if waker.dormant is not None and not waker.restarted:
-        return Unknown(f'nobody in sight starts the timer of {its_name}', waker.dormant)
+        return Unknown(f'nothing in sight starts the timer of {its_name}', waker.dormant)
     for end in world.ends:
         if _is_of(end, waker) and not _ends_all(end, world) and not is_harmless(end):
             doer = 'a thread' if isinstance(end.doer, ActivityState) else 'a callback'
@@ -194,7 +194,7 @@ def _when_lost(
     others = (each for each in doers if each not in wakers)
     names = guard.names.intersection(*(each.wrote for each in notifiers))
     taken_back = any(names & _written_by(other) for other in others)
-    return 'what it tells is taken back' if taken_back and _comes_again(world, doer) else None
+    return 'its signal is undone' if taken_back and _comes_again(world, doer) else None
 
 
 def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:

@@ -97,8 +97,8 @@ def _told(end: End, use: End, publisher: Instance) -> Diagnostic:
         severity=Severity.WARNING,
         slug='served-no-more',
         place=end.place,
-        message=f'this publisher{name} is destroyed while {who} may publish by it ({use.place}): '
-        'that raises InvalidHandle there',
+        message=f'this publisher{name} is destroyed while {who} may use it ({use.place}): that '
+        'raises InvalidHandle there',
         help='end the thread first, or publish and change the publisher under one lock, and '
         'destroy the old one after that'
         if isinstance(use.doer, ActivityState)

@@ -144,7 +144,7 @@ def _spun_twice(
         slug='executor-spun-twice',
         place=place,
         message=f'{how} spins {name} while {other}: {before}, and from rclpy 7.1.9 on the second '
-        'ends by RuntimeError',
+        'raises RuntimeError',
         help='spin an executor in one thread, and wait for what comes there in the others'
         if not state.is_global
         else 'give each thread an executor of its own, or one executor all nodes',

@@ -179,8 +179,8 @@ def _used(end: End) -> Diagnostic:
         severity=Severity.ERROR,
         slug='served-no-more',
         place=end.place,
-        message=f'a callback shuts rclpy down, and then {end.text}: that raises, and ends the '
-        'spin',
+        message=f'a callback shuts rclpy down, and then {end.text}: that raises an '
+        'exception and ends the spin',
         help='shut down last, or let the code after the spin do it',
     )
 
@@ -192,7 +192,7 @@ def _waits_for_its_end(end: End) -> Diagnostic:
         slug='shut-down-in-callback',
         place=end.place,
         message=f'a callback shuts down {what} and waits for its own end: on Humble (rclpy 3.3) '
-        'it waits for ever',
+        'it never returns',
         help='make a future done and spin until that, or raise SystemExit; shut down after the '
         'spin',
     )
@@ -204,20 +204,20 @@ def _ends_its_executor(end: End) -> Diagnostic:
         slug='served-no-more',
         place=end.place,
         message='a callback shuts down the executor that runs it: the spin ends, perhaps before '
-        'this callback has, and none of its callbacks runs any more',
+        'this callback, and none of its callbacks runs again',
         help='make a future done and spin until that; shut down behind the spin',
     )
 
 
 def _serves_nothing(end: End) -> Diagnostic:
     does = (
-        'destroys its node' if end.kind == DESTROY_NODE else 'takes its node out of the executor'
+        'destroys its node' if end.kind == DESTROY_NODE else 'removes its node from the executor'
     )
     return Diagnostic(
         severity=Severity.WARNING,
         slug='served-no-more',
         place=end.place,
-        message=f'a callback {does}: none of its callbacks runs any more, and the spin goes on '
+        message=f'a callback {does}: none of its callbacks runs again, and the spin continues '
         'with nothing to serve',
         help='end the spin instead: make a future done and spin until that, or raise SystemExit',
     )
@@ -230,7 +230,7 @@ def _awaited(end: End, entity: EntityState, wait: Blocking) -> Diagnostic:
         slug='served-no-more',
         place=end.place,
         message=f'client{name} is destroyed here while {wait.call} may wait for its answer '
-        f'({wait.source}): nobody takes that any more, and it waits for ever',
+        f'({wait.source}): nothing takes that answer any more, and it never returns',
         help='keep the client for as long as the program runs',
     )
 
@@ -244,7 +244,7 @@ def _destroyed_meanwhile(
         slug='destroyed-while-spun',
         place=end.place,
         message=f'this {kind} is destroyed while another thread spins '
-        f'{executor.hint or "its executor"}: up to Jazzy (rclpy 7.1) that spin may end by '
+        f'{executor.hint or "its executor"}: up to Jazzy (rclpy 7.1) that spin may raise '
         'InvalidHandle',
         help='keep it and let its callback do nothing, or destroy it when nobody spins',
     )

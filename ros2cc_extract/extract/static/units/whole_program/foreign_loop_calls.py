@@ -77,6 +77,6 @@ def _foreign(touch: LoopTouch) -> Diagnostic:
         slug='foreign-loop',
         place=touch.place,
         message=f'{touch.how} touches {whose}: it does not wake that loop, which may wait '
-        'for ever, and is not made for two threads',
+        'forever, and is not thread-safe',
         help=f'hand it over to the loop: {instead}',
     )

@@ -207,7 +207,7 @@ def _leaves(state: ActivityState) -> bool:
     return any(isinstance(part, (ast.Break, ast.Return)) for part in ast.walk(function.node))
 
 
-_NOT_SPUN = 'and nobody spins the node whose callback would end that'
+_NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
 
 def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
@@ -220,7 +220,7 @@ def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
         slug='nobody-spins',
         place=wait.place,
         message=f'{JOIN} waits for a thread that waits in {block.call} for {awaited}{at}, '
-        f'{why}{when}: {may} for ever',
+        f'{why}{when}: {may} forever',
         help=_help(wait, block),
     )
 

@@ -61,9 +61,9 @@ def _told(spin: Spin, other: Spin) -> Diagnostic:
         severity=Severity.WARNING,
         slug=SLUG,
         place=spin.place,
-        message=f'{spin.how} in a thread takes the node out of {name} ({kind}, '
-        f'{other.executor.place}), which serves it meanwhile; after that it is in none until '
-        'somebody adds it again',
+        message=f'{spin.how} in a thread removes the node from {name} ({kind}, '
+        f'{other.executor.place}), which serves it meanwhile; then the node is in no executor '
+        'until it is added again',
         help=f'leave this out, {name} is spun by another thread: wait for the future by an Event '
         'that its done-callback sets',
     )

@@ -74,13 +74,13 @@ def _told(wait: MessageWait) -> Diagnostic:
     who = 'another thread spins'
     if wait.by is not None:
         who = 'another thread of its executor serves'
-    or_else = '' if wait.has_limit else ', or waits for the next one, for ever if none comes'
+    or_else = '' if wait.has_limit else ', or waits for the next one, forever if none comes'
     return Diagnostic(
         severity=Severity.WARNING,
         slug='message-taken',
         place=wait.outside.place,
-        message=f'{CALL} makes a subscription of a node that {who} meanwhile, which may take the '
-        f'message first: then {CALL} gives up with False{or_else}',
+        message=f'{CALL} creates a subscription of a node that {who} meanwhile and that may take '
+        f'the message first: then {CALL} returns False{or_else}',
         help='wait with a node of its own that nobody spins, or subscribe and wait for an event '
         'that the callback sets',
     )

@@ -118,8 +118,8 @@ def _endless(state: ActivityState, loop: Place) -> Diagnostic:
         severity=Severity.WARNING,
         slug='nobody-spins',
         place=state.place,
-        message=f'the program ends only when {_who(state)} has ended; that goes round in a loop '
-        f'({loop}) which nothing ends: the program stays for ever',
+        message=f'the program ends only when {_who(state)} has ended; which runs a loop '
+        f'({loop}) that nothing ends: the program never exits',
         help=f'ask for rclpy.ok() or a flag in the loop; or {_daemon(state)}',
     )
 
@@ -129,8 +129,8 @@ def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
         severity=Severity.WARNING,
         slug='nobody-spins',
         place=again,
-        message='this timer thread, no daemon, arms itself anew in each run, and a cancel while '
-        'its function runs ends nothing: the program may stay for ever',
+        message='this timer thread is not a daemon and restarts itself in each run, and a cancel '
+        'while its function runs has no effect: the program may never exit',
         help='ask before, under a lock, for a flag that whoever stops it changes under that lock; '
         'or start it as a daemon',
     )
@@ -138,7 +138,7 @@ def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
 
 def _who(state: ActivityState) -> str:
     is_pool = state.kind is ActivityKind.POOL
-    return 'this task of a pool' if is_pool else 'the thread that is started here, no daemon,'
+    return 'this pool task' if is_pool else 'the non-daemon thread started here'
 
 
 def _daemon(state: ActivityState) -> str:
@@ -152,9 +152,9 @@ def _told(state: ActivityState, block: Blocking) -> Diagnostic:
         severity=Severity.WARNING,
         slug='nobody-spins',
         place=state.place,
-        message=f'the program ends only when {_who(state)} has ended; that waits in '
-        f'{block.call} for {block.resource}{at}, and nobody spins the node whose callback '
-        'would end it any more: the program may stay for ever',
+        message=f'the program ends only when {_who(state)} has ended; which waits in '
+        f'{block.call} for {block.resource}{at} while nothing spins the node whose callback '
+        'would end that any more: the program may never exit',
         help='wake it when the spin is over, by a last item or a flag that it asks for, or give '
         f'its wait a time-out; or {_daemon(state)}',
     )

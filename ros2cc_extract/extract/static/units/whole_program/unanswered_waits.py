@@ -96,14 +96,14 @@ def _wakings_of(thing: Instance, world: RosWorld) -> Sequence[Waking]:
 
 
 def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: bool) -> Diagnostic:
-    what = 'nobody ends that wait'
+    what = 'nothing ends that wait'
     if has_node:
-        what = 'nobody spins the node whose callback would end it'
+        what = 'nothing spins the node whose callback would end it'
     return Diagnostic(
         severity=Severity.WARNING if is_meant else Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
-        message=f'{wait.call} waits for {name}, but {what}: it waits for ever',
+        message=f'{wait.call} waits for {name}, but {what}: it waits forever',
         help='spin the node in a thread before, and only there'
         if has_node
         else 'end it somewhere, or give it a time-out',
@@ -172,8 +172,8 @@ def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic
         severity=Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
-        message=f'{call} waits for {awaited} while nobody spins the node that {what}: '
-        'it waits for ever',
+        message=f'{call} waits for {awaited} while nothing spins the node that {what}: '
+        'it waits forever',
         help='use time.sleep, or spin the node in a thread before, and only there'
         if wait.call == RATE
         else 'spin the nodes concerned in a thread before, and only there, or wait by '

@@ -139,7 +139,7 @@ def _warn_of_theft(
                 severity=Severity.WARNING,
                 slug='executor-not-spun' if not other.state.spun else 'node-taken-out',
                 place=place,
-                message=f'rclpy.{how} takes the node out of {name} ({other.state.kind}, '
+                message=f'rclpy.{how} removes the node from {name} ({other.state.kind}, '
                 f'{other.place}) and runs it on '
                 + (
                     'the global single-threaded executor'
