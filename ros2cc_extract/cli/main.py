@@ -28,22 +28,22 @@ from ros2cc_extract.version import PROGRAM, __version__
 
 DEFAULT_COMMAND = 'check'
 COMMANDS = {
-    'check': 'extract, model, verify and tell (the default: `ros2cc-extract my_node.py`)',
+    'check': 'find what can go wrong (the default: `ros2cc-extract my_node.py`)',
     'fleet': 'check many repositories, with one result each',
     'spec': 'print the YAML specification of a node',
     'model': 'write the UPPAAL model and its queries',
     'verify': 'print the verdict table of a specification or a model',
-    'explain': 'tell what a rule means and how to mend what it finds',
-    'run': 'start a command with the live hook and write what its nodes hold',
-    'env': 'print the environment variables that switch the live hook on',
-    'collect': 'write the specification of what nodes switched on by `env` have recorded',
-    'attach': 'write the specification of a process that already runs',
+    'explain': 'explain what a rule means and how to fix what it finds',
+    'run': 'start a command with the live hook and write the specification of its nodes',
+    'env': 'print the environment variables that turn the live hook on',
+    'collect': 'write the specification of the nodes that `env` has recorded',
+    'attach': 'write the specification of a running process',
     'why': 'explain why running nodes hang, or show that they do not',
-    'conform': 'decide whether a recorded execution is a path of the model',
-    'diff': 'compare two specifications of one program',
-    'upgrade': 'tell what changes when another release of rclpy runs the nodes',
-    'init': 'write the test file, hook and job that guard a ROS 2 package',
-    'merge': 'join a specification from source with one from a live run',
+    'conform': 'check whether a recorded execution is a path of the model',
+    'diff': 'compare two specifications of the same program',
+    'upgrade': 'list what changes when another release of rclpy runs the nodes',
+    'init': 'add the check to a ROS 2 package: test, hooks and CI jobs',
+    'merge': 'merge a specification from source with one from a live run',
 }
 OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why')
 WRITES_DATA = ('spec', 'merge')
@@ -86,7 +86,7 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM}: error: {_refusal(error)}', file=stderr)
         return EXIT_ERROR
     except MemoryError:
-        print(f'{PROGRAM}: error: there is not enough memory', file=stderr)
+        print(f'{PROGRAM}: error: not enough memory', file=stderr)
         return EXIT_ERROR
     except RecursionError:
         print(f'{PROGRAM}: error: the input is nested too deeply', file=stderr)
@@ -94,7 +94,7 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
     except Exception as error:
         told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
         print(f'{PROGRAM}: internal error: {type(error).__name__}: {told}', file=stderr)
-        print('this is a defect of the tool; ROS2CC_TRACEBACK=1 shows where', file=stderr)
+        print('this is a bug in ros2cc-extract; ROS2CC_TRACEBACK=1 shows where', file=stderr)
         if os.environ.get('ROS2CC_TRACEBACK'):
             for line in ''.join(traceback.format_exception(error)).splitlines():
                 print(line, file=stderr)
@@ -151,7 +151,7 @@ def _refusal(error: OSError) -> str:
     """What the system does not let us do, as far as it is not told where it happens."""
     reason = error.strerror or str(error) or type(error).__name__
     if not _has_folder():
-        return 'the current folder is not there any more'
+        return 'the current folder no longer exists'
     return f'{os.fsdecode(error.filename)}: {reason}' if error.filename else reason
 
 
@@ -180,13 +180,14 @@ def _overview() -> str:
     return f"""usage: {PROGRAM} PATH...            check a node file or a whole repository
        {PROGRAM} COMMAND [options]
 
-Finds what the callbacks of a ROS 2 Python node can do to each other: extracts callbacks, groups,
-executors and threads from the source, model-checks them, and tells the result at your own lines.
+Finds deadlocks, data races and starvation in the callbacks of ROS 2 Python nodes: extracts
+callbacks, groups, executors and threads from the source, checks every interleaving with a model
+checker, and reports what it finds at your own lines.
 
 commands:
 {listing}
 
-`{PROGRAM} COMMAND --help` tells more. Exit status: 0 clean, 1 findings, 2 usage or input
+`{PROGRAM} COMMAND --help` lists its options. Exit status: 0 clean, 1 findings, 2 usage or input
 error, 3 undecided.
 """
 

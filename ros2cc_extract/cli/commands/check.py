@@ -44,44 +44,44 @@ FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_paths(parser)
     parser.add_argument(
-        '-o', '--output', type=Path, metavar='DIR', help='keep specification, model and queries'
+        '-o',
+        '--output',
+        type=Path,
+        metavar='DIR',
+        help='write specification, model and queries to DIR',
     )
     parser.add_argument(
         '--strict',
         action='store_true',
-        help='exit 3 when a fact is unresolved or a wait undecided',
+        help='exit with status 3 if a fact is unresolved or a wait undecided',
     )
     parser.add_argument('--output-format', choices=FORMATS, default='text')
     how_much = parser.add_mutually_exclusive_group()
     how_much.add_argument(
-        '-q', '--quiet', action='store_true', help='text: one line for each finding, and the last'
+        '-q',
+        '--quiet',
+        action='store_true',
+        help='text: one line for each finding, and the last line',
     )
     how_much.add_argument(
         '-v',
         '--verbose',
         action='store_true',
-        help='text: every note with its line, whole runs, and all units with their groups',
+        help='text: every note with its line, complete runs, and all units with their groups',
     )
     parser.add_argument(
         '--verdicts',
         action='store_true',
-        help="text, html: every unit's table of queries and verdicts too, as verify prints it",
+        help='text, html: also show the queries and verdicts of each unit, as verify does',
     )
     parser.add_argument(
         '--assume',
         action='append',
         default=[],
         metavar='FACT',
-        help='fill a hole: threads=4, executor=MultiThreadedExecutor, group.NAME=REENTRANT',
+        help='assume a fact: threads=4, executor=MultiThreadedExecutor, group.NAME=REENTRANT',
     )
-    only_new = parser.add_argument_group('only what is new')
-    only_new.add_argument('--baseline', type=Path, metavar='FILE', help='accept what it lists')
-    only_new.add_argument(
-        '--write-baseline', type=Path, metavar='FILE', help='accept all of today, into FILE'
-    )
-    only_new.add_argument(
-        '--diff-base', metavar='REV', help='accept what was there where the change left REV of git'
-    )
+    _add_what_is_accepted(parser)
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=DEFAULT_SECONDS)
     parser.add_argument(
@@ -89,8 +89,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=number_of_seconds,
         default=DEFAULT_MAX_SECONDS,
         metavar='S',
-        help='scan and verify all together for S seconds at most (default %(default)g); what '
-        'is open then is undecided',
+        help='stop after S seconds in total (default %(default)g); the rest is undecided',
+    )
+
+
+def _add_what_is_accepted(parser: argparse.ArgumentParser) -> None:
+    only_new = parser.add_argument_group('only new findings')
+    only_new.add_argument(
+        '--baseline', type=Path, metavar='FILE', help='accept the findings in FILE'
+    )
+    only_new.add_argument(
+        '--write-baseline',
+        type=Path,
+        metavar='FILE',
+        help='write all findings to FILE, to be accepted',
+    )
+    only_new.add_argument(
+        '--diff-base', metavar='REV', help='accept findings that were already in git revision REV'
     )
     add_dask_argument(parser, 'units')
     _add_shards(parser)
@@ -151,7 +166,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         return EXIT_CLEAN
     _tell(args, outcome, job, stdout, time.monotonic() - begun)
     if outcome.interrupted:
-        print('interrupted: what was not verified by then is undecided', file=stderr)
+        print('interrupted: what was not verified yet is undecided', file=stderr)
         return termination.status
     if not outcome.units and job.sees_all and not has_unread(outcome.extraction.diagnostics):
         _tell_nothing_judged(outcome.extraction.files_seen, stderr)
@@ -236,7 +251,7 @@ def _keep(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> None:
         )
         for name, text in model_files(rendered).items():
             write_atomically(folder / name, text)
-    print(f'kept {len(outcome.units)} units in {args.output}', file=stderr)
+    print(f'wrote {len(outcome.units)} units to {args.output}', file=stderr)
 
 
 def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> None:
@@ -291,9 +306,9 @@ def _tell_release(rclpy: str | None, stderr: TextIO) -> None:
 
 def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:
     """Zero problems of nothing may read as safe."""
-    told = 'nothing was judged: no rclpy node with a callback found'
+    told = 'nothing to check: no rclpy node with a callback found'
     if any(file.endswith(LAUNCH_SUFFIXES) for file in files):
-        told += '; launch files are not followed, name the Python files of their nodes'
+        told += '; launch files are not followed: name the Python files of their nodes'
     print(told, file=stderr)
 
 

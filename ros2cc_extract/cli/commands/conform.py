@@ -23,8 +23,9 @@ ALLOWED_SHOWN = 12
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'Exit status: 0 it is a path of the model; 1 it is not; 2 the input cannot be used; '
-        '3 undecided: a\nlimit was hit, or the specification does not tell enough.'
+        'Exit status: 0 it is a path of the model; 1 it is not; 2 input error; 3 undecided: a '
+        'limit '
+        'was\nhit, or the specification says too little.'
     )
     parser.add_argument(
         'trace', type=Path, metavar='TRACE', help='what `run --trace` wrote (JSON lines)'
@@ -33,18 +34,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'spec',
         type=Path,
         metavar='SPEC',
-        help='a YAML specification (- is a pipe), or Python source',
+        help='a YAML specification (- for standard input), or Python source',
     )
     parser.add_argument(
         '--events',
         type=int,
         default=EVENTS_SHOWN,
         metavar='N',
-        help='how many events before a divergence are shown (default %(default)s)',
+        help='show N events before the divergence (default %(default)s)',
     )
-    parser.add_argument(
-        '--max-states', type=int, metavar='N', help='look at no more than about N states'
-    )
+    parser.add_argument('--max-states', type=int, metavar='N', help='stop after about N states')
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:

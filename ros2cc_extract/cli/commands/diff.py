@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'Exit status: 0 no difference, or only announced ones: what a side says may happen or is '
-        'not\nknown to it; 1 a difference; 2 the input cannot be used.'
+        'Exit status: 0 no difference, or only in facts that one side marks as conditional or '
+        'unknown;\n1 a difference; 2 input error.'
     )
     for name in ('left', 'right'):
         parser.add_argument(
             name,
             type=Path,
             metavar=name.upper(),
-            help='a YAML specification (- is a pipe), or Python source',
+            help='a YAML specification (- for standard input), or Python source',
         )
     parser.add_argument('--output-format', choices=['text', 'json', 'mermaid'], default='text')
 

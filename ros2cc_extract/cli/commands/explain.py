@@ -9,7 +9,9 @@ from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('codes', nargs='*', metavar='CODE', help='CC101 …; none lists all rules')
+    parser.add_argument(
+        'codes', nargs='*', metavar='CODE', help='such as CC101; without a code, list all rules'
+    )
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:

@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--install',
         metavar='SOURCE',
-        help='what the job installs: a commit of the repository, or a wheel (default: what was '
+        help='what the jobs install: a commit of the repository, or a wheel (default: what is '
         'installed here)',
     )
     for name, what in (
@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ('--gitlab', 'a job for GitLab CI'),
     ):
         parser.add_argument(
-            name, action='store_true', help=f'write {what}, at the top of the repository'
+            name, action='store_true', help=f'also write {what}, at the top of the repository'
         )
 
 

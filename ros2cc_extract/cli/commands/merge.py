@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'What the source does not know is taken from the run, with what only the run holds. Known '
-        'facts\nthat differ are told, and those of the source are kept; `diff` lists all.'
+        'Facts that the source does not know come from the run. Where known facts differ, the '
+        'source '
+        'wins\nand a line says so; `diff` lists all differences.'
     )
     parser.add_argument('static', type=Path, metavar='STATIC', help='specification or source')
     parser.add_argument('live', type=Path, metavar='LIVE', help='specification of a live run')

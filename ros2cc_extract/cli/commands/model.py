@@ -21,13 +21,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'path',
         type=Path,
         metavar='PATH|SPEC',
-        help='a Python file, a directory, or a YAML file (- is a pipe)',
+        help='a Python file, a directory, or a YAML file (- for standard input)',
     )
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder to write to'
     )
     parser.add_argument(
-        '--svg', action='store_true', help='also draw each automaton as UPPAAL shows it'
+        '--svg', action='store_true', help='also draw each automaton, as UPPAAL shows it'
     )
     add_unit_arguments(parser)
     add_model_arguments(parser.add_argument_group('model'), text='plain')

@@ -30,13 +30,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--check',
         type=Path,
         metavar='FILE',
-        help='exit 1 unless FILE says the same; tells how not',
+        help='compare with FILE, print the differences, and exit with status 1 if there are any',
     )
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
     add_cache_argument(parser)
-    parser.add_argument('--strict', action='store_true', help='exit 3 when a fact is unresolved')
     parser.add_argument(
-        '--builtin', action='store_true', help='also list what rclpy makes for every node'
+        '--strict', action='store_true', help='exit with status 3 if a fact is unresolved'
+    )
+    parser.add_argument(
+        '--builtin', action='store_true', help='also list the entities that rclpy itself creates'
     )
     parser.add_argument('--schema', action='store_true', help='print the JSON Schema')
 

@@ -18,14 +18,15 @@ SECONDS, MAX_SECONDS = 20.0, 120.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_paths(parser)
-    for name, what in (('from', 'runs the nodes now'), ('to', 'is to run them')):
+    for name, what in (('from', 'that runs the nodes now'), ('to', 'that will run them')):
         parser.add_argument(
             f'--{name}',
             dest=f'{name}_release',
             required=True,
             type=release_argument,
             metavar='RELEASE',
-            help=f'what {what}: a distribution, by its newest known release, or 7.1.6',
+            help=f'release {what}: a version such as 7.1.6, or a distribution (its newest known '
+            'release)',
         )
     parser.epilog = 'Exit status: 0 nothing changes, 1 something does, 2 input error, 3 undecided.'
 

@@ -32,39 +32,39 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'path',
         type=Path,
         metavar='SPEC|MODEL.xml',
-        help='a YAML specification (- is a pipe), a UPPAAL model, or Python source',
+        help='a YAML specification (- for standard input), a UPPAAL model, or Python source',
     )
     parser.add_argument(
         'queries',
         nargs='?',
         type=Path,
         metavar='QUERIES.q',
-        help="queries instead of the model's own; a specification is asked on its plain text",
+        help="ask these queries instead of the model's own; a specification gets its plain text",
     )
     parser.add_argument(
         '--query',
         action='append',
         default=[],
         metavar='FORMULA',
-        help="a query instead of the model's own, as `A[] not deadlock`; may be repeated",
+        help="ask this query instead of the model's own, as `A[] not deadlock`; may be repeated",
     )
     parser.add_argument(
         '--replay',
         type=Path,
         metavar='RUN',
-        help='tell a run that UPPAAL saved (.xtr, or the XML or text of verifyta) of this model',
+        help='print a run of this model that UPPAAL saved (.xtr, or the XML or text of verifyta)',
     )
     parser.add_argument(
         '--trace',
         action='store_true',
-        help='show the witnesses of satisfied queries too, and what changes in each step',
+        help='also show the witnesses of satisfied queries, and what changes in each step',
     )
     parser.add_argument('--output-format', choices=['text', 'json'], default='text')
     parser.add_argument(
         '--trace-format',
         choices=['text', 'json', 'mermaid', 'perfetto', 'uppaal', 'xtr'],
         default='text',
-        help="how runs are written to -o; uppaal: the XML of verifyta -X, xtr: UPPAAL's simulator",
+        help="format of the runs in -o; uppaal: the XML of verifyta -X, xtr: UPPAAL's simulator",
     )
     parser.add_argument(
         '-o', '--output', type=Path, metavar='DIR', help='folder for one trace file per run'

@@ -23,7 +23,7 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
 def add_cache_argument(parser: argparse.ArgumentParser) -> None:
     """Add the choice to scan afresh."""
     parser.add_argument(
-        '--no-cache', action='store_true', help='scan afresh, even if no file has changed'
+        '--no-cache', action='store_true', help='ignore earlier results and scan again'
     )
 
 
@@ -33,27 +33,27 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
         '--threads',
         type=_range if ranges else _single,
         metavar='N|A..B' if ranges else 'N',
-        help='number of executor threads, instead of what the source says'
-        + ('; a range gives one table of all' if ranges else ''),
+        help='number of executor threads, whatever the source says'
+        + ('; a range gives one table for all' if ranges else ''),
     )
     parser.add_argument(
         '--builtin',
         action='store_true',
-        help='keep the entities in the model that rclpy itself creates',
+        help='model the entities that rclpy itself creates, too',
     )
     release = parser.add_mutually_exclusive_group()
     release.add_argument(
         '--rclpy',
         type=_version,
         metavar='VERSION',
-        help='version of rclpy that runs the node, for what differs in profile rclpy: 7.1.6 is '
-        'Jazzy, 9.1.2 Kilted (default: as recorded, else what holds for all)',
+        help='version of rclpy that runs the node: 7.1.6 is Jazzy, 9.1.2 Kilted (default: the '
+        'recorded one, else what all releases have in common)',
     )
     release.add_argument(
         '--distro',
         dest='rclpy',
         choices=['humble', 'jazzy', 'kilted', 'lyrical', 'rolling'],
-        help='the distribution that runs it: what holds for all its releases',
+        help='ROS distribution that runs the node: what all its releases have in common',
     )
 
 
@@ -75,8 +75,9 @@ def add_model_arguments(
         type=_bounds if ranges else _bound,
         default=(1,),
         metavar='N|A..B|inf' if ranges else 'N|inf',
-        help='how often each callback becomes ready (default 1, as published); inf: for ever, '
-        'which needs --fairness weak to say anything of starvation',
+        help='how often each callback becomes ready (default 1, as published); inf: without '
+        'limit, '
+        'where starvation needs --fairness weak',
     )
 
 
@@ -93,42 +94,47 @@ def add_search_arguments(
         help="the embedded checker, or UPPAAL's own (default: embedded)",
     )
     group.add_argument(
-        '--verifyta', type=Path, metavar='PROGRAM', help='where verifyta is (default: looked for)'
+        '--verifyta',
+        type=Path,
+        metavar='PROGRAM',
+        help='path of verifyta (default: search for it)',
     )
     group.add_argument(
-        '--one-by-one', action='store_true', help='give each query a verifyta run of its own'
+        '--one-by-one', action='store_true', help='start verifyta once for each query'
     )
     group.add_argument(
         '--engine',
         choices=['auto', 'native', 'reference'],
         default='auto',
-        help='native core or plain Python (default: native where it is built)',
+        help='native core or plain Python (default: native if it is built)',
     )
     group.add_argument(
         '--fairness',
         choices=['none', 'weak'],
         default='none',
-        help='weak: running callbacks end and an executor that can move does',
+        help='weak: running callbacks end, and an executor that can move does',
     )
     group.add_argument(
-        '--no-reduction', action='store_true', help='explore every state of the text'
+        '--no-reduction', action='store_true', help='explore every state of the model'
     )
     group.add_argument(
         '--jobs',
         type=_positive,
         default=1,
         metavar='N',
-        help='explore a large model with N threads (default 1); the output is the same',
+        help='explore a large model with N threads (default 1); the result is the same',
     )
     group.add_argument('--max-states', type=_positive, metavar='N', help='stop after N states')
-    group.add_argument('--max-memory', type=_positive, metavar='MB', help='stop at this memory')
+    group.add_argument(
+        '--max-memory', type=_positive, metavar='MB', help='stop above MB megabytes'
+    )
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
         '--timeout',
         type=number_of_seconds,
         default=seconds,
         metavar='S',
-        help=f'stop a model after S seconds{limit}; what is open then is undecided',
+        help=f'stop after S seconds for each model{limit}; the rest is undecided',
     )
 
 
@@ -194,13 +200,15 @@ def release_argument(text: str) -> str:
 
     if text not in BY_DISTRO and release_of(text) is None:
         known = ', '.join(BY_DISTRO)
-        raise argparse.ArgumentTypeError(f'{text!r} is no release; write 7.1.6, or one of {known}')
+        raise argparse.ArgumentTypeError(
+            f'{text!r} is not a release; write 7.1.6, or one of {known}'
+        )
     return text
 
 
 def _version(text: str) -> str:
     if not text.split('.')[0].isdecimal():
-        raise argparse.ArgumentTypeError(f'{text!r} is no version; write 7.1.6')
+        raise argparse.ArgumentTypeError(f'{text!r} is not a version; write 7.1.6')
     return text
 
 

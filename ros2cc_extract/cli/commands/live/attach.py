@@ -11,9 +11,8 @@ DEFAULT_OUTPUT = Path('live.spec.yaml')
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'The process goes on as it was. What is measured, traced, or told with its place of '
-        'creation\nneeds `run` or `env` from the start. Needs Python 3.14 on both sides, or: '
-        'pip install "hypno>=1.1"'
+        'The process keeps running. Measurements, traces and places of creation need `run` or '
+        '`env`\nfrom the start. Needs Python 3.14 on both sides, or: pip install "hypno>=1.1"'
     )
     parser.add_argument('pid', type=int, metavar='PID', help='process id of the node')
     parser.add_argument(
@@ -27,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--other-user',
         action='store_true',
-        help='enter a process of another user too (as root; docs/live.md says what that trusts)',
+        help='also attach to a process of another user (as root; read docs/live.md first)',
     )
 
 

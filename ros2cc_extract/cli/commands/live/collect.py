@@ -11,7 +11,7 @@ DEFAULT_OUTPUT = Path('live.spec.yaml')
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        'directory', type=Path, metavar='DIR', help='folder of the recordings, as given to env'
+        'directory', type=Path, metavar='DIR', help='folder of the recordings, as given to `env`'
     )
     parser.add_argument(
         '-o',

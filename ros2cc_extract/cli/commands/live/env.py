@@ -12,8 +12,9 @@ from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        'use: eval "$(ros2cc-extract env -o DIR)", then start the nodes as always; read what they '
-        'hold,\nwhile they run or afterwards, by: ros2cc-extract collect DIR'
+        'usage: eval "$(ros2cc-extract env -o DIR)", then start the nodes as usual. While they '
+        'run, '
+        'or\nafterwards: ros2cc-extract collect DIR'
     )
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder of the recordings'

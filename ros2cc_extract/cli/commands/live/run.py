@@ -22,9 +22,9 @@ examples:
   ros2cc-extract run -o live.yaml --trace run.jsonl -- python node.py
   ros2cc-extract run --check node.py -- python node.py
 
-End the command as always (Ctrl-C): the files are written then. Exit status: that of the command;
-where it is 0, 1 when --check finds a difference, 2 when the output could not be written or nothing
-of the source ran. Beside the trace lies FILE.perfetto.json, for ui.perfetto.dev.
+End the command as usual (Ctrl-C); then the files are written. Exit status: that of the command; if
+that is 0: 1 if --check finds a difference, 2 if the output cannot be written or nothing of the
+source ran. --trace also writes FILE.perfetto.json, for ui.perfetto.dev.
 """
 
 
@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--check',
         type=Path,
         metavar='PATH',
-        help='scan this source too, and compare it with what the run held',
+        help='also scan this source and compare it with the run',
     )
     parser.add_argument(
         '--watch',
@@ -58,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'command',
         nargs=argparse.REMAINDER,
         metavar='-- CMD …',
-        help='what to run, as you would type it without us; its child processes too',
+        help='the command to run; its child processes are recorded too',
     )
 
 
