@@ -2,7 +2,7 @@
 (() => {
   const HERE = document.currentScript.src;
   const ENDINGS = ['no findings', 'findings', 'not checked', 'undecided'];
-  const NOTHING = /^nothing was judged/m;
+  const NOTHING = /^nothing to check/m;
   const PLACE_OR_RULE = /\bnode\.py:(\d+)(?::\d+)?|(?<=^node\.py:\d+:\d+: )CC\d{3}\b/gm;
   const [node, numbers, check, stop, state, findings] = [
     'node', 'numbers', 'check', 'stop', 'state', 'findings',

@@ -37,7 +37,7 @@ class Gap(NamedTuple):
 
     def __str__(self) -> str:
         mend = f'; {self.mend}' if self.mend else ''
-        return f'the specification does not tell {self.what}: {self.name}{mend}'
+        return f'the specification does not say {self.what}: {self.name}{mend}'
 
 
 def gaps(

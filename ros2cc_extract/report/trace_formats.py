@@ -47,7 +47,7 @@ def write_trace(evidence: Evidence, title: str, form: str) -> str:
 def _text_lines(evidence: Evidence) -> Iterator[str]:
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
-            yield 'and then for ever:\n'
+            yield 'and then forever:\n'
         said = '; '.join(sentence.text for sentence in moment.sentences)
         places = ', '.join(str(place) for _, place in moment.places)
         yield f'{moment.number:3} {said}' + (f' ({places})' if places else '') + '\n'
@@ -62,7 +62,7 @@ def mermaid(evidence: Evidence, title: str) -> str:
         lines.append(f'    participant {name}' + ('' if name == lane else f' as {lane}'))
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
-            lines.append('    loop for ever')
+            lines.append('    loop forever')
         lines.append(f'    {_arrow(moment, names)}')
     if evidence.cycle_from is not None:
         lines.append('    end')
@@ -101,7 +101,7 @@ def chrome_trace(evidence: Evidence, title: str) -> dict[str, Any]:
         events += (_slice(stay, number) for stay in stays_of(evidence, lane, callbacks))
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
-            events.append(_instant('from here on for ever', 'g', 0, moment.number))
+            events.append(_instant('from here on, forever', 'g', 0, moment.number))
         events += _said(moment, lanes)
     return {'displayTimeUnit': 'ms', 'traceEvents': events}
 

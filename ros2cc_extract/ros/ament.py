@@ -93,7 +93,7 @@ def _tell(outcome: Outcome, failures: int) -> None:
     print_findings(outcome.findings, Paths(Path.cwd()), console_for(sys.stdout))
     undecided = outcome.summary['undecided']
     if undecided:
-        print(f'{undecided} verdicts undecided: ros2cc-extract tells which')
+        print(f'{undecided} verdicts undecided: run ros2cc-extract for details')
     print(f'{len(outcome.extraction.files_seen)} files checked')
     print(f'{failures} errors' if failures else 'No problems found')
 

@@ -229,7 +229,7 @@ def test_odd_settings(text: str, folder: Path) -> None:
     ended = run_tool('clean.py', cwd=folder)
     assert_orderly(ended)
     assert ended.status in (0, 2)
-    assert len(ended.err.splitlines()) == 1  # what is wrong, or that nothing was judged
+    assert len(ended.err.splitlines()) == 1  # what is wrong, or that nothing to check
 
 
 @pytest.fixture

@@ -108,7 +108,7 @@ def test_unreadable_file(run: Run, tmp_path: Path) -> None:
 def test_empty_file_holds_no_node(run: Run, tmp_path: Path) -> None:
     (tmp_path / 'nothing.py').write_text('')
     outcome = run('nothing.py')
-    told = 'nothing was judged: no rclpy node with a callback found\n'
+    told = 'nothing to check: no rclpy node with a callback found\n'
     assert (outcome.status, outcome.err) == (0, told)
 
 

@@ -49,5 +49,7 @@ def test_the_same_is_found(folder: Path, run: Run) -> None:
 
 def test_a_limit_on_memory_that_nobody_counts_leaves_verdicts_open(folder: Path) -> None:
     done = bare(folder, *PLAIN, '--max-memory', '1000', '--verdicts')
-    assert 'undecided (there is a limit on memory, and nobody counts memory here)' in done.stdout
+    assert (
+        'undecided (there is a limit on memory, but memory cannot be measured here)' in done.stdout
+    )
     assert 'in 1 file; 18 verdicts undecided' in done.stdout

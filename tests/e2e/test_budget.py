@@ -67,7 +67,7 @@ def test_whoever_is_asked_to_end_tells_what_is_done(
     assert 'CC101' in out
     assert ' in 13 files; ' in out.splitlines()[-1]
     assert 'undecided' in out.splitlines()[-1]
-    assert err == 'interrupted: what was not verified by then is undecided\n'
+    assert err == 'interrupted: what was not verified yet is undecided\n'
 
 
 def long_to_scan(folder: Path, *, remarks: int = 0) -> Path:
@@ -113,7 +113,7 @@ def test_whoever_is_asked_to_end_while_scanning_tells_what_is_done(
     assert 'files are not followed to their end: interrupted' in out
     assert 'a_short.py:' in out
     assert ' in 41 files' in out.splitlines()[-1]
-    assert err == 'interrupted: what was not verified by then is undecided\n'
+    assert err == 'interrupted: what was not verified yet is undecided\n'
 
 
 def cpu_seconds(pid: int) -> float:

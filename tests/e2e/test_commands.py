@@ -266,7 +266,7 @@ def test_a_node_that_only_publishes_is_told_and_left_out(run: Run, tmp_path: Pat
         ('tool.py', ''),
         (
             'robot.launch.py',
-            '; launch files are not followed, name the Python files of their nodes',
+            '; launch files are not followed: name the Python files of their nodes',
         ),
     ],
 )
@@ -276,7 +276,7 @@ def test_nothing_judged_does_not_read_as_safe(
     (tmp_path / name).write_text('def main():\n    return 1\n')
     outcome = run(name)
     assert outcome.status == 0
-    assert outcome.err == f'nothing was judged: no rclpy node with a callback found{more}\n'
+    assert outcome.err == f'nothing to check: no rclpy node with a callback found{more}\n'
 
 
 def test_a_unit_left_out_says_what_could_not_be_followed(run: Run, tmp_path: Path) -> None:

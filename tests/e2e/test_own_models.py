@@ -82,7 +82,7 @@ def test_a_run_that_uppaal_saved_is_told(run: Run, tmp_path: Path, form: str) ->
     told = run('verify', CASE_2, '--replay', saved)
     lines = told.out.splitlines()
     assert told.status == 0
-    assert 'and then for ever:' in told.out
+    assert 'and then forever:' in told.out
     assert ' '.join(lines[0].split()) == '1 executor polls and sees on_msg_d ready node.py:49'
     assert all(line.strip() in written.out for line in lines)
 

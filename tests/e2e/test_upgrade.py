@@ -100,7 +100,7 @@ def test_no_release(node: str) -> None:
     [
         ('humble', 'callbacks of other groups run inside this one, members of', ['CC118']),
         ('jazzy', 'from rclpy 7.1.9 on the executor refuses to be spun twice', []),
-        ('rolling', 'inside a callback: it raises RuntimeError, since that executor', []),
+        ('rolling', 'inside a callback: it raises RuntimeError, because that executor', []),
     ],
 )
 def test_distro_says_which_consequence_holds(

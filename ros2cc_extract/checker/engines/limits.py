@@ -148,7 +148,7 @@ class Watch:
     def _out_of_memory(self, more_bytes: int, share: float) -> str | None:
         limit = self._memory_mb
         if limit is not None and not is_memory_known():
-            return 'there is a limit on memory, and nobody counts memory here'
+            return 'there is a limit on memory, but memory cannot be measured here'
         if limit is None or memory_mb() + more_bytes / _MB + _STEP_MB <= share * limit:
             return None
         return f'the limit of {limit:.0f} MB was reached'

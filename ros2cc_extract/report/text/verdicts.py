@@ -67,7 +67,7 @@ def _unlisted(verification: Verification) -> Iterator[str]:
         if count > ROWS_OF_A_KIND:
             words = (family or 'query').replace('_', ' ')
             yield f'and {count - ROWS_OF_A_KIND} more, {words}: {verdict.value}'
-    yield '--output-format json lists all'
+    yield '--output-format json lists all of them'
 
 
 def _print_footer(verification: Verification, console: Console, *, details: bool) -> None:
@@ -126,8 +126,8 @@ def _caveats(verification: Verification) -> Iterator[str]:
         r.verdict is Verdict.NOT_SATISFIED for r in starving
     ):
         yield (
-            'starvation is judged as published, where data that is not served may vanish; '
-            'rclpy keeps it (docs/model.md)'
+            'starvation is decided as published, where unserved data may vanish; rclpy keeps it '
+            '(docs/model.md)'
         )
 
 
@@ -156,14 +156,14 @@ def print_run(evidence: Evidence, console: Console, *, changes: bool = False) ->
 def _run_rows(evidence: Evidence, changes: bool) -> Iterator[tuple[str, str, str]]:
     for moment in evidence.moments:
         if moment.number == evidence.cycle_from:
-            yield '', 'and then for ever:', ''
+            yield '', 'and then forever:', ''
         words = '; '.join(sentence.text for sentence in moment.sentences)
         yield f'{moment.number:3}', words, _places(moment)
         if changes and moment.changes:
             changed = ', '.join(f'{name} = {value}' for name, value in moment.changes.items())
             yield '', f'[{changed}]', ''
     if not evidence.moments:
-        yield '', 'already the initial state shows it', ''
+        yield '', 'the initial state already shows it', ''
     if evidence.ends and not evidence.closing:
         yield '', _ENDS.get(evidence.ends, evidence.ends), ''
 
@@ -173,6 +173,6 @@ def _places(moment: Moment) -> str:
 
 
 _ENDS = {
-    'deadlock': 'there nothing can move any more',
-    'idle': 'there it may stay for ever',
+    'deadlock': 'nothing can move any more',
+    'idle': 'it may stay like this forever',
 }

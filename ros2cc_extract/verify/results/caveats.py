@@ -19,7 +19,7 @@ def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
     yield from _threads_of_no_use(unit, profile)
     blocking = any(callback.blocking for callback in unit.callbacks)
     if profile is Profile.PAPER and blocking:
-        yield 'the published model knows no blocking calls; the findings tell of them'
+        yield 'the published model has no blocking calls; the findings report them'
 
 
 def left_out_of_deadlocks(unit: Spec, profile: Profile) -> str:

@@ -17,8 +17,9 @@ WORDS = {
     'due': 'timer {who} is due',
     'arrival': 'data arrives for {who}',
     'arrival again': 'data arrives for {who}',
-    'done outside': 'a thread outside {executor} makes done what {who} awaits',
-    'done unseen': 'a thread outside {executor} makes done what {who} awaits, which wakes nobody',
+    'done outside': 'a thread outside {executor} completes what {who} awaits',
+    'done unseen': 'a thread outside {executor} completes what {who} awaits, which wakes no '
+    'thread',
     'close': 'group {group} closes',
     'open': 'group {group} opens',
     'ready': '{who} becomes ready',
@@ -30,18 +31,19 @@ WORDS = {
     'start': '{who} starts[ on {thread}][, inside {inside}]',
     'end': '{who} ends[ on {thread}]',
     'answer': '{who} answers',
-    'raise': '{who} spins {executor}, which refuses as it spins already, and raises on {thread}',
+    'raise': '{who} spins {executor}, which refuses because it is already spinning, and raises '
+    'on {thread}',
     # Waits.
     'wait': '{who} waits [on {thread} ]for {needed}',
     'wait lock': '{who} waits [on {thread} ]for the lock of {needed}',
-    'wait service': '{who} waits [on {thread} ]for the service of {needed}, which nobody here '
+    'wait service': '{who} waits [on {thread} ]for the service of {needed}, which nothing here '
     'offers',
     'wait signal': '{who} waits [on {thread} ]for {awaited}',
     'await': '{who} awaits {awaited} and leaves {thread}',
-    'await outside': '{who} awaits what a thread outside {executor} makes done, and leaves '
+    'await outside': '{who} awaits what a thread outside {executor} completes, and leaves '
     '{thread}',
     'spin': '{who} spins {executor} on {thread}[ for {needed}]',
-    'spin taken': '{who} takes its node out of {executor} and spins it on {thread}[ for {needed}]',
+    'spin taken': '{who} removes its node from {executor} and spins it on {thread}[ for {needed}]',
     'found': '{who} finds that {needed} has run',
     'signal': '{who} signals {resource}',
     'silence': '{who} does not signal {resource}',

@@ -18,7 +18,7 @@ def test_a_wait_to_which_no_default_leads_is_a_warning_with_its_condition() -> N
     waiting = timer('tick', blocking=calls('plan_client', only_if=SETTING))
     finding = only(unit(ONE_THREAD, waiting, client('plan_client')), 'CC102')
     assert finding.severity is Severity.WARNING
-    assert finding.message.endswith(f'it waits for ever; only if {SETTING}')
+    assert finding.message.endswith(f'it waits forever; only if {SETTING}')
 
 
 def test_what_is_reached_on_other_ways_too_stays_an_error() -> None:

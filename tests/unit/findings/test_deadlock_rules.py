@@ -75,7 +75,7 @@ def test_message_of_a_call_into_the_own_group() -> None:
     finding = only(caller_and_client(threads(4), 'arm_default', 'arm_default'), 'CC101')
     assert finding.message == (
         "drive waits in client.call for the answer of service 'plan', but the client is in the "
-        "default group of 'arm', which is closed while drive runs: it waits for ever"
+        "default group of 'arm', which is closed while drive runs: it waits forever"
     )
     assert finding.subjects == ('drive', 'plan_client')
 
@@ -93,7 +93,7 @@ def test_callbacks_that_wait_at_one_line_are_one_finding() -> None:
     finding = only(spec, 'CC101')
     assert finding.message == (
         "drive, turn wait in client.call for the answer of service 'plan', but the client is in "
-        "the default group of 'arm', which is closed while one of them runs: they wait for ever"
+        "the default group of 'arm', which is closed while one of them runs: they wait forever"
     )
     assert finding.subjects == ('drive', 'turn', 'plan_client')
     assert [remark.place for remark in finding.chain] == [ways[0]]
@@ -110,8 +110,8 @@ def test_a_time_out_makes_a_warning() -> None:
     finding = only(spec, 'CC101')
     assert finding.severity is Severity.WARNING
     assert finding.message.endswith(
-        'it always runs into its time-out, which from Kilted on raises TimeoutError and ends the '
-        'spin if nobody catches it'
+        'it always times out, which from Kilted on raises TimeoutError and ends the '
+        'spin if it is not caught'
     )
 
 
@@ -202,7 +202,7 @@ def test_an_event_that_a_member_of_the_group_sets() -> None:
     )
     assert found(spec) == ['CC101:40', 'CC403:90 note']
     finding = only(spec, 'CC101')
-    assert finding.message.endswith('waits for ever, unless the event was set before')
+    assert finding.message.endswith('waits forever, unless the event is already set')
     assert finding.help == 'give on_done a callback group of its own'
 
 
@@ -220,7 +220,7 @@ def test_a_done_callback_needs_the_client_of_its_answer() -> None:
     finding = only(spec(threads(2), 'arm_default'), 'CC101')
     assert finding.message == (
         "drive waits in Event.wait for the answer of service 'plan', but the client is in the "
-        "default group of 'arm', which is closed while drive runs: it waits for ever"
+        "default group of 'arm', which is closed while drive runs: it waits forever"
     )
 
 
@@ -289,7 +289,7 @@ def test_entities_that_a_callback_makes_do_not_count() -> None:
 def test_reentrant_waiters_overlap_themselves_so_no_number_is_enough() -> None:
     finding = only(blockers(4, threads(4), group='free'), 'CC103')
     assert finding.severity is Severity.ERROR
-    assert 'no number is surely enough' in finding.help
+    assert 'no number is certainly enough' in finding.help
 
 
 @pytest.mark.parametrize(
@@ -533,8 +533,8 @@ def test_a_done_callback_that_spins_has_no_group_that_would_stay_closed() -> Non
 @pytest.mark.parametrize(
     ('seconds', 'words'),
     [
-        ((None, None), 'all wait for ever'),
-        ((1.0, 1.0), 'all run into their time-outs'),
+        ((None, None), 'all wait forever'),
+        ((1.0, 1.0), 'all waits time out'),
         ((1.0, None), 'all wait, at least until the first time-out'),
     ],
 )
@@ -579,10 +579,10 @@ def test_calls_of_several_clients_at_one_line_are_one_finding() -> None:
     assert of_group.message == (
         "drive waits in client.call for the answers of service 'plan', service 'map', service "
         "'grip' and 1 more, but the clients are in the default group of 'arm', which is closed "
-        'while drive runs: it waits for ever'
+        'while drive runs: it waits forever'
     )
     assert of_group.subjects == ('drive', *names)
     assert of_group.help.startswith('give the clients another callback group, or ')
     of_thread = only(unit(ONE_THREAD, *callbacks), 'CC102')
     assert 'and 1 more on the only thread' in of_thread.message
-    assert 'so nobody can take them: it waits for ever' in of_thread.message
+    assert 'so nothing can take them: it waits forever' in of_thread.message

@@ -17,7 +17,7 @@ DOCS = Path(__file__).parents[3] / 'docs' / 'rules'
 
 def test_explain_finds_a_rule_by_code_and_by_slug() -> None:
     assert explain('cc101') == explain('own-group-call')
-    assert explain('CC101').startswith('# CC101 own-group-call: Blocking call into the own')
+    assert explain('CC101').startswith('# CC101 own-group-call: Blocking call into its own')
 
 
 def test_explain_names_the_rules_there_are() -> None:

@@ -36,7 +36,7 @@ def test_two_locks_in_opposite_order_are_one_finding_with_both_ways() -> None:
     finding = only(unit(threads(2), LEFT, RIGHT), 'CC111')
     assert finding.message == (
         'left holds a and waits for b, and right may hold b and wait for a at the same time: '
-        'both wait for ever'
+        'both wait forever'
     )
     assert finding.subjects == ('left', 'right', 'a', 'b')
     assert [remark.text for remark in finding.related] == ['right takes a here, holding b']

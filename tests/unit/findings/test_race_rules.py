@@ -147,7 +147,7 @@ def test_the_run_of_the_model_is_the_evidence() -> None:
     ]
     assert finding.message == (
         'tick updates Arm.count from its old value, and on_reset may write it at the same time: '
-        'one of the changes can get lost'
+        'one change can get lost'
     )
 
 
@@ -317,7 +317,7 @@ def test_attributes_of_the_same_callbacks_are_one_finding() -> None:
     assert finding.subjects == ('Arm.a', 'Arm.b', 'tick', 'reset')
     assert finding.message == (
         'tick updates Arm.a, Arm.b from their old values, and reset may write them at the same '
-        'time: one of the changes can get lost'
+        'time: one change can get lost'
     )
 
 

@@ -162,8 +162,8 @@ def test_an_object_that_the_callback_stores_itself_is_there() -> None:
 def test_message_of_a_use_after_a_test() -> None:
     finding = only(unit(threads(2), using(), clearing()), 'CC305')
     assert finding.message == (
-        'check tests Arm.goal and then uses it, and on_stop may set it to None in between: the '
-        'use then ends in an exception'
+        'check tests Arm.goal and then uses it, and on_stop may set it to None in between: then '
+        'the use raises an exception'
     )
     assert [(remark.place, remark.text) for remark in finding.related] == [
         (at(40), 'on_stop writes Arm.goal here')
@@ -182,7 +182,7 @@ def test_a_run_may_clear_what_another_run_of_the_same_callback_uses() -> None:
         'CC305',
         at(21),
         'on_stop tests Arm.goal and then uses it, and another run of it may set it to None in '
-        'between: the use then ends in an exception',
+        'between: then the use raises an exception',
     )
 
 

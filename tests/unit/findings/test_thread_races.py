@@ -85,7 +85,7 @@ def test_the_words_name_the_thread_and_its_function() -> None:
     finding = only(beside(work, callbacks=(RESET,)), 'CC301')
     assert finding.message == (
         'thread worker (work) updates Arm.count from its old value, and on_reset may write it at '
-        'the same time: one of the changes can get lost'
+        'the same time: one change can get lost'
     )
     assert finding.help == 'hold one lock around both; a callback group cannot help'
 

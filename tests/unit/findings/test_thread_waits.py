@@ -62,7 +62,7 @@ def test_a_thread_that_nobody_wakes_waits_for_ever() -> None:
     spec = beside(thread('work', event()))
     assert found(spec) == ['CC109:60']
     assert only(spec, 'CC109').message == (
-        'thread work waits in Event.wait for full, but nobody ends that wait: it waits for ever'
+        'thread work waits in Event.wait for full, but nothing ends that wait: it waits forever'
     )
 
 
@@ -104,8 +104,8 @@ def test_a_callback_that_waits_for_the_lock_of_a_waiting_thread() -> None:
     spec = beside(work, callbacks=(tick,))
     assert found(spec) == ['CC109:40']
     assert only(spec, 'CC109').message == (
-        'tick waits in Lock.acquire for the lock of work, but thread work, which ends it, waits '
-        'itself for full: it waits for ever'
+        'tick waits in Lock.acquire for the lock of work, but thread work, which ends it, itself '
+        'waits for full: it waits forever'
     )
 
 
@@ -117,7 +117,7 @@ def test_locks_of_a_thread_and_a_callback_in_opposite_order() -> None:
     assert found(spec) == ['CC111:41']
     assert only(spec, 'CC111').message == (
         'tick holds b and waits for a, and thread work may hold a and wait for b at the same '
-        'time: both wait for ever'
+        'time: both wait forever'
     )
 
 

@@ -75,8 +75,8 @@ def test_the_finding_names_both_places() -> None:
     made = replace(unit(threads(1), sends()), activities=(thread(),))
     (finding,) = (f for f in findings_of([made], []) if f.code == 'CC301')
     assert finding.message == (
-        'send publishes Arm.state, and thread fill may be changing it piece by piece at the same '
-        'time: the message is part old and part new'
+        'send publishes Arm.state while thread fill may change it piece by piece: the message is '
+        'half old and half new'
     )
     assert [remark.place.line for remark in finding.related] == [30]
     assert finding.help == 'hold one lock around both; a callback group cannot help'

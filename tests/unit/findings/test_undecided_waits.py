@@ -26,7 +26,7 @@ def test_a_wait_whose_end_nobody_knows_is_told() -> None:
     waits = calls('jobs', call='Barrier.wait')
     finding = only(unit(threads(2), timer('feed', blocking=waits)), 'CC120')
     assert finding.message == (
-        'not decided: feed waits in Barrier.wait for jobs, and it is not known who ends it'
+        'not decided: feed waits in Barrier.wait for jobs, and it is not known what ends it'
     )
 
 
@@ -35,7 +35,7 @@ def test_why_it_is_not_known_is_said() -> None:
     wait = replace(wait, resource='jobs', escapes=Unknown('jobs is passed to plant.connect'))
     finding = only(unit(threads(2), timer('feed', blocking=(wait,))), 'CC120')
     assert finding.message.endswith(
-        'for jobs, and it is not known who ends it: jobs is passed to plant.connect'
+        'for jobs, and it is not known what ends it: jobs is passed to plant.connect'
     )
 
 
@@ -59,8 +59,8 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
     spec = unit(threads(2), timer('feed', blocking=(wait,)))
     assert found(spec) == ['CC121:40 note']
     assert only(spec, 'CC121').message == (
-        'feed waits in subprocess.run without a time-out, and waits for ever if nobody outside '
-        'its executor ends it'
+        'feed waits in subprocess.run without a time-out, and waits forever unless '
+        'something outside its executor ends it'
     )
 
 
@@ -73,8 +73,8 @@ def test_what_nobody_here_sends_meanwhile_rests_on_other_programs() -> None:
     )
     assert found(spec) == ['CC121:40 note']
     assert only(spec, 'CC121').message == (
-        'feed waits in Event.wait without a time-out, and waits for ever if nobody outside '
-        'this program publishes go, as tell cannot do so meanwhile'
+        'feed waits in Event.wait without a time-out, and waits forever unless another '
+        'program publishes go, as tell cannot do so meanwhile'
     )
 
 
@@ -97,7 +97,7 @@ def test_those_of_the_unit_that_end_it_too_are_named() -> None:
     wait = replace(wait, wakers=(Waker(by='drain', after=0), Waker(by=OUTSIDE)))
     spec = unit(threads(2), timer('feed', blocking=(wait,)), timer('drain'))
     assert only(spec, 'CC121').message.endswith(
-        'and waits for ever if neither drain nor anybody outside its executor ends it'
+        'and waits forever unless drain or something outside its executor ends it'
     )
 
 

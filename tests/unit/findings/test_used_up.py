@@ -34,8 +34,8 @@ def test_who_gives_back_cannot_run_while_somebody_waits(executor: Executor, grou
     finding = only(spec, 'CC109')
     assert finding.severity is Severity.WARNING
     assert finding.message == (
-        'log waits in Queue.put for lines (room) once nothing of it is left, and flush cannot '
-        'run meanwhile: it waits for ever'
+        'log waits in Queue.put for lines (room) once that is used up, and flush cannot '
+        'run meanwhile: it waits forever'
     )
 
 
@@ -69,8 +69,8 @@ def test_a_thread_that_gives_back_may_wait_for_who_cannot_run() -> None:
     finding = only(spec, 'CC109')
     assert finding.severity is Severity.WARNING
     assert finding.message == (
-        'log waits in Queue.put for lines (room) once nothing of it is left, and thread write may '
-        'be waiting for flush then, which cannot run meanwhile: it waits for ever'
+        'log waits in Queue.put for lines (room) once that is used up, and thread write may '
+        'then wait for flush, which cannot run meanwhile: it waits forever'
     )
 
 

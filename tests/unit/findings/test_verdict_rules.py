@@ -124,8 +124,8 @@ def test_callbacks_that_wait_for_each_other_are_found_by_the_model() -> None:
     assert found(circle()) == []
     finding = only(circle(), 'CC109', judged(circle()))
     assert finding.message == (
-        'on_left waits in client.call for to_right, but on_right, which ends it, waits itself '
-        'for to_left: it waits for ever'
+        'on_left waits in client.call for to_right, but on_right, which ends it, itself waits '
+        'for to_left: it waits forever'
     )
     assert finding.subjects == ('on_left', 'on_right', 'to_right')
     assert finding.run is not None
@@ -143,7 +143,7 @@ def queue_of(*wakers: Waker) -> tuple[Blocking, ...]:
 @pytest.mark.parametrize(
     ('executor', 'group', 'wakers', 'reason'),
     [
-        (threads(2), 'other', (), 'nobody ends that wait'),
+        (threads(2), 'other', (), 'nothing ends that wait'),
         (
             threads(2),
             'arm_default',
@@ -164,7 +164,7 @@ def test_the_general_rule_names_the_cause(
     spec = unit(executor, timer('drain', blocking=queue_of(*wakers)), timer('feed', group))
     finding = only(spec, 'CC109', judged(spec))
     assert finding.message == (
-        f'drain waits in Queue.get for jobs, but {reason}: it waits for ever'
+        f'drain waits in Queue.get for jobs, but {reason}: it waits forever'
     )
     assert finding.severity is Severity.ERROR
 

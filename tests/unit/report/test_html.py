@@ -139,7 +139,7 @@ def test_a_finding_leads_to_its_line_and_to_its_rule() -> None:
         'source-0'
     ]
     assert (
-        '<a href="#rule-CC101">CC101 own-group-call: Blocking call into the own callback group</a>'
+        '<a href="#rule-CC101">CC101 own-group-call: Blocking call into its own callback group</a>'
         in text
     )
     assert 'help: </b>give the client a group' in text

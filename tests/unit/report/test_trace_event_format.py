@@ -89,5 +89,5 @@ def test_a_thread_shows_what_it_runs_and_where_it_repeats(
     thread = [e['name'] for e in events if e['ph'] == 'X' and tracks[e['tid']] == 'thread_0']
     assert thread[:3] == ['wait', 'assigned: on_timer_a', 'running: on_timer_a']
     assert [(e['name'], e['ts']) for e in events if e.get('s') == 'g'] == [
-        ('from here on for ever', 3000)
+        ('from here on, forever', 3000)
     ]

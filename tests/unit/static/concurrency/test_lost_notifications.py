@@ -163,7 +163,7 @@ def test_what_is_told_once_and_taken_back_is_not_decided() -> None:
     wait = wait_of(work)
     assert wait.escapes is not None
     assert wait.escapes.reason == (
-        'tell, which ends it, runs once only, and perhaps what it tells is taken back'
+        'tell, which ends it, runs once only, and perhaps its signal is undone'
     )
 
 

@@ -44,7 +44,7 @@ PLAIN = {'daemon': 'pass', 'work': SLOW, 'again': 'self.arm()'}
 
 def told(**changes: str) -> list[tuple[str, int | None]]:
     found = scan_text(PROGRAM.format(**{**PLAIN, **changes})).diagnostics
-    return [(each.slug, each.place.line) for each in found if 'arms itself' in each.message]
+    return [(each.slug, each.place.line) for each in found if 'restarts itself' in each.message]
 
 
 def test_a_cancel_may_come_while_the_function_runs() -> None:

@@ -47,8 +47,8 @@ if __name__ == '__main__':
     main()
 """
 NEVER = (
-    'rclpy.spin_until_future_complete waits for sample, but nobody ends that wait: '
-    'it waits for ever'
+    'rclpy.spin_until_future_complete waits for sample, but nothing ends that wait: '
+    'it waits forever'
 )
 
 

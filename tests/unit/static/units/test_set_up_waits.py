@@ -134,7 +134,7 @@ def test_waits_of_the_set_up_are_told_with_who_ends_them(
     [
         (
             {'then': 'doors.open().wait()'},
-            'not decided: main waits in unknown wait, and it is not known who ends it: '
+            'not decided: main waits in unknown wait, and it is not known what ends it: '
             'doors.open().wait: result of plant.doors.open, which is not scanned',
         ),
     ],

@@ -1,4 +1,4 @@
-"""A bounded queue that a thread empties by itself is never full for ever."""
+"""A bounded queue that a thread empties by itself is never full forever."""
 
 from __future__ import annotations
 

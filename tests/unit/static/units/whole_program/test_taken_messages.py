@@ -110,8 +110,6 @@ def test_a_callback_is_robbed_where_the_pool_runs_the_default_group(
 
 def test_what_becomes_of_it_rests_on_the_limit() -> None:
     (without,) = told(f'{NODE}\n{SPUN}\n{WAITS}')
-    assert without.endswith(
-        'gives up with False, or waits for the next one, for ever if none comes'
-    )
+    assert without.endswith('returns False, or waits for the next one, forever if none comes')
     (with_one,) = told(f'{NODE}\n{SPUN}\nwait_for_message(Empty, node, "map", time_to_wait=1.0)')
-    assert with_one.endswith('gives up with False')
+    assert with_one.endswith('returns False')

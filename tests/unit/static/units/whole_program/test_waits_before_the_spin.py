@@ -61,10 +61,14 @@ main()
 """
 START, ASK, CALL = 'thread.start()', 'node.home()', 'node.client.call(Trigger.Request())'
 LOOK, WORK, NOTHING = 'node.look()', 'node.work()', 'pass'
-EVENT = 'Event.wait waits for done, but nobody spins the node whose callback would end it'
-ANSWER = "client.call waits for the answer of 'home' while nobody spins the node that must take it"
-POSE = 'a polling loop waits for Asker.pose, but nobody spins the node whose callback would end it'
-SLEEP = 'Rate.sleep waits for a timer while nobody spins the node that has it'
+EVENT = 'Event.wait waits for done, but nothing spins the node whose callback would end it'
+ANSWER = (
+    "client.call waits for the answer of 'home' while nothing spins the node that must take it"
+)
+POSE = (
+    'a polling loop waits for Asker.pose, but nothing spins the node whose callback would end it'
+)
+SLEEP = 'Rate.sleep waits for a timer while nothing spins the node that has it'
 
 
 @pytest.mark.parametrize(
@@ -92,4 +96,4 @@ def test_a_thread_that_is_started_later_serves_nobody_before(
     found = scan([path])
 
     messages = [each.message for each in found.diagnostics if each.slug == 'nobody-spins']
-    assert [message.removesuffix(': it waits for ever') for message in messages] == told
+    assert [message.removesuffix(': it waits forever') for message in messages] == told
