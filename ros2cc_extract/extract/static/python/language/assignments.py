@@ -85,6 +85,8 @@ class Assignments(Machine):
                 self.store.write(option, name, new)  # type: ignore[arg-type]
                 self.note_held(option, name, value)
                 self.world.stored.setdefault((option, name), {})[place] = value
+                if self.world.is_beside_others:
+                    self.world.stored_late.add((option, name))
             if old is None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)
 
