@@ -13,6 +13,7 @@ from contextlib import AbstractContextManager
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
     flag_locks,
+    kept_threads,
     lost_notifications,
     torn_updates,
 )
@@ -58,6 +59,7 @@ class Notes(Effects):
                 place,
                 lambda each: flag_locks.constant_text(self, each, frame),
             )
+            kept_threads.note_test(self, node, place, frame)
         lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 
     def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:

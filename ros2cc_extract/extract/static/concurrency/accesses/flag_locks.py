@@ -41,15 +41,20 @@ def note_test(
     names: dict[str, list[str]] = {}
     for name in found:
         names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
-    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
-    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
-    steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
+    steps = steps_of(node)
     for attribute, down_if, value in _flags_of(node.test, constant):
         meant = names.get(attribute, [])
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)
             reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
+
+
+def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
+    """The steps of the path on which the test of an ``if`` is true, and false."""
+    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
+    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
+    return {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
 
 
 def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
