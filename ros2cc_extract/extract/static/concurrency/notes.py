@@ -55,6 +55,7 @@ class Notes(Effects):
             flag_locks.note_test(
                 reading,
                 node,
+                flag_locks.behind_getters(self, node.test, frame),
                 found,
                 place,
                 lambda each: flag_locks.constant_text(self, each, frame),

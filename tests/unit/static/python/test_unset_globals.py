@@ -66,3 +66,11 @@ more()
 """
     )
     assert len(scan_text(text).units) == 2
+
+
+def test_the_module_itself_means_the_same_thing() -> None:
+    text = (
+        USE.format(given=BY_NOBODY, spun='node') + "\nwait = node.create_client(Trigger, 'wait')\n"
+    )
+    names = [callback.name for callback in only(scan_text(text).units).callbacks]
+    assert sorted(names) == ['move_client', 'stop_client', 'wait_client']

@@ -63,6 +63,6 @@ def _is_global(name: str, frame: Frame) -> bool:
     scope: Scope | None = frame.scope
     while scope is not None:
         if name in scope.slots and name not in scope.global_names:
-            return False
+            return scope.slots is frame.module.slots
         scope = scope.parent
     return True

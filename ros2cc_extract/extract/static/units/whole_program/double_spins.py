@@ -48,9 +48,13 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
 
 
 def note_spun_twice(world: RosWorld) -> None:
-    """Tell of executors that are spun twice at a time, when all was followed."""
-    found = (*_by_threads(world), *_by_callbacks(world))
-    world.diagnostics.extend(dict.fromkeys(found))
+    """Tell of each spin beside another of its executor, when all was followed: the worst."""
+    by_place: dict[Place, Diagnostic] = {}
+    for each in (*_by_threads(world), *_by_callbacks(world)):
+        known = by_place.setdefault(each.place, each)
+        if known.severity is not Severity.ERROR:
+            by_place[each.place] = each if each.severity is Severity.ERROR else known
+    world.diagnostics.extend(by_place.values())
 
 
 def _by_threads(world: RosWorld) -> Iterator[Diagnostic]:
