@@ -78,3 +78,42 @@ def test_a_thread_that_is_there_before_sees_what_was_there_before() -> None:
 
 def test_what_is_never_set_is_what_it_was() -> None:
     assert locked_twice(begin='return') == ['tick']
+
+
+TRANSITION = """
+import threading
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+class Arm(LifecycleNode):
+    def __init__(self):
+        super().__init__('arm')
+        self.lock = threading.Lock()
+        self.loud = True
+
+    def on_configure(self, state):
+        self.create_timer(1.0, self.tick)
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state):
+        self.loud = False
+        return TransitionCallbackReturn.SUCCESS
+
+    def tick(self):
+        with self.lock:
+            if self.loud:
+                self.shout()
+
+    def shout(self):
+        with self.lock:
+            pass
+
+rclpy.init()
+rclpy.spin(Arm())
+"""
+
+
+def test_what_another_stores_later_was_not_there_before() -> None:
+    scanned = scan_text(TRANSITION)
+    found = findings_of(scanned.units, scanned.diagnostics)
+    assert [finding.subjects[0] for finding in found if finding.code == 'CC111'] == ['tick']

@@ -116,7 +116,8 @@ class World:
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
-    :param stored_late: those that the set-up has assigned when others were at work already.
+    :param stored_late: those that have got another value than the set-up gave them, or when others
+        were at work already.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
     :param tries: how many ``try`` around may catch what is raised.
     :param met: the objects that the running callback found in what others assign.
