@@ -17,7 +17,7 @@ class A(Node):
 
     def on_goal(self, msg):
         self.goal = msg
-        self.number = number = 5
+        self.number = number = len(msg.data)
         if self.goal is msg:
             self.goal = None
         if number != self.number:

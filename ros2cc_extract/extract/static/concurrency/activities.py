@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.concurrency.accesses import kept_threads
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import note_begun
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
@@ -81,6 +82,7 @@ def begin(
         kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
     )
     state.is_daemon, state.pool = daemon, pool
+    kept_threads.note_begun(world, state, runner)
     _note_start(machine, state, runner)
     note_begun(world, call.place)
     if known is not None:

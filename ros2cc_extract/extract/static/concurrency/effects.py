@@ -9,6 +9,7 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.accesses import (
     collection_aliases,
     flag_locks,
+    kept_threads,
     lost_notifications,
     torn_updates,
 )
@@ -88,6 +89,7 @@ class Effects(Waits):
 
     def note_held(self, owner: Value, name: str, value: Value) -> None:
         """An attribute has got a value: a collection is known by the first one that holds it."""
+        kept_threads.note_stored(self.world, owner, name, value)
         if isinstance(owner, Heaped):
             values_during_waits.note_kept(self.world, owner, name, value)
         if isinstance(owner, Instance) and isinstance(owner.cls, Class):

@@ -13,6 +13,7 @@ from contextlib import AbstractContextManager
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
     flag_locks,
+    kept_threads,
     lost_notifications,
     torn_updates,
 )
@@ -54,10 +55,12 @@ class Notes(Effects):
             flag_locks.note_test(
                 reading,
                 node,
+                flag_locks.behind_getters(self, node.test, frame),
                 found,
                 place,
                 lambda each: flag_locks.constant_text(self, each, frame),
             )
+            kept_threads.note_test(self, node, place, frame)
         lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 
     def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 CHANGING_METHODS = frozenset(
@@ -149,20 +149,32 @@ def _is_none(value: ast.expr | None) -> bool:
     return value is None or (isinstance(value, ast.Constant) and value.value is None)
 
 
-def reassigned_attributes(cls: ast.ClassDef) -> frozenset[str]:
-    """Attributes of ``self`` that a method other than ``__init__`` assigns; see ``mangled``."""
+def reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr | None]]:
+    """
+    Attributes of ``self`` that a method other than ``__init__`` assigns; see ``mangled``.
+
+    With the text of each value, ``None`` for what is no plain assignment.
+    """
     return noted_on(cls, 'reassigned_attributes', _reassigned_attributes)
 
 
-def _reassigned_attributes(cls: ast.ClassDef) -> frozenset[str]:
-    return frozenset(
-        mangled(part.attr, cls.name)
-        for method in cls.body
-        if isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
-        and method.name != '__init__'
-        for part in walk(method)
-        if isinstance(part, ast.Attribute) and part.ctx.__class__ is ast.Store
-    )
+def _reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr | None]]:
+    found: dict[str, list[ast.expr | None]] = {}
+    for method in cls.body:
+        is_function = isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
+        if not is_function or method.name == '__init__':  # type: ignore[attr-defined]
+            continue
+        values = {
+            id(target): part.value
+            for part in walk(method)
+            if isinstance(part, (ast.Assign, ast.AnnAssign))
+            for target in (part.targets if isinstance(part, ast.Assign) else [part.target])
+        }
+        for part in walk(method):
+            if isinstance(part, ast.Attribute) and part.ctx.__class__ is ast.Store:
+                name = mangled(part.attr, cls.name)
+                found.setdefault(name, []).append(values.get(id(part)))
+    return found
 
 
 def is_test(name: str) -> bool:

@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.libraries.rclpy.tables.called_by_services import (
     BUILDING,
 )
+from ros2cc_extract.extract.static.libraries.standard import signal_handlers
 from ros2cc_extract.extract.static.libraries.standard.done_callbacks import add_left
 from ros2cc_extract.extract.static.python.branching.open_tests import holds_objects
 from ros2cc_extract.extract.static.python.machine.fixed_point import next_round
@@ -96,6 +97,7 @@ def _run_all_callbacks(machine: RosInterpreter) -> None:
         _run_new_callbacks(machine)
     for state in machine.world.signal_handlers:
         _tell(machine, state)
+        signal_handlers.note_followed(machine.world, state)
 
 
 def _run_new_callbacks(machine: RosInterpreter) -> None:

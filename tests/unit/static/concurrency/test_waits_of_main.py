@@ -114,3 +114,76 @@ def test_what_a_thread_sets_around_its_spin_ends_waits() -> None:
 def test_what_only_somebody_else_sets_is_told() -> None:
     extraction = scan_text(SPINS.replace('ready.set()', 'pass').replace('done.set()', 'pass'))
     assert [each.slug for each in extraction.diagnostics] == ['nobody-spins'] * 2
+
+
+BY_A_VARIABLE = """
+import signal
+import threading
+import time
+import rclpy
+
+class Tool:
+    def __init__(self):
+        self.stopped = False
+        self.node = rclpy.create_node('tool')
+        self.node.create_timer(1.0, lambda: None)
+        threading.Thread(target=rclpy.spin, args=(self.node,), daemon=True).start()
+
+    def run(self):
+        while not self.stopped:
+            time.sleep(1.0)
+
+    def stop(self):
+        self.stopped = True
+
+def main():
+    tool = None
+
+    def on_signal(number, frame):
+        if tool is not None:
+            tool.{does}()
+
+    signal.signal(signal.SIGINT, on_signal)
+    rclpy.init()
+    tool = Tool()
+    tool.run()
+
+main()
+"""
+
+
+@pytest.mark.parametrize(('does', 'is_ended'), [('stop', True), ('run', False)])
+def test_a_handler_stores_by_what_it_calls(does: str, is_ended: bool) -> None:
+    (unit,) = scan_text(BY_A_VARIABLE.format(does=does)).units
+    (main,) = (each for each in unit.activities if each.name == 'main')
+    wakers = [waker.by for block in main.blocking[-1:] for waker in block.wakers]
+    assert (OUTSIDE in wakers) is is_ended
+
+
+LOOP = """
+import asyncio
+import signal
+import rclpy
+
+async def serve(node):
+    stop = asyncio.Event()
+
+    def on_signal():
+        stop.set()
+
+    asyncio.get_running_loop().{adds}(signal.SIGINT, on_signal)
+    await stop.wait()
+
+rclpy.init()
+node = rclpy.create_node('robot')
+node.create_timer(0.1, lambda: None)
+asyncio.run(serve(node))
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize(('adds', 'is_open'), [('add_signal_handler', False), ('other', True)])
+def test_a_loop_has_handlers_of_signals_too(adds: str, is_open: bool) -> None:
+    (unit,) = scan_text(LOOP.format(adds=adds)).units
+    (block,) = unit.set_up
+    assert (block.escapes is not None) is is_open

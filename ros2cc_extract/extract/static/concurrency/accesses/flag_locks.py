@@ -17,7 +17,13 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.values.values import NONE, Const, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Const,
+    Value,
+    options_of,
+)
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
 
@@ -30,26 +36,38 @@ Constant = Callable[[ast.expr], str | None]
 
 
 def note_test(
-    reading: Reading, node: ast.If, found: Iterable[str], place: Place, constant: Constant
+    reading: Reading,
+    node: ast.If,
+    test: ast.expr,
+    found: Iterable[str],
+    place: Place,
+    constant: Constant,
 ) -> None:
     """
     An ``if`` tells where the flags are down that it asks for, alone or each for itself.
 
     A state may stand for a flag: who has found that it is a constant, and stores another one, or
     the other way round.
+
+    :param test: that of ``node``, see ``behind_getters``.
     """
     names: dict[str, list[str]] = {}
     for name in found:
         names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
-    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
-    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
-    steps = {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
-    for attribute, down_if, value in _flags_of(node.test, constant):
+    steps = steps_of(node)
+    for attribute, down_if, value in _flags_of(test, constant):
         meant = names.get(attribute, [])
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)
             reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
+
+
+def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
+    """The steps of the path on which the test of an ``if`` is true, and false."""
+    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
+    is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
+    return {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
 
 
 def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
@@ -90,6 +108,35 @@ _SAME: dict[type[ast.cmpop], bool] = {
     ast.IsNot: False,
     ast.NotEq: False,
 }
+
+
+def behind_getters(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> ast.expr:
+    """A test with the attribute for each call of a method that only gives one of its own."""
+    if isinstance(test, ast.UnaryOp):
+        operand = behind_getters(machine, test.operand, frame)
+        return test if operand is test.operand else ast.UnaryOp(test.op, operand)
+    if isinstance(test, ast.BoolOp):
+        values = [behind_getters(machine, value, frame) for value in test.values]
+        return test if values == test.values else ast.BoolOp(test.op, values)
+    if not isinstance(test, ast.Call) or test.args or not isinstance(test.func, ast.Attribute):
+        return test
+    noted, machine.world.effects = machine.world.effects, None
+    with machine.world.reading.apart():
+        method = machine.evaluate(test.func, frame)
+    machine.world.effects = noted
+    return (_given_by(method) if isinstance(method, Bound) else None) or test
+
+
+def _given_by(method: Bound) -> ast.Attribute | None:
+    """``self.busy`` of a method that does nothing but return it."""
+    node = method.function.node
+    if not isinstance(node, ast.FunctionDef) or not node.args.args:
+        return None
+    last = node.body[-1]
+    is_short = len(node.body) == 1 + (ast.get_docstring(node) is not None)
+    value = last.value if is_short and isinstance(last, ast.Return) else None
+    is_own = isinstance(value, ast.Attribute) and isinstance(value.value, ast.Name)
+    return value if is_own and value.value.id == node.args.args[0].arg else None  # type: ignore[union-attr,return-value]
 
 
 def _name_of(test: ast.expr) -> str | None:

@@ -22,7 +22,12 @@ from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Call, Heaped, Instance, Path, Value
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
-from ros2cc_extract.spec.model import ActivityKind
+from ros2cc_extract.spec.model import ActivityKind, When
+
+KeptIn = tuple[Instance, str]
+"""The attribute of an object that keeps a thread."""
+Holds = dict[str, int]
+"""Locks that are held, with the number of each hold."""
 
 
 @dataclass(eq=False)
@@ -45,6 +50,9 @@ class ActivityState(Doer):
     :param site: equal for one start that is met again.
     :param wakes: what it does to end waits, as it was seen in the set-up.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
+    :param alone: the attributes it is kept in, of which each start has found that the thread there
+        has ended; with who starts it, and the holds of locks from that test on.
+    :param left: attributes that it has itself emptied by now.
     """
 
     kind: ActivityKind
@@ -73,6 +81,8 @@ class ActivityState(Doer):
     on_loop: bool = False
     turns: object = None
     pool: Instance | None = None
+    alone: dict[KeptIn, tuple[tuple[Doer | None, frozenset[tuple[str, int]]], ...]] | None = None
+    left: set[KeptIn] = field(default_factory=set)
 
 
 @dataclass(eq=False)
@@ -194,6 +204,9 @@ class ConcurrentWorld(World):
     :param accepted: what the last function held wherever it did not turn down a goal.
     :param flag_tests: of a state that stands for a flag, what has been found of it by those who
         then put it up, see ``flag_locks.py``.
+    :param ended: attributes whose thread has ended, by the step of the path, and the holds then.
+    :param claims: the threads that were stored in such an attribute since, with those holds.
+    :param unguarded: attributes of which a thread is stored, or forgotten, without such a test.
     :param found_down: flags that the last function found down wherever it turned no goal down.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
@@ -221,6 +234,9 @@ class ConcurrentWorld(World):
     retelling: bool = False
     accepted: tuple[str, ...] = ()
     flag_tests: dict[str, set[str]] = field(default_factory=dict)
+    ended: dict[tuple[Place, int], dict[KeptIn, Holds]] = field(default_factory=dict)
+    claims: dict[KeptIn, tuple[Value, Holds]] = field(default_factory=dict)
+    unguarded: set[KeptIn] = field(default_factory=set)
     found_down: frozenset[str] = frozenset()
     still_down: frozenset[str] = frozenset()
     readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
@@ -249,6 +265,11 @@ class ConcurrentWorld(World):
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
     left_callbacks: list[Any] = field(default_factory=list)
     completed: set[int] = field(default_factory=set)
+
+    @property
+    def is_beside_others(self) -> bool:
+        """Whether the set-up is followed, and something was spun or a thread was started."""
+        return self.when is When.START and bool(self.threads or self.spins_begun)
 
     @property
     def spins_begun(self) -> int:

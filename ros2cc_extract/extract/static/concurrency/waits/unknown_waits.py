@@ -22,6 +22,7 @@ _TIMEOUT_FIRST = frozenset(['wait', 'join', 'result', 'exception'])
 _KEYWORDS = frozenset(['timeout', 'block', 'blocking'])
 # What has a ``get`` or ``wait`` that does not wait, or waits for a person that looks at it.
 _OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
+_AT_ONCE = frozenset(['NOBLOCK', 'DONTWAIT', 'MSG_DONTWAIT'])  # pyzmq, ``socket``
 _FUTURES_FROM = frozenset(['asyncio', 'concurrent', 'multiprocessing'])
 
 
@@ -40,6 +41,8 @@ def unknown_wait(function: Mystery, call: Call, trees: list[ast.Module]) -> Unkn
     name, reason = node.func.attr, function.unknown.reason
     if any(word in reason for word in _OTHERS) or not _waits(name, call, trees):
         return None
+    if name == 'accept' and any(id(node) in noted_on(tree, 'alone', _alone) for tree in trees):
+        return None  # a socket's gives the connection; a dialogue of a window's gives nothing
     return Unknown(f'{ast.unparse(node.func)}: {reason}', function.unknown.at or call.place)
 
 
@@ -69,6 +72,11 @@ def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:
     return name in _WITHOUT_VALUES and _takes_no_value(name, call)
 
 
+def _alone(tree: ast.Module) -> frozenset[int]:
+    """The calls whose result nobody uses."""
+    return frozenset(id(part.value) for part in walk(tree) if isinstance(part, ast.Expr))
+
+
 def _has_no_end(call: Call) -> bool:
     """``socket.poll(-1)`` waits for ever (pyzmq, ``Socket.poll``); other ``poll`` may not wait."""
     limit = call.keywords.get('timeout', call.args[0] if call.args else None)
@@ -78,7 +86,13 @@ def _has_no_end(call: Call) -> bool:
 
 def _does_not_block(call: Call) -> bool:
     flags = [call.keywords.get('block'), call.keywords.get('blocking'), *call.args[:1]]
-    return any(isinstance(flag, Const) and flag.value is False for flag in flags)
+    if any(isinstance(flag, Const) and flag.value is False for flag in flags):
+        return True
+    given = [*call.text.args, *call.text.keywords] if isinstance(call.text, ast.Call) else []
+    names = (
+        part.attr for each in given for part in ast.walk(each) if isinstance(part, ast.Attribute)
+    )
+    return not _AT_ONCE.isdisjoint(names)
 
 
 def _takes_no_value(name: str, call: Call) -> bool:

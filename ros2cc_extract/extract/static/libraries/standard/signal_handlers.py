@@ -12,7 +12,7 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -29,14 +29,21 @@ from ros2cc_extract.spec.model import ActivityKind
 
 
 def on_signal(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """``signal.signal(number, handler)``."""
-    for option in options_of(call.argument(1, 'handler') or NONE):
+    """``signal.signal(number, handler)``, and ``loop.add_signal_handler(number, callback)``."""
+    for option in options_of(call.argument(1, 'handler', 'callback') or NONE):
         machine.world.signal_handlers.append(_beside(option, call.place))
         function = option.function if isinstance(option, Bound) else option
         if isinstance(function, Function):
             for name, place in _stored_by(function, option):
                 machine.world.other_writes.setdefault(name, (None, place))
     return machine.mystery('the handler before', call.place, 'signal.signal(…)')
+
+
+def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:
+    """What a handler has stored by calls, now that it was followed."""
+    for access in handler.effects.writes:
+        if access.source is not None:
+            world.other_writes.setdefault(access.name, (None, access.source))
 
 
 def _beside(handler: Value, place: Place) -> ActivityState:

@@ -29,6 +29,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
     Class,
+    Const,
     Function,
     Instance,
     Module,
@@ -158,16 +159,43 @@ def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | N
         machine.world.changing += 1
         if not holds_objects(held) and machine.world.when is When.CALLBACK:
             machine.world.lacking.append((held, None))
-    elif is_assigned_later(machine, owner, name):
+    elif is_assigned_later(machine, owner, name, held):
         machine.world.changing += 1
         note_met(machine.world, owner, name, held)
 
 
-def is_assigned_later(machine: Machine, owner: Instance, name: str) -> bool:
-    """Whether a method of ``owner`` or code outside of its class assigns the attribute anew."""
-    own = any(
-        isinstance(cls, Class) and name in reassigned_attributes(cls.node) for cls in owner.mro
-    )
+def assigns_other(world: World, owner: Instance, name: str, held: Value | None) -> bool:
+    """
+    Whether a method of ``owner`` assigns anything but the constant that it holds already.
+
+    That it holds since before anything else was at work.
+    """
+    constant = held if isinstance(held, Const) else None
+    if (owner, name) in world.stored_late:
+        constant = None
+    for cls in owner.mro:
+        if isinstance(cls, Class):
+            texts = reassigned_attributes(cls.node).get(name)
+            if texts and not (constant and all(_is_written_as(constant, each) for each in texts)):
+                return True
+    return False
+
+
+def _is_written_as(held: Const, text: ast.expr | None) -> bool:
+    """Whether a text is a literal of the constant."""
+    is_literal = isinstance(text, ast.Constant) and type(text.value) is type(held.value)
+    return is_literal and text.value == held.value  # type: ignore[union-attr]
+
+
+def is_assigned_later(
+    machine: Machine, owner: Instance, name: str, held: Value | None = None
+) -> bool:
+    """
+    Whether a method of ``owner`` or code outside of its class assigns the attribute anew.
+
+    :param held: what it holds; a constant that is assigned again stays what it is.
+    """
+    own = assigns_other(machine.world, owner, name, held)
     return own or any(name in _handed_in(tree) for tree in machine.world.trees)
 
 

@@ -30,6 +30,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
 )
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.model import When
 
 MOST_UNSURE = 32
 """So many keys of a dictionary that could not be followed are kept apart."""
@@ -85,6 +86,9 @@ class Assignments(Machine):
                 self.store.write(option, name, new)  # type: ignore[arg-type]
                 self.note_held(option, name, value)
                 self.world.stored.setdefault((option, name), {})[place] = value
+                is_new = self.world.when is not When.START and old != value
+                if is_new or self.world.is_beside_others:
+                    self.world.stored_late.add((option, name))
             if old is None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)
 

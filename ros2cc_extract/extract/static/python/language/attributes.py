@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes
 from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import subclass_registry
 from ros2cc_extract.extract.static.python.objects.metaclasses import NEW, of_metaclass, type_call
+from ros2cc_extract.extract.static.python.objects.unset_globals import UNSET
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.enumerations import Member
 from ros2cc_extract.extract.static.python.values.values import (
@@ -93,7 +93,7 @@ class Attributes(Machine):
         if isinstance(value, Super):
             return self._of_super(value, name, place)
         if value == NONE:
-            unset = Mystery(Unknown('it is None here and set elsewhere', place), _owner_text(text))
+            unset = Mystery(Unknown(UNSET, place), _owner_text(text))
             return self.member_of_mystery(unset, name, place)
         if isinstance(value, Const) and isinstance(value.value, Member):
             return value.value.attribute(name, place)
@@ -139,19 +139,17 @@ class Attributes(Machine):
         """
         What an attribute holds once the set-up is over.
 
-        A plain constant that other methods assign anew may be anything by then.
+        A plain constant that other methods assign anew may be anything by then, unless all of
+        them store the same again.
         """
         open_tests.note_attribute(self, owner, name, held)
         if self.world.when is When.START or not isinstance(held, Const):
             return held
-        for cls in owner.mro:
-            if isinstance(cls, Class) and name in reassigned_attributes(cls.node):
-                self.world.unset += held == NONE
-                changed = Unknown(f'attribute {name!r} is assigned anew by other methods', place)
-                known = open_tests.ever_held(self, owner, name) if held == NONE else None
-                if known is not None:
-                    return choice([held, *known])
-                return choice([held, Mystery(changed, f'self.{name}')])
+        if open_tests.assigns_other(self.world, owner, name, held):
+            self.world.unset += held == NONE
+            changed = Unknown(f'attribute {name!r} is assigned anew by other methods', place)
+            known = open_tests.ever_held(self, owner, name) if held == NONE else None
+            return choice([held, *(known or [Mystery(changed, f'self.{name}')])])
         return held
 
     def _in_order(

@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.python.machine.dependences import computed_fr
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.objects import unset_globals
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
@@ -35,6 +36,8 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     machine.note_call(function, node, frame)
     if isinstance(function, Mystery):
         call.text = node
+    if isinstance(function, Native):
+        unset_globals.pass_on(machine, node, call, frame)
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
+from ros2cc_extract.extract.static.python.objects.unset_globals import unset_global
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
@@ -185,7 +186,8 @@ def _global_as_of_now(machine: Expressions, node: ast.Name, frame: Frame) -> Val
         return NONE
     if node.id not in machine.changed_globals(frame.module):
         return NONE
-    return machine.mystery(f'global {node.id!r} is assigned by functions', frame.place(node), node)
+    reason = f'global {node.id!r} is assigned by functions'
+    return unset_global(machine, node, frame, reason) or NONE
 
 
 def _note_free_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
@@ -204,6 +206,8 @@ def _constant(machine: Expressions, node: ast.Constant, frame: Frame) -> Value:
 def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value:
     machine.world.reading.note_use(node.value, frame.place(node.value))
     owner = machine.evaluate(node.value, frame)
+    if owner == NONE:
+        owner = unset_global(machine, node.value, frame) or owner
     place, name = frame.place(node), frame.attribute_name(node.attr)
     if machine.world.effects is not None:
         for option in options_of(owner):

@@ -97,6 +97,7 @@ class World:
     :param without_caller: the objects on which those were followed that nobody in sight calls.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param looking: the properties that are running, by owner and name.
+    :param unset_globals: what stands in globals that are ``None`` in sight, by file and name.
     :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
     :param reading: what the callback that is followed has read.
     :param times: how often a loop does what is followed once, where that is known.
@@ -115,6 +116,8 @@ class World:
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
+    :param stored_late: those that have got another value than the set-up gave them, or when others
+        were at work already.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
     :param tries: how many ``try`` around may catch what is raised.
     :param met: the objects that the running callback found in what others assign.
@@ -166,6 +169,7 @@ class World:
     moves: str | None = None
     looking: tuple[tuple[int, str], ...] = ()
     made_by_looking: dict[object, Instance] = field(default_factory=dict)
+    unset_globals: dict[tuple[str, str], Mystery] = field(default_factory=dict)
     same_unknowns: dict[Unknown, Mystery] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
     callback_path: Path = ()
@@ -181,6 +185,7 @@ class World:
     made_then: dict[object, Instance] = field(default_factory=dict)
     parts: dict[int, list[Instance]] = field(default_factory=dict)
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
+    stored_late: set[tuple[Value, str]] = field(default_factory=set)
     trying: tuple[int, int] | None = None
     tries: int = 0
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
@@ -203,6 +208,11 @@ class World:
     @property
     def has_let_others_run(self) -> bool:
         """Whether the set-up has let callbacks run, which may have changed what it has stored."""
+        return False
+
+    @property
+    def is_beside_others(self) -> bool:
+        """Whether the set-up is followed, and a thread may be at work beside it."""
         return False
 
     def begin_outermost_loop(self) -> None:

@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
+from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import GroupType
 
@@ -35,7 +36,7 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
     """Whether ``first`` goes on while ``second``, of the same executor, is begun after it."""
     if first.executor is not second.executor or exclusive(first.path, second.path):
         return False
-    if first.thread == second.thread:
+    if first.thread == second.thread or go_in_turn(world, first.by, second.by):
         return False
     if first.place == second.place and first.nodes == second.nodes:
         return False  # the same call, followed once more, and not one text of two threads
@@ -47,9 +48,13 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
 
 
 def note_spun_twice(world: RosWorld) -> None:
-    """Tell of executors that are spun twice at a time, when all was followed."""
-    found = (*_by_threads(world), *_by_callbacks(world))
-    world.diagnostics.extend(dict.fromkeys(found))
+    """Tell of each spin beside another of its executor, when all was followed: the worst."""
+    by_place: dict[Place, Diagnostic] = {}
+    for each in (*_by_threads(world), *_by_callbacks(world)):
+        known = by_place.setdefault(each.place, each)
+        if known.severity is not Severity.ERROR:
+            by_place[each.place] = each if each.severity is Severity.ERROR else known
+    world.diagnostics.extend(by_place.values())
 
 
 def _by_threads(world: RosWorld) -> Iterator[Diagnostic]:

@@ -14,7 +14,7 @@ destroying one, by a thread and in a pool, no spin ended on 7.1.6.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
@@ -47,6 +47,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.extract.static.units.whole_program.destroyed_publishers import (
     published_meanwhile,
 )
+from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind, When
 
@@ -135,10 +136,18 @@ def _destroyed(end: End, entity: EntityState, world: RosWorld) -> Iterator[Diagn
     is_by_callback = isinstance(end.doer, EntityState)
     if _is_main(end.doer) and not any(spin.in_thread for spin in spins):
         return
+    if isinstance(end.doer, ActivityState) and not _is_spun_beside(end.doer, spins, world):
+        return
     has_pool = executor.state.threads != 1
     is_of_other = is_by_callback and executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
     if has_pool or is_of_other or not is_by_callback:
         yield _destroyed_meanwhile(end, entity, executor, _is_done_again(end, world))
+
+
+def _is_spun_beside(doer: ActivityState, spins: Sequence[Spin], world: RosWorld) -> bool:
+    """Whether anybody else spins meanwhile."""
+    others = (spin.by for spin in spins if spin.by is not doer or doer.count != 1)
+    return not all(go_in_turn(world, other, doer) for other in others)
 
 
 def _is_main(doer: object) -> bool:

@@ -195,6 +195,7 @@ class Spin:
     :param from_callback: that thread is one that a callback starts.
     :param over: how many of the spins before it were over then.
     :param is_tried: what rises out of it may be caught.
+    :param by: the thread of the program's own that does it.
     """
 
     executor: Instance
@@ -210,6 +211,7 @@ class Spin:
     from_callback: bool = False
     over: int = 0
     is_tried: bool = False
+    by: ActivityState | None = None
 
     @property
     def key(self) -> object:

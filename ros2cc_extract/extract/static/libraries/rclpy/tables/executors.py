@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency import activities
+from ros2cc_extract.extract.static.concurrency.accesses import kept_threads
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_over
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
@@ -226,7 +227,8 @@ def record_spin(
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
     spin.repeated = isinstance(world.count, Unknown)
     spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
-    spin.is_tried = world.tries > 0
+    spin.is_tried, spin.by = world.tries > 0, world.activity
+    kept_threads.note_goes_on(world)
     spin.from_callback, spin.over = world.current is not None, world.spins_over
     if not any(_is_the_same(spin, other) for other in world.spins.values()):
         world.spins.setdefault(spin.key, spin)
