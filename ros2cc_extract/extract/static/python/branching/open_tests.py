@@ -170,7 +170,7 @@ def assigns_other(world: World, owner: Instance, name: str, held: Value | None) 
 
     That it holds since before anything else was at work.
     """
-    constant = held if isinstance(held, Const) else None
+    constant = held if isinstance(held, Const) and held != NONE else None  # set elsewhere
     if (owner, name) in world.stored_late:
         constant = None
     for cls in owner.mro:
