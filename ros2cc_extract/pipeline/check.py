@@ -37,7 +37,7 @@ from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.rates import with_arrivals
-from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.results.results import Verdict, Verification
 from ros2cc_extract.verify.search.options import Options
 
 SCANNING = 0.75
@@ -135,7 +135,9 @@ class Outcome:
     def is_undecided(self) -> bool:
         """True when a limit left a verdict open, or a file."""
         return bool(self.extraction.cut) or any(
-            verification.is_undecided for verification in self.judged
+            result.verdict is Verdict.UNDECIDED and not result.in_doubt
+            for verification in self.judged
+            for result in verification.results
         )
 
     @property

@@ -140,7 +140,7 @@ def kept_result(repository: Repository, path: Path, origin: Mapping[str, Any]) -
     try:
         data = read_json(path.read_bytes())
         if data[KEY]['key'] == origin['key'] and data[KEY]['complete']:
-            counts = {str(kind): int(count) for kind, count in data['summary'].items()}
+            counts = {k: n for k, n in data['summary'].items() if isinstance(n, int)}
             return Result(repository, State.UNCHANGED, counts)
     except (OSError, ValueError, TypeError, KeyError, AttributeError):
         pass  # there is none, or another file of that name

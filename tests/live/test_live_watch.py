@@ -87,15 +87,20 @@ def explanation(folder: Path) -> str:
 
 @pytest.mark.parametrize('variable', EVERY_RELEASE)
 @pytest.mark.parametrize(
-    ('made', 'says'), [((ASKS,), 'no callback has ended'), ((ASKS, TICKS), 'a callback has not')]
+    ('made', 'says'),
+    [
+        # Kilted runs callbacks of its own at the start, which may end within the limit.
+        ((ASKS,), ('no callback has ended', 'a callback has not ended')),
+        ((ASKS, TICKS), ('a callback has not ended',)),
+    ],
 )
 def test_deadlock_is_explained_once(
-    variable: str, made: tuple[str, ...], says: str, tmp_path: Path
+    variable: str, made: tuple[str, ...], says: tuple[str, ...], tmp_path: Path
 ) -> None:
     with watched(interpreter_of(variable), node(*made), tmp_path) as folder:
         text = explanation(folder)
     first, verdict, *lines = text.splitlines()
-    assert first.startswith(f'ros2cc-extract: {says}')
+    assert first.removeprefix('ros2cc-extract: ').startswith(says)
     assert ' (/some): deadlock: ' in verdict
     assert 'CC101 ask ' in lines[0]
 

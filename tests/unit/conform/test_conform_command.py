@@ -169,7 +169,7 @@ def test_what_a_coroutine_awaits_is_asked_for_where_nobody_tells(tmp_path: Path)
     lines = told.splitlines()
     assert (status, lines[0]) == (3, 'arm: undecided after 3 of 6 events')
     assert lines[-1] == (
-        '  the specification does not tell what it awaits: on_tick; a live run cannot see it, so '
+        '  the specification does not say what it awaits: on_tick; a live run cannot see it, so '
         'give the source, or what merge makes of both'
     )
 
@@ -196,7 +196,7 @@ def test_that_a_callback_spins_is_asked_for_where_nobody_tells(tmp_path: Path) -
     lines = told.splitlines()
     assert (status, lines[0]) == (3, 'arm: undecided after 3 of 8 events')
     assert lines[-1] == (
-        '  the specification does not tell that it spins: on_tick; a live run cannot see it, so '
+        '  the specification does not say that it spins: on_tick; a live run cannot see it, so '
         'give the source, or what merge makes of both'
     )
 
@@ -218,7 +218,7 @@ def test_a_group_that_nobody_knows_leaves_the_question_open(tmp_path: Path) -> N
     status, told, _ = conform(GOOD.replace('b refused 2', 'b begin 2'), tmp_path, spec=unknown)
     lines = told.splitlines()
     assert (status, lines[0]) == (3, 'arm: undecided after 4 of 10 events')
-    assert lines[-1] == '  the specification does not tell of which type it is: g'
+    assert lines[-1] == '  the specification does not say of which type it is: g'
 
 
 def test_as_many_threads_as_cpus_are_as_many_as_the_trace_says(tmp_path: Path) -> None:
