@@ -6,8 +6,8 @@ const ARGUMENTS = [
 const PREPARE = `
 import io, os, sys
 sys.path.insert(0, '/tool')
-os.mkdir('/work')
-os.chdir('/work')
+os.mkdir('/checked')
+os.chdir('/checked')
 from ros2cc_extract.cli.main import main
 
 def check(*arguments):
@@ -40,7 +40,7 @@ async function fetched(name) {
 async function checked(text) {
   const { python, check } = await (prepared ??= prepare());
   postMessage({ stage: 'checking' });
-  python.FS.writeFile('/work/node.py', text);
+  python.FS.writeFile('/checked/node.py', text);
   const answer = check(...ARGUMENTS);
   const [status, out, complaints] = answer.toJs();
   answer.destroy();

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -21,8 +22,11 @@ def of_all_releases(
     holding: dict[object, list[Setting]] = {}
     first: dict[object, Finding] = {}
     for setting, findings in found:
+        alike: Counter[object] = Counter()
         for finding in findings:
-            identity = (finding.code, finding.place, finding.subjects, finding.unit)
+            about = (finding.code, finding.place, finding.subjects, finding.unit)
+            alike[about] += 1
+            identity = (about, alike[about])  # two may differ in their words alone
             first.setdefault(identity, finding)
             settings = holding.setdefault(identity, [])
             if setting not in settings:

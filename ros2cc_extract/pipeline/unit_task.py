@@ -74,11 +74,11 @@ class Examined:
     @property
     def under_all(self) -> Verification:
         """``judged``, each verdict as it is where it is worst."""
-        worst = {result.words: result for result in self.judged.results}
+        worst = {(result.words, result.formula): result for result in self.judged.results}
         for result in (result for each in self.elsewhere for result in each.results):
-            known = worst.setdefault(result.words, result)
+            known = worst.setdefault((result.words, result.formula), result)
             if _VERDICTS.index(result.verdict) > _VERDICTS.index(known.verdict):
-                worst[result.words] = result
+                worst[result.words, result.formula] = result
         return (
             replace(self.judged, results=tuple(worst.values())) if self.elsewhere else self.judged
         )
