@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
 from ros2cc_extract.deadline import Deadline
-from ros2cc_extract.jobs.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import ProcessPool
 
 Job = TypeVar('Job')
 Answer = TypeVar('Answer')
@@ -68,8 +68,8 @@ class Processes:
         def answer(number: int) -> Answer:
             return work(jobs[number])
 
-        with Crew(answer, min(self.size, len(jobs))) as crew:
-            for number, (given, _) in crew.each(range(len(jobs))):
+        with ProcessPool(answer, min(self.size, len(jobs))) as pool:
+            for number, (given, _) in pool.each(range(len(jobs))):
                 yield number, given
 
 

@@ -44,7 +44,7 @@ def usable_cores(wanted: int | None = None) -> int:
     return wanted or len(os.sched_getaffinity(0))
 
 
-class Crew(Generic[Request, Answer]):
+class ProcessPool(Generic[Request, Answer]):
     """
     Children that answer requests; use as a context manager.
 
@@ -58,7 +58,7 @@ class Crew(Generic[Request, Answer]):
         self._lines: list[Connection | None] = []
         self.size = size
 
-    def __enter__(self) -> Crew[Request, Answer]:
+    def __enter__(self) -> ProcessPool[Request, Answer]:
         if self.size > 1:
             with _no_interrupts():
                 self._start_children()

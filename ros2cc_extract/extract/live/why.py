@@ -27,7 +27,7 @@ from ros2cc_extract.extract.live.injection import (
     user_to_enter,
 )
 from ros2cc_extract.files import read_regular
-from ros2cc_extract.jobs.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import ProcessPool
 
 T = TypeVar('T')
 # From when it was let in; a busy process on a busy machine takes a second for each look.
@@ -138,8 +138,8 @@ def _look_at(pids: Sequence[int]) -> dict[int, Looks | Ros2ccError]:
     """
     with private_folder() as folder:
         enter = functools.partial(_enter, folder=folder)
-        with Crew(enter, min(len(pids), _ENTERED_AT_ONCE)) as crew:
-            refusals = dict(zip(pids, (error for error, _ in crew.ask(pids)), strict=True))
+        with ProcessPool(enter, min(len(pids), _ENTERED_AT_ONCE)) as pool:
+            refusals = dict(zip(pids, (error for error, _ in pool.ask(pids)), strict=True))
         entered = [pid for pid, error in refusals.items() if error is None]
         failures = {pid: error for pid, error in refusals.items() if error is not None}
         first, unready = _each(entered, functools.partial(_has_looked, folder))

@@ -8,7 +8,7 @@ import sys
 
 # Each in a process of its own: under some test runners threads run, and a fork is not safe.
 HEAD = 'import os, signal, threading, time\n'
-HEAD += 'from ros2cc_extract.jobs.process_pool import Crew, usable_cores\n'
+HEAD += 'from ros2cc_extract.jobs.process_pool import ProcessPool, usable_cores\n'
 
 
 def said(program: str) -> str:
@@ -20,17 +20,17 @@ def said(program: str) -> str:
 
 def test_answers_come_in_the_order_of_the_requests() -> None:
     program = """
-with Crew(lambda n: n * n, 3) as crew:
-    print([answer for answer, _ in crew.ask(range(20))])
+with ProcessPool(lambda n: n * n, 3) as pool:
+    print([answer for answer, _ in pool.ask(range(20))])
 """
     assert said(program) == str([n * n for n in range(20)])
 
 
 def test_who_answered_can_be_asked_again() -> None:
     program = """
-with Crew(lambda _: os.getpid(), 3) as crew:
-    first = crew.ask(range(9))
-    again = crew.ask(range(9), [child for _, child in first])
+with ProcessPool(lambda _: os.getpid(), 3) as pool:
+    first = pool.ask(range(9))
+    again = pool.ask(range(9), [child for _, child in first])
     print(again == first, os.getpid() in [pid for pid, _ in first])
 """
     assert said(program) == 'True False'
@@ -43,8 +43,8 @@ def answer(n):
     if n % 3 == 0 and os.getpid() != parent:
         os.kill(os.getpid(), signal.SIGKILL)
     return n
-with Crew(answer, 2) as crew:
-    print([answer for answer, _ in crew.ask(range(9))])
+with ProcessPool(answer, 2) as pool:
+    print([answer for answer, _ in pool.ask(range(9))])
 """
     assert said(program) == str(list(range(9)))
 
@@ -54,8 +54,8 @@ def test_an_error_is_raised_where_it_can_be_handled() -> None:
 def answer(n):
     raise LookupError('no ' + str(n))
 try:
-    with Crew(answer, 2) as crew:
-        crew.ask([7, 8])
+    with ProcessPool(answer, 2) as pool:
+        pool.ask([7, 8])
 except LookupError as error:
     print(error)
 """
@@ -88,9 +88,9 @@ def answer(n):
 signal.signal(signal.SIGINT, signal.default_int_handler)
 os.setpgid(0, 0)
 try:
-    with Crew(answer, 2) as crew:
-        children = [child.pid for child in crew._children]
-        crew.ask([1, 2])
+    with ProcessPool(answer, 2) as pool:
+        children = [child.pid for child in pool._children]
+        pool.ask([1, 2])
 except KeyboardInterrupt:
     print('interrupted')
 print([pid for pid in children if os.path.exists('/proc/%d' % pid)])

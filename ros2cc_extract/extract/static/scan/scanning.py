@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
 from ros2cc_extract.extract.static.units.entity_aliases import each_once
 from ros2cc_extract.extract.static.units.units import joined_of, specs_of
-from ros2cc_extract.jobs.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import ProcessPool
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
@@ -108,8 +108,8 @@ def scan_project(
     worker = _Worker(project, files)
     pieces = _pieces(files, processes)
     processes = min(processes, len(pieces))
-    with Crew(worker.answer, processes) as crew:
-        return _Scan(project, files, pieces, crew, worker, progress, patience).run()
+    with ProcessPool(worker.answer, processes) as pool:
+        return _Scan(project, files, pieces, pool, worker, progress, patience).run()
 
 
 def _pieces(files: Sequence[SourceFile], processes: int) -> list[Numbers]:
@@ -210,7 +210,7 @@ class _Scan:
         project: Project,
         files: Sequence[SourceFile],
         pieces: Sequence[Numbers],
-        crew: Crew[Piece, Answer],
+        pool: ProcessPool[Piece, Answer],
         worker: _Worker,
         progress: Progress | None,
         patience: Patience,
@@ -219,7 +219,7 @@ class _Scan:
         self._worker = worker
         self._files = files
         self._pieces = pieces
-        self._crew = crew
+        self._pool = pool
         self._progress = progress or (lambda done, total: None)
         self._done = 0
         self._patience = patience
@@ -252,7 +252,7 @@ class _Scan:
     def _rest(self, first: Sequence[Found], homes: Sequence[int | None]) -> list[Found]:
         """Follow what no entry reaches, as if one file were followed after the other."""
         covered = _Covered(first)
-        ahead = self._ahead(covered, homes) if self._crew.size > 1 else {}
+        ahead = self._ahead(covered, homes) if self._pool.size > 1 else {}
         covered.grown.clear()
         rest: list[Found] = []
         with self._ended_by_interrupt():
@@ -280,7 +280,7 @@ class _Scan:
     ) -> list[tuple[Answer, int | None]]:
         found: dict[int, tuple[Answer, int | None]] = {}
         with self._ended_by_interrupt():
-            for number, given in self._crew.each(pieces, by) if not self._is_interrupted else ():
+            for number, given in self._pool.each(pieces, by) if not self._is_interrupted else ():
                 found[number] = given
                 self._step(len(pieces[number].numbers))
         return [
@@ -316,9 +316,9 @@ class _Scan:
         self._progress(self._done, 2 * len(self._files))
 
     def _read(self) -> list[Read]:
-        has_children = self._crew.size > 1 and not self._is_interrupted
-        children = range(self._crew.size if has_children else 0)
-        asked = self._crew.ask([Piece(())] * len(children), list(children))
+        has_children = self._pool.size > 1 and not self._is_interrupted
+        children = range(self._pool.size if has_children else 0)
+        asked = self._pool.ask([Piece(())] * len(children), list(children))
         answers = [*(answer for answer, _ in asked), self._worker.answer(Piece(()))]
         return [answer.read for answer in answers if answer.read is not None]
 
