@@ -19,7 +19,7 @@ import yaml
 
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.extract.static.scan import scanning
-from ros2cc_extract.jobs.process_pool import Crew
+from ros2cc_extract.jobs.process_pool import ProcessPool
 from tests.attack.running import PATIENCE_S, TOOL, Ended, assert_orderly, run_tool
 from tests.support.packages import DEADLOCK, MENDED
 from tests.support.repositories import environment
@@ -413,9 +413,9 @@ def test_work_that_cannot_be_shared_is_done_here(
 
     monkeypatch.setattr(multiprocessing.context.ForkProcess, 'start', refuse)
     before = len(list(Path('/proc/self/fd').iterdir()))
-    with Crew(lambda number: number * 2, 3) as crew:
-        assert [answer for answer, _ in crew.ask(range(10))] == list(range(0, 20, 2))
-        assert crew.size == max(left, 1)
+    with ProcessPool(lambda number: number * 2, 3) as pool:
+        assert [answer for answer, _ in pool.ask(range(10))] == list(range(0, 20, 2))
+        assert pool.size == max(left, 1)
     assert len(list(Path('/proc/self/fd').iterdir())) == before
 
 

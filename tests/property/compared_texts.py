@@ -22,7 +22,7 @@ from closed_specs import random_rclpy_unit, random_unit
 
 from ros2cc_extract.checker.api import Fairness, Limits, Query, Verdict, check, read_model
 from ros2cc_extract.generator.build import Profile, Text, render
-from ros2cc_extract.jobs.process_pool import Crew, usable_cores
+from ros2cc_extract.jobs.process_pool import ProcessPool, usable_cores
 from ros2cc_extract.spec.close import ClosedSpec
 
 Verdicts = dict[str, Verdict]
@@ -187,11 +187,11 @@ def compare_series(
     left = [number for number in numbers if number not in kept]
     started = time.monotonic()
     size = usable_cores(jobs)
-    with Crew(lambda number: compare(number, draw(number), effort), size) as crew:
+    with ProcessPool(lambda number: compare(number, draw(number), effort), size) as pool:
         for batch in _batches(left):
             if time.monotonic() - started > seconds:
                 break
-            new = [comparison for comparison, _ in crew.ask(batch)]
+            new = [comparison for comparison, _ in pool.ask(batch)]
             found += new
             if record:
                 with record.open('a') as stream:

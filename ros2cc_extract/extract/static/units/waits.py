@@ -42,6 +42,11 @@ from ros2cc_extract.extract.static.units.wakers.queue_consumers import (
     may_find_it_done,
     taken_by_itself,
 )
+from ros2cc_extract.extract.static.units.wakers.set_up_wakers import (
+    ends_for_good,
+    is_of_set_up,
+    why_open,
+)
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     forgets,
     is_unheard,
@@ -381,6 +386,9 @@ class UnitWaits(DataWriters):
         given = self._world.given.get(reference.number)
         if given is not None:
             return given
+        early = why_open(mine, reference, self._world)
+        if early is not None:
+            return early
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(
@@ -391,8 +399,8 @@ class UnitWaits(DataWriters):
     def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
         by, place = waking.by, waking.place
         if by is None:
-            if waking.uncalled is None and not comes_last(waking, self._world):
-                yield from self._by_set_up(waking, reference)
+            if ends_for_good(waking, reference, self._world):
+                yield Waker(by=TIME, source=place)
             return
         name = self._names.get(id(by))
         if name is None:
@@ -420,16 +428,6 @@ class UnitWaits(DataWriters):
             return True  # it notifies before it waits itself
         return is_kept_out(waking, reference, doer, self._doers)
 
-    def _by_set_up(self, waking: Waking, reference: ResourceRef) -> Iterator[Waker]:
-        """What is set before anything else runs stays so, unless it is taken back."""
-        if waking.word is Word.SET and reference.is_kept:
-            is_open = waking.conditional or reference.number in self._world.cleared
-            yield Waker(by=TIME, source=waking.place, conditional=is_open)
-        elif (
-            waking.word in (Word.PUT, Word.RELEASE, Word.GET, Word.DONE) and not waking.is_counted
-        ):
-            yield Waker(by=TIME, source=waking.place, conditional=True)
-
     def _ended_last(self, reference: ResourceRef) -> Place | None:
         """Where the program ends a wait when its spin is over."""
         wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
@@ -440,11 +438,7 @@ class UnitWaits(DataWriters):
         """How many waits end without a waker, as the set-up leaves it."""
         if reference.initial is None or reference.is_kept:
             return reference.initial
-        early = [
-            w
-            for w in mine
-            if w.by is None and w.uncalled is None and not comes_last(w, self._world)
-        ]
+        early = [waking for waking in mine if is_of_set_up(waking, self._world)]
         counted = [w for w in early if w.word in (Word.PUT, Word.RELEASE) and w.is_counted]
         return reference.initial + len(counted)
 

@@ -1,7 +1,8 @@
 """
 Wakers that others may keep from ending a wait, in ways that no model has.
 
-A task is there only when its maker has run; a loop of asyncio runs one coroutine at a time, which
+A task or a done-callback is there only when its maker has run, and an execute callback when a goal
+callback has accepted; a loop of asyncio runs one coroutine at a time, which
 holds it while it blocks; and who puts something in and takes it out again in the same run may be
 the one who gets it. Such a waker is one that perhaps never comes.
 """
@@ -30,7 +31,7 @@ def is_kept_out(waking: Waking, reference: ResourceRef, doer: Doer, doers: Seque
         return False
     return (
         is_off_its_loop(by, doers)
-        or _is_made_by_one_kept_out(by, doer)
+        or _is_begun_by_one_kept_out(by, doer, doers)
         or _takes_back(waking, reference)
     )
 
@@ -40,10 +41,26 @@ def is_off_its_loop(by: object, doers: Sequence[Doer]) -> bool:
     return isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers)
 
 
-def _is_made_by_one_kept_out(by: object, doer: Doer) -> bool:
-    if not isinstance(by, EntityState) or by.kind is not EntityKind.TASK:
+def _is_begun_by_one_kept_out(by: object, doer: Doer, doers: Sequence[Doer]) -> bool:
+    if not isinstance(by, EntityState):
         return False
-    return by.maker is not doer and may_not_overlap(by.maker, doer)
+    if by.kind is EntityKind.ACTION_EXECUTE:
+        servers = (each for each in doers if _accepts_for(each, by))
+        return any(server is doer or may_not_overlap(server, doer) for server in servers)
+    is_made = by.kind in (EntityKind.TASK, EntityKind.DONE_CALLBACK) and by.maker is not doer
+    return is_made and not _is_of_one_request(by, doer) and may_not_overlap(by.maker, doer)
+
+
+def _is_of_one_request(by: EntityState, doer: Doer) -> bool:
+    """Whether ``doer``, as a feedback callback, comes of the request whose answer ``by`` takes."""
+    return isinstance(doer, EntityState) and by.key is not None and doer.key == by.key
+
+
+def _accepts_for(other: Doer, execute: EntityState) -> bool:
+    """Whether ``other`` runs the goal callback of the action server of ``execute``."""
+    if not isinstance(other, EntityState) or other.kind is not EntityKind.ACTION_SERVER:
+        return False
+    return (other.node, other.place) == (execute.node, execute.place)
 
 
 def _holds_the_loop_of(by: ActivityState, other: Doer) -> bool:

@@ -1,0 +1,43 @@
+"""
+What the set-up does for a wait before anything else runs.
+
+An event that it sets stays set, unless it is cleared. What it puts or gives back is there for the
+first waits only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.units.wakers.operations import comes_last
+from ros2cc_extract.source_locations import Unknown
+
+_GIVEN = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
+
+
+def is_of_set_up(waking: Waking, world: RosWorld) -> bool:
+    """Whether it comes before anything else runs."""
+    return waking.by is None and waking.uncalled is None and not comes_last(waking, world)
+
+
+def ends_for_good(waking: Waking, reference: ResourceRef, world: RosWorld) -> bool:
+    """Whether, after ``waking`` in the set-up, nobody waits any more."""
+    is_set = waking.word is Word.SET and reference.is_kept and not waking.conditional
+    return is_set and reference.number not in world.cleared and is_of_set_up(waking, world)
+
+
+def why_open(mine: Sequence[Waking], reference: ResourceRef, world: RosWorld) -> Unknown | None:
+    """Why the set-up may end one wait and not the next one."""
+    early = [waking for waking in mine if is_of_set_up(waking, world)]
+    if any(ends_for_good(waking, reference, world) for waking in early):
+        return None
+    for waking in early:
+        is_set = waking.word is Word.SET and reference.is_kept
+        if is_set or (waking.word in _GIVEN and not waking.is_counted):
+            what = 'cleared again' if is_set else 'used up'
+            reason = f'what the set-up does to end it may be {what}'
+            return Unknown(reason, waking.place)
+    return None
