@@ -17,8 +17,9 @@ from ros2cc_extract.jobs import process_pool
 from ros2cc_extract.extract.static.api import scan
 
 started = []
-start = process_pool.ProcessPool._start_child
-process_pool.ProcessPool._start_child = lambda self, *given: (started.append(1), start(self, *given))
+pool = process_pool.ProcessPool
+start = pool._start_child
+pool._start_child = lambda self, *given: (started.append(1), start(self, *given))
 print(scan([Path(p) for p in sys.argv[2:]], processes=int(sys.argv[1])))
 print(len(started), 'children', file=sys.stderr)
 """
