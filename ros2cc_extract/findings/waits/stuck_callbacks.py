@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called, group_words, listing, plural
 from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
+from ros2cc_extract.findings.waits.verdicts import PROGRESS, is_of_repeated, refuting_run
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import is_one_thread
 from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
@@ -58,6 +59,30 @@ def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
             name = holder.display_name if holder is not None else standstill.needed
             found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders, name))
     return found
+
+
+def together_with(first: str, stuck: Sequence[Stuck]) -> list[Stuck]:
+    """``first`` and those of the others that stand in its way, which begin with it."""
+    names = {first}
+    while True:
+        needed = {name for each in stuck if each.doer.name in names for name in each.enders}
+        wider = names | {each.doer.name for each in stuck if each.doer.name in needed}
+        if wider == names:
+            return sorted(
+                (each for each in stuck if each.doer.name in names),
+                key=lambda each: each.doer.name != first,
+            )
+        names = wider
+
+
+def waits_in_circle(caller: Doer, context: Context) -> bool:
+    """Whether all that could end its wait wait themselves, so that no free thread would help."""
+    run = refuting_run(PROGRESS, context, caller)
+    if run is None or is_of_repeated(caller, context):
+        return False
+    together = together_with(caller.name, stuck_in(run, context))
+    names = {each.doer.name for each in together}
+    return bool(together) and all(each.enders and names >= {*each.enders} for each in together)
 
 
 def _with_servers(names: Iterable[str], context: Context) -> Iterator[str]:

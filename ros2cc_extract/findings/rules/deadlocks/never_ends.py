@@ -18,7 +18,13 @@ from ros2cc_extract.findings.rules.deadlocks import (
     rate_on_one_thread,
 )
 from ros2cc_extract.findings.waits.exhausted_permits import kept_for, used_up
-from ros2cc_extract.findings.waits.stuck_callbacks import Stuck, shut_out_for, stuck_in, why_stuck
+from ros2cc_extract.findings.waits.stuck_callbacks import (
+    Stuck,
+    shut_out_for,
+    stuck_in,
+    together_with,
+    why_stuck,
+)
 from ros2cc_extract.findings.waits.verdicts import (
     PROGRESS,
     is_of_repeated,
@@ -148,7 +154,7 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
         stuck = stuck_in(run, context)
         names = {each.doer.name for each in stuck}
         if caller.name in names and not names & explained:
-            together = _together(caller.name, stuck)
+            together = together_with(caller.name, stuck)
             block = together[0].wait.block
             # A thread that the program ends at its end waits as long as it is meant to.
             if block.call == WORKING_LOOP or block.at_end is not None:
@@ -169,20 +175,6 @@ def open_facts(context: Context) -> str:
 
 _MATTERS = ('entities', 'group', 'executor', 'function', 'threads')
 """Facts of a unit that may change who runs beside whom, or who ends a wait."""
-
-
-def _together(first: str, stuck: Sequence[Stuck]) -> list[Stuck]:
-    """``first`` and those of the others that stand in its way, which begin with it."""
-    names = {first}
-    while True:
-        needed = {name for each in stuck if each.doer.name in names for name in each.enders}
-        wider = names | {each.doer.name for each in stuck if each.doer.name in needed}
-        if wider == names:
-            return sorted(
-                (each for each in stuck if each.doer.name in names),
-                key=lambda each: each.doer.name != first,
-            )
-        names = wider
 
 
 def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit:

@@ -11,6 +11,7 @@ from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import called, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.capacity import Capacity, capacity_of
+from ros2cc_extract.findings.waits.stuck_callbacks import waits_in_circle
 from ros2cc_extract.findings.waits.verdicts import is_of_repeated, run_in_which_one_hangs
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, kind_of, waits_of
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
@@ -116,7 +117,8 @@ def _holds_a_worker(wait: Wait, context: Context) -> bool:
     if wait.kind is WaitKind.RATE:
         return True
     needed = wait.kind in (WaitKind.ANSWER, WaitKind.SIGNAL) and bool(wait.needs)
-    return needed and shut_out_by(wait, context) is None
+    is_of_pool = needed and shut_out_by(wait, context) is None
+    return is_of_pool and not waits_in_circle(wait.caller, context)
 
 
 def _judge(waits: Sequence[Wait], capacity: Capacity, workers: Workers | Unknown) -> Iterator[Hit]:
