@@ -196,6 +196,7 @@ class Spin:
     :param over: how many of the spins before it were over then.
     :param is_tried: what rises out of it may be caught.
     :param by: the thread of the program's own that does it.
+    :param chains: the calls that lead to it.
     """
 
     executor: Instance
@@ -212,6 +213,7 @@ class Spin:
     over: int = 0
     is_tried: bool = False
     by: ActivityState | None = None
+    chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
 
     @property
     def key(self) -> object:
