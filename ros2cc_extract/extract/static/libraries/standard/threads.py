@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
     note_over,
     note_timed_join,
 )
+from ros2cc_extract.extract.static.libraries.standard.unset_events import is_never_set
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
@@ -285,9 +286,11 @@ def _keep_flag(machine: ConcurrentMachine, event: Instance, flag: Const) -> None
 
 
 def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Known in the set-up alone, before anything else of the program runs."""
+    """Known in the set-up alone, before anything else runs, and where nobody ever sets it."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
+    if is_never_set(world, receiver):
+        return Const(False)
     is_set_up = world.when is When.START and not world.spins_begun and not world.in_thread
     if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
         return flag
