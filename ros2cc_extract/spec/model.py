@@ -260,6 +260,7 @@ class Activity:
     :param daemon: the program ends without waiting for it.
     :param loops: it never ends by itself.
     :param ends_first: the set-up waits for its end, before anything spins.
+    :param spins: where it runs the callbacks itself, if nobody else ever does, and one by one.
     :param source: where it is started; ``defined`` is its function.
     """
 
@@ -283,6 +284,7 @@ class Activity:
     locks: tuple[Act, ...] = ()
     publishes: tuple[Act, ...] = ()
     changes: tuple[Act, ...] = ()
+    spins: tuple[Act, ...] = ()
     pieces: tuple[Access, ...] = ()
 
     @property

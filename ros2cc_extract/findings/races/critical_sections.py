@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ros2cc_extract.identity_memo import known_of, once
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import SHARED, Access
+from ros2cc_extract.spec.effects import SHARED, Access, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 
@@ -118,3 +118,14 @@ def is_operand(read: Access, write: Access) -> bool:
     if at is None or to is None or read.chain != write.chain:
         return False
     return (at.file, at.line) == (to.file, to.line) and (at.column or 0) > (to.column or 0)
+
+
+def is_read_before(read: Access, act: Act, write: Access) -> bool:
+    """Whether ``act`` stands between the two, or on the line of a write that rests on the read."""
+    if steps(read) < steps(act) < steps(write):
+        return True
+    depth, at = len(write.chain), write.source
+    way = steps(act)[depth : depth + 1] if act.chain[:depth] == write.chain else ()
+    return is_operand(read, write) and any(
+        at is not None and (place.file, place.line) == (at.file, at.line) for place in way
+    )

@@ -16,11 +16,12 @@ from itertools import combinations
 
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.wording import called, listing
+from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.races import happens_before
 from ros2cc_extract.findings.races.critical_sections import (
     is_operand,
     is_other_item,
+    is_read_before,
     keep_apart,
     kept_between,
     read_acted_on,
@@ -41,10 +42,9 @@ from ros2cc_extract.findings.waits.overlap import Overlap, interleaves, overlap
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access
+from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
-from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
 from ros2cc_extract.verify.results.evidence import Evidence
 
 
@@ -191,42 +191,6 @@ def _join(races: list[Race]) -> Race:
     return replace(ordered[0], names=tuple(name for race in ordered for name in race.names))
 
 
-def describe(race: Race) -> str:
-    """Say what happens to the attributes."""
-    first = called(race.first.doer)
-    others = listing(called(use.doer) for use in race.others)
-    if race.others[0].doer.name == race.first.doer.name:
-        others = 'another thread that runs it'
-    others = f'{others} of another entity' if others == first else others
-    names = listing(race.names, limit=4)
-    it = 'it' if len(race.names) == 1 else 'them'
-    old = 'its old value' if len(race.names) == 1 else 'their old values'
-    return {
-        RaceKind.CHANGED_IN_LOOP: f'{first} iterates over {names}, and {others} may change '
-        f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
-        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
-        f'{it} to None in between: then the use raises an exception',
-        RaceKind.TORN: f'{first} publishes {names} while {others} may change {it} piece by '
-        'piece: the '
-        'message is half old and half new',
-        RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
-        'at the same time: one change can get lost',
-        RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
-        f'write {it} in between: what was read no longer holds',
-        RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '
-        f'{others} may change {it} in between: what was read may no longer hold',
-        RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
-        f'may write {it} at the same time: {IN_ONE_PIECE}',
-        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
-        'last one wins',
-    }[race.kind]
-
-
-IN_ONE_PIECE = (
-    f'{NO_GLOBAL_LOCK.without}, which the language does not promise and free-threaded builds lack'
-)
-
-
 def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
     if not _share_data(one, other):
         return
@@ -240,6 +204,9 @@ def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
             happens_before.meeting(other, one, context),
         )
     elif (meeting := beside(one, other, context)) is not None:
+        if _spins(one) or _spins(other):
+            yield from _over_spins(*(meeting if _spins(one) else reversed(meeting)))
+            return
         together, (one, other) = Overlap(), meeting
     if together is not None:
         yield from _at_once(one, other, together)
@@ -294,6 +261,39 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
             for first, second in pairs:
                 if first.access.name == second.access.name and _is_stale(first, second):
                     yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
+
+
+def _spins(doer: Doer) -> tuple[Act, ...]:
+    """Where it runs the callbacks itself, one by one; they come in nowhere else."""
+    return doer.spins if isinstance(doer, Activity) else ()
+
+
+def _over_spins(server: Doer, callback: Doer) -> Iterator[_Conflict]:
+    """What ``main`` has read before it lets callbacks run, and relies on afterwards."""
+    begun = min(steps(spin) for spin in _spins(server))
+    pairs = [
+        (RaceKind.CHECK_THEN_ACT, Use(server, a), Use(callback, b))
+        for a in server.writes
+        for b in writes_of(callback).get(a.name, ())
+        if not is_other_item(a, b) and not _changes_nothing(Use(server, a), Use(callback, b))
+    ]
+    found = [pair for pair in pairs if _is_read_before_spin(*pair[1:])]
+    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(server, callback)]
+    cleared = [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(server, callback)]
+    found += [each for each in cleared if begun < steps(each[1].access)]
+    for kind, first, second in found:
+        if first.doer is server:
+            yield _Conflict(kind, first, second, None)
+
+
+def _is_read_before_spin(first: Use, second: Use) -> bool:
+    write = first.access
+    return (write.rests or write.update) and any(
+        is_read_before(read, spin, write)
+        and not keep_apart(kept_between(read, write, first.doer), second.access.locks)
+        for _, read in reads_of(first.doer).get(write.name, ())
+        for spin in _spins(first.doer)
+    )
 
 
 def _is_stale(first: Use, second: Use) -> bool:

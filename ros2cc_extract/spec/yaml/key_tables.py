@@ -311,6 +311,7 @@ ACTIVITY = record(
                 ('locks', 'locks', listing(ACT)),
                 ('publishes', 'publishes', listing(ACT)),
                 ('changes', 'changes', listing(ACT)),
+                ('spins', 'spins', listing(ACT)),
                 ('pieces', 'pieces', listing(ACCESS)),
                 _SOURCE,
                 ('defined', 'defined', _OPTIONAL_PLACE),

@@ -6,12 +6,16 @@ from collections.abc import Iterable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    ExecutorState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.units.callback_names import FunctionFacts, describe
 from ros2cc_extract.extract.static.units.waits import UnitWaits
-from ros2cc_extract.spec.effects import Access, Waker
+from ros2cc_extract.spec.effects import Access, Act, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 _MAIN = 'main'
@@ -78,8 +82,39 @@ def facts_of(state: ActivityState) -> FunctionFacts:
     return describe(state.target, state.place)
 
 
+def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) -> tuple[Act, ...]:
+    """
+    Where ``main`` runs the callbacks of ``nodes``, if nobody else does, and on its one thread.
+
+    Then it stands still while they run, and they do while it goes on.
+    """
+    spins = [spin for spin in world.spins.values() if not set(nodes).isdisjoint(spin.nodes)]
+    executors = {spin.executor for spin in spins} | {each.executor for each in world.inside_spins}
+    is_alone = (
+        state.kind is ActivityKind.MAIN
+        and not any(spin.in_thread or spin.from_callback for spin in spins)
+        and all(node.state.nested is None for node in nodes)
+        and all(_has_one_thread(executor.state) for executor in executors)
+    )
+    return tuple(
+        Act(name=spin.how, source=spin.place, chain=chain)
+        for spin in spins
+        if is_alone and not spin.for_ever
+        for chain in spin.chains
+    )
+
+
+def _has_one_thread(executor: ExecutorState) -> bool:
+    is_known = executor.unknown is None and executor.unresolved is None
+    return is_known and executor.threads == 1 and executor.threads_unresolved is None
+
+
 def activity(
-    state: ActivityState, names: dict[int, str], waits: UnitWaits, pieces: tuple[Access, ...]
+    state: ActivityState,
+    names: dict[int, str],
+    waits: UnitWaits,
+    pieces: tuple[Access, ...],
+    spins: tuple[Act, ...],
 ) -> Activity:
     """The value of ``state`` in the specification."""
     facts = facts_of(state)
@@ -107,6 +142,7 @@ def activity(
         locks=tuple(effects.locks),
         publishes=tuple(effects.publishes),
         changes=tuple(effects.changes),
+        spins=spins,
         pieces=pieces,
     )
 

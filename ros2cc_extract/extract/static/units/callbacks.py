@@ -16,7 +16,12 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
-from ros2cc_extract.extract.static.units.activities import activities_of, activity, facts_of
+from ros2cc_extract.extract.static.units.activities import (
+    activities_of,
+    activity,
+    facts_of,
+    own_spins,
+)
 from ros2cc_extract.extract.static.units.callback_names import (
     FunctionFacts,
     constant_text,
@@ -325,7 +330,14 @@ class UnitBuilder:
                 for callback, entity in zip(callbacks, entities, strict=True)
             ),
             tuple(
-                activity(state, names, waits, pieces_of(state, self._world)) for state in states
+                activity(
+                    state,
+                    names,
+                    waits,
+                    pieces_of(state, self._world),
+                    own_spins(state, self._world, self._nodes),
+                )
+                for state in states
             ),
             told(self._unit.set_up, self._world, waits, doers),
         )

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.races.races import Race, RaceKind, describe, races_of
+from ros2cc_extract.findings.races.race_texts import describe
+from ros2cc_extract.findings.races.races import Race, RaceKind, races_of
 
 HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
 OF_OTHER_RULES = (RaceKind.LAST_WRITE_WINS, RaceKind.CLEARED_IN_USE)

@@ -8,7 +8,8 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.races.flag_locks import shared_by
-from ros2cc_extract.findings.races.races import IN_ONE_PIECE, LOSING, RaceKind, races_of
+from ros2cc_extract.findings.races.race_texts import IN_ONE_PIECE
+from ros2cc_extract.findings.races.races import LOSING, RaceKind, races_of
 from ros2cc_extract.findings.races.self_races import (
     SelfRace,
     SelfRaceKind,

@@ -54,6 +54,7 @@ TELLS = """
 self.once.cancel()
 with self.cond:
     self.ready = True
+    self.arrived.set()
     self.cond.notify()
 """
 AGAIN = TELLS.replace('self.once.cancel()', 'pass')

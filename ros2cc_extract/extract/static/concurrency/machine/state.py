@@ -121,6 +121,15 @@ class Over:
 
 
 @dataclass(frozen=True, eq=False)
+class TimedJoin:
+    """The program has waited for a thread, but not for ever; ``over`` is what had ended then."""
+
+    thread: Instance
+    path: Path
+    over: tuple[Over, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class OutsideWait:
     """
     Code that is no callback waits for the answer that ``client`` takes, or for a plain object.
@@ -251,6 +260,7 @@ class ConcurrentWorld(World):
     outside: list[OutsideWait] = field(default_factory=list)
     set_up: dict[object, SetUpWait] = field(default_factory=dict)
     over: list[Over] = field(default_factory=list)
+    timed_joins: list[TimedJoin] = field(default_factory=list)
     after_spin: bool = False
     on_loop: bool = False
     forked: Place | None = None

@@ -10,10 +10,12 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     OutsideWait,
     Over,
     SetUpWait,
+    TimedJoin,
 )
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
+from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Blocking
@@ -130,6 +132,13 @@ def note_over(world: ConcurrentWorld, what: Value | None) -> None:
     """The program has shut ``what`` down, or waited for its end."""
     if what is None or isinstance(what, Instance):
         world.over.append(Over(what, world.path, world.spins_begun))
+
+
+def note_timed_join(world: ConcurrentWorld, thread: Value) -> None:
+    """The program has waited for the end of ``thread``, but not for ever."""
+    if isinstance(thread, Instance):
+        over = tuple(one for one in world.over if is_behind(one.path, world.path))
+        world.timed_joins.append(TimedJoin(thread, world.path, over))
 
 
 def note_in_set_up(

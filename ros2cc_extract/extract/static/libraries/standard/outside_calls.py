@@ -54,6 +54,7 @@ _COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
 _SOCKET, _ACCEPT = 'socket.socket', 'socket.accept'
 _CONNECTED = 'socket.create_connection'
 _CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
+_AT_ONCE = 'socket.MSG_DONTWAIT'
 
 
 def _waiting(name: str, row: OutsideRow) -> Handler:
@@ -63,7 +64,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
-        is_at_once = name == _CONNECT and _DATAGRAM in slots
+        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         if not (is_at_once and row.takes_limit) and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
@@ -79,6 +80,12 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 
     return handler
+
+
+def _is_told_so(call: Call) -> bool:
+    """Whether a read takes the flag by which it does not wait (``recv(2)``)."""
+    given = (*call.args, *call.keywords.values())
+    return any(isinstance(each, Name) and each.name == _AT_ONCE for each in given)
 
 
 def _socket(machine: ConcurrentMachine, call: Call, limit: Value | None) -> Value:
@@ -98,7 +105,8 @@ def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     Whether something is read of which the program has asked whether it is there.
 
     ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
-    a descriptor that ``os.set_blocking`` has changed gives what there is.
+    a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` has
+    changed give what there is.
     """
     if not name.rpartition('.')[2].startswith(('read', 'recv')):
         return False
@@ -109,10 +117,12 @@ def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     return any(noted_on(tree, 'never_blocks', _never_blocks) for tree in trees)
 
 
+_ASKS_FIRST = frozenset({'select', 'in_waiting', 'inWaiting', 'S_ISREG'})
+
+
 def _asks_first(function: ast.AST) -> bool:
     return any(
-        isinstance(part, ast.Attribute) and part.attr in ('select', 'in_waiting', 'inWaiting')
-        for part in walk(function)
+        isinstance(part, ast.Attribute) and part.attr in _ASKS_FIRST for part in walk(function)
     )
 
 

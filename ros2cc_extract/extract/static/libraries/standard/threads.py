@@ -10,7 +10,12 @@ from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ThreadState, thread_of
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_join, note_over
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
+    note_join,
+    note_over,
+    note_timed_join,
+)
+from ros2cc_extract.extract.static.libraries.standard.unset_events import is_never_set
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
@@ -281,9 +286,11 @@ def _keep_flag(machine: ConcurrentMachine, event: Instance, flag: Const) -> None
 
 
 def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Known in the set-up alone, before anything else of the program runs."""
+    """Known in the set-up alone, before anything else runs, and where nobody ever sets it."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
+    if is_never_set(world, receiver):
+        return Const(False)
     is_set_up = world.when is When.START and not world.spins_begun and not world.in_thread
     if is_set_up and isinstance(flag, Const) and (flag.value or world.is_program):
         return flag
@@ -335,11 +342,14 @@ def _note_end(machine: ConcurrentMachine, thread: Value) -> None:
 def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """What the thread spun is spun no more where the program has waited for its end."""
     world = machine.world
-    if not world.in_callback and not world.in_thread and not call.args and not call.keywords:
-        world.spins_over = world.spins_begun
-        _note_end(machine, receiver)
-        note_join(world, receiver, call.place)
-        note_over(world, receiver)
+    if not world.in_callback and not world.in_thread:
+        if call.args or call.keywords:
+            note_timed_join(world, receiver)
+        else:
+            world.spins_over = world.spins_begun
+            _note_end(machine, receiver)
+            note_join(world, receiver, call.place)
+            note_over(world, receiver)
     return _blocking('Thread.join', 0, 'timeout')(machine, receiver, call)
 
 

@@ -44,6 +44,11 @@ def _taken_once(path: Path) -> Path:
     return tuple(takewhile(lambda step: step[1] != IN_A_CALLBACK, path))
 
 
+def is_behind(first: Path, last: Path) -> bool:
+    """Whether what stood on ``first`` has happened on every way to what ``last`` leads to."""
+    return last[: len(first)] == first
+
+
 def beyond(path: Path, prefix: Path) -> Path:
     """The part of ``path`` that ``prefix`` does not share."""
     return tuple(step for step in path if step not in prefix)

@@ -130,7 +130,7 @@ def _destroyed(end: End, entity: EntityState, world: RosWorld) -> Iterator[Diagn
     if entity.library == OF_RATE:
         return
     executor = executor_of(entity.node)
-    spins = _spins_of(executor, world)
+    spins = [spin for spin in _spins_of(executor, world) if not _is_over(spin, end)]
     if executor is None or not spins or executor.state.kind == 'EventsExecutor':
         return
     is_by_callback = isinstance(end.doer, EntityState)
@@ -142,6 +142,22 @@ def _destroyed(end: End, entity: EntityState, world: RosWorld) -> Iterator[Diagn
     is_of_other = is_by_callback and executor_of(end.doer.node) is not executor  # type: ignore[union-attr]
     if has_pool or is_of_other or not is_by_callback:
         yield _destroyed_meanwhile(end, entity, executor, _is_done_again(end, world))
+
+
+def _is_over(spin: Spin, end: End) -> bool:
+    """
+    Whether the program has waited for the thread that spins.
+
+    A limit is no matter once the executor is shut down: the spin takes its handles no more.
+    Source: rclpy 7.1.6, ``executors.py`` (``_is_shutdown`` is asked before each round).
+    """
+    if not _is_main(end.doer) or spin.by is None or spin.by.count != 1 or not spin.by.runners:
+        return False
+    joined = {id(over.what) for over in end.over}
+    for join in end.timed_joins:
+        if any(over.what in (None, spin.executor) for over in join.over):
+            joined.add(id(join.thread))
+    return all(id(runner) in joined for runner in spin.by.runners)
 
 
 def _is_spun_beside(doer: ActivityState, spins: Sequence[Spin], world: RosWorld) -> bool:

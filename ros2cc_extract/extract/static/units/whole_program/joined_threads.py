@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import unca
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
+from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
@@ -41,7 +42,7 @@ def is_over(spin: Spin, number: int, wait: OutsideWait, world: RosWorld) -> bool
 
 
 def _certain(wait: OutsideWait) -> list[Over]:
-    return [over for over in wait.over if wait.path[: len(over.path)] == over.path]
+    return [over for over in wait.over if is_behind(over.path, wait.path)]
 
 
 def _ends(over: Over, spin: Spin, number: int, world: RosWorld) -> bool:

@@ -63,7 +63,8 @@ def judged(**parts: str) -> str:
         ({'write': 'self.count += 2'}, ENDS),
         ({'before': 'self.count += 1'}, ENDS),
         ({'write': 'self.count = 5'}, ENDS),
-        ({'before': 'if self.never.is_set():\n            self.count += 1'}, UNDECIDED),
+        ({'before': 'if self.never.is_set():\n            self.count += 1'}, FOUND),
+        ({'before': 'if self.count_clients("go"):\n            self.count += 1'}, UNDECIDED),
         ({'write': 'for _ in range(2):\n            self.count += 1'}, UNDECIDED),
     ],
 )

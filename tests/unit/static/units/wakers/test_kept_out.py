@@ -169,10 +169,15 @@ def test_a_coroutine_that_looks_at_data_and_sleeps_holds_the_loop(
         (
             'if self.given.is_set():\n        self.permits.release()',
             'self.permits.acquire()',
+            FOUND,
+        ),
+        (
+            'if self.count_clients("go"):\n        self.permits.release()',
+            'self.permits.acquire()',
             UNDECIDED,
         ),
         (
-            'if self.given.is_set():\n        self.permits.release()\n'
+            'if self.count_clients("go"):\n        self.permits.release()\n'
             '    else:\n        self.permits.release()',
             'self.permits.acquire()',
             None,

@@ -46,6 +46,7 @@ AGAIN = """self.destroy_subscription(self.first)
 BESIDE = 'beside = SingleThreadedExecutor(); beside.add_node(rclpy.create_node("other"))\n'
 BESIDE += 'threading.Thread(target=beside.spin).start()\n'
 THREAD = 'threading.Thread(target=executor.spin).start()\n'
+JOINED = 'thread = threading.Thread(target=executor.spin)\nthread.start()\n'
 
 
 @pytest.mark.parametrize(
@@ -68,3 +69,26 @@ def test_what_goes_once_is_a_note(
     scanned = scan_text(text.replace('EXECUTOR', executor).replace('MAIN', main))
     found = [d for d in scanned.diagnostics if d.slug == 'destroyed-while-spun']
     assert [d.severity.value for d in found] == told
+
+
+@pytest.mark.parametrize(
+    ('ended', 'told'),
+    [
+        ('thread.join()\n', 0),
+        ('executor.shutdown()\nthread.join()\n', 0),
+        ('rclpy.shutdown()\nthread.join(timeout=2.0)\n', 0),
+        ('try:\n    pass\nfinally:\n    executor.shutdown(2.0)\n    thread.join(2.0)\n', 0),
+        ('thread.join(timeout=2.0)\n', 1),
+        ('executor.shutdown()\n', 1),
+        ('thread.join(2.0)\nexecutor.shutdown()\n', 1),
+        ('if input():\n    executor.shutdown()\nthread.join(2.0)\n', 1),
+        ('other = SingleThreadedExecutor()\nother.shutdown()\nthread.join(2.0)\n', 1),
+        ('other = threading.Thread(target=print)\nother.start()\nother.join()\n', 1),
+    ],
+)
+@pytest.mark.parametrize('executor', [POOL, ONE])
+def test_a_thread_that_was_waited_for_spins_no_more(ended: str, told: int, executor: str) -> None:
+    text = NODE.replace('GO', 'pass').replace('LEFT', 'pass').replace('EXECUTOR', executor)
+    scanned = scan_text(text.replace('MAIN', f'{JOINED}{ended}ask(view)'))
+    found = [d for d in scanned.diagnostics if d.slug == 'destroyed-while-spun']
+    assert len(found) == told

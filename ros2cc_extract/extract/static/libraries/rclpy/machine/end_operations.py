@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     ExecutorState,
 )
 from ros2cc_extract.extract.static.python.machine.world import RECENT
+from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
 from ros2cc_extract.source_locations import Place, Unknown
 
@@ -72,7 +73,9 @@ def note_end(
     doer = world.activity or (world.current if world.in_callback else None)
     if doer is not None and not world.shutting_down and not world.after_spin:
         behind = world.effects.behind if world.effects is not None else None
-        world.ends.append(End(kind, what, doer, place, text, behind=behind, locks=world.held))
+        over = tuple(one for one in world.over if is_behind(one.path, world.path))
+        joins = tuple(join for join in world.timed_joins if is_behind(join.path, world.path))
+        world.ends.append(End(kind, what, doer, place, text, behind, world.held, over, joins))
 
 
 def note_raised(machine: RosMachine, error: ast.expr, place: Place) -> None:

@@ -2,17 +2,30 @@
 What a callback holds from its begin: flags that its maker has handed over to it.
 
 The execute callback of an action server holds what the goal callback holds wherever it accepts;
-where that has only found a flag down, the execute callback may put it up.
+where that has only found a flag down, the execute callback may put it up. A done-callback takes
+over a flag that its text may put down; any other stays with its maker.
 """
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.flag_locks import has_waited
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.values.values import NONE, Call, Value, options_of
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
+from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Function,
+    Partial,
+    Value,
+    options_of,
+)
 from ros2cc_extract.spec.effects import FLAG
 from ros2cc_extract.spec.model import EntityKind
 
@@ -46,8 +59,47 @@ def _note_admission(world: RosWorld) -> None:
 
 
 def hand_over(world: RosWorld, to: EntityState) -> None:
-    """What a callback makes runs after it, and holds what it holds."""
+    """
+    What a callback makes runs after it, and holds the flags that it may put down.
+
+    The names in its text decide. Where they mislead, a flag is stored by somebody who does not
+    hold it, and counts as no lock.
+    """
     if world.effects is not None:
-        held = tuple(lock for lock in world.held if lock.endswith(FLAG))
+        texts = [_text_of(run) for run in _runs(to)]
+        stored = {name for text in texts if text is not None for name in _stored(world, text)}
+        held = tuple(
+            lock
+            for lock in world.held
+            if lock.endswith(FLAG) and (None in texts or _attribute_of(lock) in stored)
+        )
         to.held = held if to.held is None else tuple(lock for lock in to.held if lock in held)
         world.held = tuple(lock for lock in world.held if lock not in held)
+
+
+def _attribute_of(flag: str) -> str:
+    return flag.removesuffix(FLAG).rpartition('.')[2]
+
+
+def _runs(entity: EntityState) -> Iterator[Value]:
+    for given in (entity.callback, *entity.extra_callbacks):
+        yield from options_of(given or NONE)
+
+
+def _text_of(run: Value) -> ast.AST | None:
+    """The function that is run, as far as it is one of the program."""
+    called = run.function if isinstance(run, Partial) else run
+    function = called.function if isinstance(called, Bound) else called
+    return function.node if isinstance(function, Function) else None
+
+
+def _stored(world: RosWorld, text: ast.AST) -> Iterator[str]:
+    """The names that ``text``, or what it leads to by name, stores to."""
+    for node in reachable(world, text):
+        yield from noted_on(node, 'stored_names', _stored_names)
+
+
+def _stored_names(node: ast.AST) -> frozenset[str]:
+    stored = [part for part in walk(node) if isinstance(getattr(part, 'ctx', None), ast.Store)]
+    attributes = {part.attr for part in stored if isinstance(part, ast.Attribute)}
+    return frozenset(attributes | {part.id for part in stored if isinstance(part, ast.Name)})

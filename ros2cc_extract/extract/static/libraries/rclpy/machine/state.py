@@ -8,6 +8,8 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,
     ConcurrentWorld,
     OutsideWait,
+    Over,
+    TimedJoin,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
@@ -196,6 +198,7 @@ class Spin:
     :param over: how many of the spins before it were over then.
     :param is_tried: what rises out of it may be caught.
     :param by: the thread of the program's own that does it.
+    :param chains: the calls that lead to it.
     """
 
     executor: Instance
@@ -212,6 +215,7 @@ class Spin:
     over: int = 0
     is_tried: bool = False
     by: ActivityState | None = None
+    chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
 
     @property
     def key(self) -> object:
@@ -245,6 +249,7 @@ class End:
     :param text: what is done, where that is no end but comes after one.
     :param behind: the last wait of ``doer`` before it, see ``EffectLog.behind``.
     :param locks: held at that place.
+    :param over: what the program has ended by then.
     """
 
     kind: str
@@ -254,6 +259,8 @@ class End:
     text: str = ''
     behind: object = None
     locks: tuple[str, ...] = ()
+    over: tuple[Over, ...] = ()
+    timed_joins: tuple[TimedJoin, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -230,8 +230,9 @@ def record_spin(
     spin.is_tried, spin.by = world.tries > 0, world.activity
     kept_threads.note_goes_on(world)
     spin.from_callback, spin.over = world.current is not None, world.spins_over
-    if not any(_is_the_same(spin, other) for other in world.spins.values()):
-        world.spins.setdefault(spin.key, spin)
+    known = next((old for old in world.spins.values() if _is_the_same(spin, old)), None)
+    known = known or world.spins.setdefault(spin.key, spin)
+    known.chains[world.chain[1:]] = None
     for node in nodes:
         node.state.spun, node.state.loop = True, world.loop
     if world.in_thread:

@@ -1,0 +1,42 @@
+"""What is said of a race."""
+
+from __future__ import annotations
+
+from ros2cc_extract.findings.base.wording import called, listing
+from ros2cc_extract.findings.races.races import Race, RaceKind
+from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
+
+IN_ONE_PIECE = (
+    f'{NO_GLOBAL_LOCK.without}, which the language does not promise and free-threaded builds lack'
+)
+
+
+def describe(race: Race) -> str:
+    """Say what happens to the attributes."""
+    first = called(race.first.doer)
+    others = listing(called(use.doer) for use in race.others)
+    if race.others[0].doer.name == race.first.doer.name:
+        others = 'another thread that runs it'
+    others = f'{others} of another entity' if others == first else others
+    names = listing(race.names, limit=4)
+    it = 'it' if len(race.names) == 1 else 'them'
+    old = 'its old value' if len(race.names) == 1 else 'their old values'
+    return {
+        RaceKind.CHANGED_IN_LOOP: f'{first} iterates over {names}, and {others} may change '
+        f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
+        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
+        f'{it} to None in between: then the use raises an exception',
+        RaceKind.TORN: f'{first} publishes {names} while {others} may change {it} piece by '
+        'piece: the '
+        'message is half old and half new',
+        RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
+        'at the same time: one change can get lost',
+        RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
+        f'write {it} in between: what was read no longer holds',
+        RaceKind.CHECK_THEN_CHANGE: f'{first} reads {names} and then changes {it} in place, and '
+        f'{others} may change {it} in between: what was read may no longer hold',
+        RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
+        f'may write {it} at the same time: {IN_ONE_PIECE}',
+        RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
+        'last one wins',
+    }[race.kind]
