@@ -26,7 +26,6 @@ from tests.releases.turns import release_of_the_day
 OBSERVED = read_observed()
 #: Which rows no single run shows, and why.
 UNOBSERVED = {
-    'destroyed-spin-goes-on': 'a race: most runs of most releases go on',
     'spin-yields': 'it shows only in how often something happens',
     'pool-order-varies': 'of Python, and only now and then',
     'no-global-lock': 'of a build of Python that has no global lock',

@@ -61,14 +61,15 @@ def measure_callbacks(recorder: Recorder, entity_class: Any, replace: Replace) -
     replace(entity_class, 'callback', property(callback, put))
 
 
-def _access(attribute: Any) -> tuple[Callable[[Any], Any], Callable[[Any, Any], None]]:
+def _access(found: Any) -> tuple[Callable[[Any], Any], Callable[[Any, Any], None]]:
     """
     Give what reads and writes an attribute whose place a property takes.
 
     It may be a property of a base (10.0, ``subscription.py``) that does more than to keep a value.
     """
-    if inspect.isdatadescriptor(attribute):
-        return lambda entity: attribute.__get__(entity, type(entity)), attribute.__set__
+    if inspect.isdatadescriptor(found):
+        descriptor: Any = found
+        return lambda entity: descriptor.__get__(entity, type(entity)), descriptor.__set__
     return _stored, _store
 
 
