@@ -1,4 +1,8 @@
-"""Which release is built today: each of those that are no wheel has its turn."""
+"""
+Which release is built today: each of those that are no wheel has its turn.
+
+``ROS2CC_RELEASE=7.1.11`` names another.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +21,8 @@ FOLDER = ROOT / 'build' / 'releases'
 
 def release_of_the_day() -> tuple[str, Release]:
     """Build it unless it is there; skip where nobody can."""
-    version = RELEASES[date.today().toordinal() % len(RELEASES)]
+    of_today = RELEASES[date.today().toordinal() % len(RELEASES)]
+    version = os.environ.get('ROS2CC_RELEASE', of_today)
     checkout = os.environ.get(VARIABLE)
     if checkout is None:
         pytest.skip(f'rclpy {version}: {VARIABLE} names no folder that builds it')
