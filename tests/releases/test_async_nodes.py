@@ -22,7 +22,6 @@ from tests.releases.turns import release_of_the_day
 
 NODES = sorted(Path(__file__).with_name('async_nodes').glob('*.py'))
 PATIENCE_S = 10.0
-PROMISES = 5
 LINES_WITH_ASYNC_NODES = ('10.', '11.')
 
 every_node = pytest.mark.parametrize('path', NODES, ids=lambda path: path.stem)
@@ -47,8 +46,8 @@ def test_nothing_is_promised(path: Path) -> None:
     out = StringIO()
     main([str(path)], out, StringIO())
     shown = out.getvalue()
-    promises = next(line for line in shown.splitlines() if line.startswith('  ? no deadlock'))
-    assert (promises.count('?'), '✓' in shown) == (PROMISES, False)
+    assert '  ? no deadlock' in shown
+    assert '✓' not in shown
 
 
 @pytest.mark.live
