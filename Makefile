@@ -62,11 +62,15 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.three --python $(JAZZY)/bin/python
 	$(BIN)/python -m tests.conformance.three --python $(KILTED)/bin/python
 
-# Random programs on releases that are no wheel, RELEASES="7.1.11 11.0.0" some of them; ROS2CC_RELEASES
-# is a folder with a program that builds them, and without it they are skipped.
-RELEASES ?=
+# On releases that are no wheel, RELEASES="7.1.11 11.0.0" some of them: random programs, every row of
+# the table of behaviours, every blocking pattern. ROS2CC_RELEASES is a folder with a program that
+# builds them, and without it they are skipped. Each day one of them has its turn in `make test`.
+RELEASES ?= 3.3.21 7.1.11 9.1.5 10.0.10 11.0.0
 releases: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.conformance.releases $(RELEASES)
+	for release in $(RELEASES); do ROS2CC_RELEASE=$$release \
+	    $(call pytest_with,$(JAZZY)) tests/releases tests/live/test_live_blocking.py \
+	    -k 'of_the_day or table_of_releases' || exit 1; done
 
 # Every shape of waiting and ending of docs/waits.md, on both distributions.
 observe_on = $(BIN)/python -m tests.shapes.observe --python .venv-$(1)/bin/python --as $(1)

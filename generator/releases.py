@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.generator.nested_spins import is_spin
 from ros2cc_extract.generator.resources import is_foreign
+from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (
@@ -23,3 +24,9 @@ def felt(spec: Spec) -> tuple[Behaviour, ...]:
     spins = (NODE_STAYS, SPIN_REFUSED_TWICE) if any(map(is_spin, blocks)) else ()
     is_woken = any(is_foreign(block, spec) for block in blocks)
     return (*spins, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
+
+
+def differing(spec: Spec, profile: Profile) -> tuple[Behaviour, ...]:
+    """What differs between the releases a unit is judged for; nothing where one is named."""
+    is_for_one = spec.rclpy is not None or profile is not Profile.RCLPY
+    return () if is_for_one else felt(spec)

@@ -13,11 +13,9 @@ from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.by_release import of_all_releases
 from ros2cc_extract.findings.collect import findings_of_unit
 from ros2cc_extract.findings.waits_across_executors import findings_of_joined
-from ros2cc_extract.generator.releases import felt
-from ros2cc_extract.generator.template_files import Profile
+from ros2cc_extract.generator.releases import differing
 from ros2cc_extract.pipeline.unit_task import Examined, Task
 from ros2cc_extract.spec.close import ClosedSpec
-from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.settings import settings
 from ros2cc_extract.verify.results.results import NotKept, QueryResult, Verification
 from ros2cc_extract.verify.search.known_answers import Shelf
@@ -54,7 +52,8 @@ def _examine(
     judged = shown
     if task.judging:
         judged = _verify_in_time(task.closed, task.judging, watch, deadline, shelf)
-    rows, options = _rows(task), task.judging or task.options
+    options = task.judging or task.options
+    rows = differing(task.closed.spec, options.profile)
     first, *others = settings(rows)
     tasks = [task.under(setting.release) for setting in others]
     elsewhere = [_verify_in_time(each.closed, options, watch, deadline, shelf) for each in tasks]
@@ -63,13 +62,6 @@ def _examine(
     kept = _kept(shown, task.keeps_runs)
     own = _kept(judged, False) if judged is not shown else kept
     return Examined(kept, own, findings, tuple(_kept(each, False) for each in elsewhere))
-
-
-def _rows(task: Task) -> tuple[Behaviour, ...]:
-    """What differs between the releases a unit is judged for; nothing where one is named."""
-    options = task.judging or task.options
-    is_for_one = task.closed.spec.rclpy is not None or options.profile is not Profile.RCLPY
-    return () if is_for_one else felt(task.closed.spec)
 
 
 def _verify_in_time(

@@ -40,3 +40,5 @@ if __name__ == '__main__':
 
 # single: asleep
 # multi: asleep
+# single with future-wakes: ok
+# multi with future-wakes: ok

@@ -44,3 +44,5 @@ if __name__ == '__main__':
 
 # single: ok, node kept
 # multi: ok, node kept
+# single with spin-refused-twice: raises, node lost
+# multi with spin-refused-twice: raises, node lost

@@ -42,3 +42,5 @@ if __name__ == '__main__':
 
 # single: no answer, node kept
 # multi: no answer, node kept
+# single with spin-refused-twice: raises, node lost
+# multi with spin-refused-twice: raises, node lost

@@ -6,6 +6,7 @@ The same programs run for real in ``tests/live/test_live_blocking.py``.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -17,10 +18,11 @@ from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.generator.build import Profile, Text, render
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.releases.table import RCLPY
 from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
-from tests.support.cells import TIMERS, Cell, all_cells
+from tests.support.cells import TIMERS, Cell, all_cells, cells_of_rows
 
 CELLS = all_cells()
 # Two arrivals of each of four timers that meet at a barrier have more states than 8 GB hold. The
@@ -28,6 +30,8 @@ CELLS = all_cells()
 COMPACT = Options(profile=Profile.RCLPY, text=Text.COMPACT, limits=Limits(states=1_500_000))
 TIMER_CALLBACKS = dict(zip(TIMERS, ('tock', 'tick'), strict=True))
 every_cell = pytest.mark.parametrize('cell', CELLS, ids=lambda cell: cell.name)
+#: It has the row of every cell that has one.
+HAS_ROWS = '9.1.5'
 STEALS_THE_NODE, STUCK_IN_ITS_GROUP = 'CC106', 'CC101'
 
 
@@ -35,7 +39,7 @@ STEALS_THE_NODE, STUCK_IN_ITS_GROUP = 'CC106', 'CC101'
 def told(cell: Cell) -> tuple[Spec, Verification, tuple[Finding, ...]]:
     """The unit of the program that asks, its verdicts, and what is found in it."""
     extraction = scan_text(cell.text, cell.path.name)
-    (unit,) = extraction.units
+    unit = replace(extraction.units[0], rclpy=HAS_ROWS if cell.row else None)
     verification = verify_unit(close(unit), COMPACT)
     return unit, verification, findings_of([unit], extraction.diagnostics, [verification])
 
@@ -91,6 +95,14 @@ def test_the_table_has_all_its_cells() -> None:
 @every_cell
 def test_the_callback_ends_as_observed(cell: Cell) -> None:
     assert end_of(cell) == cell.facts[0]
+
+
+@pytest.mark.parametrize('cell', cells_of_rows(), ids=lambda cell: f'{cell.name}_{cell.row}')
+def test_the_callback_ends_as_observed_on_releases_with_the_row(cell: Cell) -> None:
+    assert {row.name: row for row in RCLPY}[cell.row].holds(HAS_ROWS)
+    _, _, findings = told(cell)
+    raised = [finding for finding in findings if 'raises RuntimeError' in finding.message]
+    assert ('raises' if raised else end_of(cell)) == cell.facts[0]
 
 
 @every_cell

@@ -18,6 +18,7 @@ from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.spec.releases.lines import line_of
 from tests.conformance.suite import Release, run_suite
 
+ROOT = Path(__file__).parents[2]
 VARIABLE = 'ROS2CC_RELEASES'
 RELEASES = ('3.3.21', '7.1.11', '9.1.5', '10.0.10', '11.0.0')
 WHEELS = {'humble': 'jazzy', 'jazzy': 'jazzy'}
@@ -28,7 +29,7 @@ def built(release: str, checkout: Path, folder: Path) -> tuple[str, Release]:
     """Build a release unless it is there; give the interpreter to run it by, too."""
     line = line_of(release)
     wheel = WHEELS.get(line.distro if line else '', 'kilted')
-    python, target = f'.venv-{wheel}/bin/python', folder / release
+    python, target = str(ROOT / f'.venv-{wheel}/bin/python'), folder / release
     record = target / f'ros_rclpy-{release}.dist-info'
     if not record.is_dir():
         command = [str(checkout / 'build'), python, release, str(target)]

@@ -9,6 +9,7 @@ import pytest
 
 from ros2cc_extract.cli.main import main
 
+RELEASES = Path(__file__).parents[1] / 'releases'
 NODE = """\
 import rclpy
 from rclpy.node import Node
@@ -155,3 +156,38 @@ def test_what_only_new_releases_do_is_found_without_a_release(tmp_path: Path) ->
     _, cached, _ = run(str(tmp_path / 'arm.py'))
     assert cold == cached
     assert 'and from rclpy 7.1.9 on the executor refuses to be spun twice' in cold
+
+
+def test_verify_has_a_table_for_each_group_of_releases(node: str) -> None:
+    _, out, _ = run('verify', node, '--profile', 'rclpy')
+    models = [line for line in out.splitlines() if line.startswith('model ')]
+    assert models == ['model arm@9.1.2', 'model arm@11.0.0']
+    text = ' '.join(out.split())  # a line may be broken
+    assert 'rclpy is that of Humble, Jazzy before 7.1.9, Kilted before 9.1.5' in text
+    assert 'rclpy is that of Jazzy from 7.1.9 on, Kilted from 9.1.5 on, Lyrical, Rolling' in text
+
+
+def test_verify_of_one_release_has_one_table(node: str) -> None:
+    _, out, _ = run('verify', node, '--profile', 'rclpy', '--rclpy', '7.1.6')
+    assert [line for line in out.splitlines() if line.startswith('model ')] == ['model arm']
+
+
+@pytest.mark.parametrize('release', ['12.0.0', '12.1.3-1noble'])
+def test_release_beyond_the_table_is_told_by_every_command(
+    node: str, release: str, tmp_path: Path
+) -> None:
+    told = f'rclpy {release.split("-")[0]} is judged as 11.0.1, the newest known'
+    recorded = tmp_path / 'recorded.yaml'
+    recorded.write_text(run('spec', node)[1].replace('rclpy: null', f'rclpy: {release}', 1))
+    row = 'tasks_oldest_first'
+    traced = (RELEASES / 'traces' / f'{row}_9.1.5.jsonl').read_text()
+    trace = tmp_path / 'trace.jsonl'
+    trace.write_text(traced.replace('"rclpy": "9.1.5"', f'"rclpy": "{release}"', 1))
+    for command in (
+        [node, '--rclpy', release],
+        ['verify', node, '--rclpy', release],
+        ['verify', str(recorded)],
+        ['model', str(recorded), '-o', str(tmp_path / 'model')],
+        ['conform', str(trace), str(RELEASES / 'rows' / f'{row}.py')],
+    ):
+        assert run(*command)[2].splitlines().count(told) == 1, command

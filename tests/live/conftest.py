@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
+from types import MappingProxyType
 
 import pytest
 from child import Child
 from interpreters import EVERY_RELEASE, INTERPRETER_VARIABLE, interpreter_of
-from side_by_side import Program, RunForked
+from side_by_side import Built, Program, RunForked
 
 from ros2cc_extract.extract.live.environment import hooked_environment
+from tests.releases.turns import release_of_the_day
 from tests.support.domains import free_domain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -57,7 +59,14 @@ def run_forked_everywhere(request: pytest.FixtureRequest) -> RunForked:
     return runner_by(interpreter_of(request.param))
 
 
-def runner_by(python: str) -> RunForked:
+@pytest.fixture(scope='module')
+def built_today() -> Built:
+    """Run programs side by side on the release whose turn it is to be built."""
+    python, release = release_of_the_day()
+    return release.version, runner_by(python, release.over({}))
+
+
+def runner_by(python: str, more: Mapping[str, str] = MappingProxyType({})) -> RunForked:
     """Give what runs programs ``AT_ONCE`` at a time, each for as long as it has to."""
 
     def run(programs: Iterable[Program]) -> dict[str, list[str]]:
@@ -66,7 +75,7 @@ def runner_by(python: str) -> RunForked:
             found = subprocess.run(
                 [python, FORKED, ','.join(map(str, domains))],
                 input=json.dumps([asdict(program) for program in programs]),
-                env={**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'},
+                env={**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', **more},
                 stdout=subprocess.PIPE,
                 text=True,
                 check=True,

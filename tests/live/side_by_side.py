@@ -28,3 +28,5 @@ class Program:
 
 
 RunForked = Callable[[Iterable[Program]], dict[str, list[str]]]
+Built = tuple[str, RunForked]
+"""A release, and what runs programs on it."""

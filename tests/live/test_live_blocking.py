@@ -9,9 +9,9 @@ four seconds of the measured table.
 from __future__ import annotations
 
 import pytest
-from side_by_side import PATIENCE_S, Program, RunForked
+from side_by_side import PATIENCE_S, Built, Program, RunForked
 
-from tests.support.cells import KEPT_RUNS, TIMERS, Cell, all_cells, observe
+from tests.support.cells import KEPT_RUNS, TIMERS, Cell, all_cells, cells_on, observe
 
 SHORT_S, LONG_S = 1.5, 10.0
 # The timers of a node that is still served come every 0.05 s.
@@ -27,24 +27,31 @@ def program_of(cell: Cell, seconds: float) -> Program:
         name=cell.name,
         path=str(cell.path),
         text=cell.text.replace(BRIEF, LONG) if answered else cell.text,
-        patience_s=seconds if cell.facts[0] == 'blocks' else PATIENCE_S,
+        patience_s=seconds if cell.facts[0] in ('blocks', 'raises') else PATIENCE_S,
         awaited=('goes on', *(['|'.join(TIMERS)] * KEPT_RUNS if kept else [])),
         afterwards_s=0.0 if kept else AFTERWARDS_S,
     )
 
 
-def run_cells(run_forked: RunForked, seconds: float) -> dict[str, tuple[str, ...]]:
-    cells = {cell.name: cell for cell in all_cells()}
+def run_cells(
+    run_forked: RunForked, seconds: float, release: str = '7.1.6'
+) -> dict[str, tuple[str, ...]]:
+    cells = {cell.name: cell for cell in cells_on(release)}
     lines = run_forked(program_of(cell, seconds) for cell in cells.values())
     return {name: observe(lines[name], cell) for name, cell in cells.items()}
 
 
-def expected() -> dict[str, tuple[str, ...]]:
-    return {cell.name: cell.facts for cell in all_cells()}
+def expected(release: str = '7.1.6') -> dict[str, tuple[str, ...]]:
+    return {cell.name: cell.facts for cell in cells_on(release)}
 
 
 def test_every_cell_is_as_measured(run_forked_everywhere: RunForked) -> None:
     assert run_cells(run_forked_everywhere, SHORT_S) == expected()
+
+
+def test_every_cell_is_as_the_table_of_releases_has_it(built_today: Built) -> None:
+    version, run_forked = built_today
+    assert run_cells(run_forked, SHORT_S, version) == expected(version)
 
 
 @pytest.mark.slow

@@ -138,6 +138,7 @@ def _shard(text: str) -> Shard:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.cli.shared.releases import tell_releases
     from ros2cc_extract.pipeline.check import check_paths
     from ros2cc_extract.pipeline.config import load_config
     from ros2cc_extract.pipeline.sources import has_unread
@@ -145,7 +146,6 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     _refuse_to_judge_parts(args)
     config = load_config(min(args.paths, key=Path.absolute))
     job = _job(args, config)
-    _tell_release(job.assumptions.rclpy, stderr)
     termination, begun = Termination(), time.monotonic()
     try:
         with termination_as_interrupt(termination):
@@ -157,6 +157,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
             raise
         print('interrupted', file=stderr)
         return termination.status
+    tell_releases((job.assumptions.rclpy, *(unit.rclpy for unit in outcome.units)), stderr)
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
     if args.output is not None:
@@ -293,15 +294,6 @@ def _print_text(
         seconds=seconds,
     )
     print_check(checked, console_for(stdout), how)
-
-
-def _tell_release(rclpy: str | None, stderr: TextIO) -> None:
-    """A release that nobody has looked at is not taken for another in silence."""
-    from ros2cc_extract.spec.releases.lines import judged_as
-
-    told = judged_as(rclpy) if rclpy else None
-    if told:
-        print(told, file=stderr)
 
 
 def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:

@@ -32,12 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.cli.shared.releases import tell_releases
     from ros2cc_extract.findings.upgrade import changes
-    from ros2cc_extract.spec.releases.lines import judged_as, newest_of
+    from ros2cc_extract.spec.releases.lines import newest_of
 
     old, new = newest_of(args.from_release), newest_of(args.to_release)
-    for told in filter(None, map(judged_as, (old, new))):
-        print(told, file=stderr)
+    tell_releases((old, new), stderr)
     before, after = _checked(args, old, stderr), _checked(args, new, stderr)
     found = changes(after.units, before.findings, after.findings, old, new)
     for change in found:

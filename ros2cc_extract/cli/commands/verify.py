@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -124,12 +125,31 @@ def _verifications(args: argparse.Namespace, stderr: TextIO) -> Iterator[Verific
             yield verify_model(args.path, queries, options, progress)
         return
     shelf = Shelf()
-    for closed in _units(args, stderr):
-        with search_progress(stderr, closed.spec.name) as progress:
-            if queries:
-                yield ask_unit(closed, queries, options, progress)
-            else:
-                yield _verified(closed, options, progress, shelf)
+    for unit in _units(args, stderr):
+        for closed, suffix in _under_releases(unit, options):
+            with search_progress(stderr, f'{closed.spec.name}{suffix}') as progress:
+                if queries:
+                    verified = ask_unit(closed, queries, options, progress)
+                else:
+                    verified = _verified(closed, options, progress, shelf)
+            yield replace(verified, model=f'{verified.model}{suffix}')
+
+
+def _under_releases(closed: ClosedSpec, options: Options) -> Iterator[tuple[ClosedSpec, str]]:
+    """The unit for each group of supported releases under which it behaves alike."""
+    from ros2cc_extract.generator.releases import differing
+    from ros2cc_extract.spec.releases.settings import settings, where
+
+    rows = differing(closed.spec, options.profile)
+    alike = [setting for setting in settings(rows) if setting.releases]
+    if len(alike) == 1:
+        yield closed, ''
+        return
+    for setting in alike:
+        told = f'rclpy is that of {where(setting.releases, rows)}'
+        spec = replace(closed.spec, rclpy=setting.release)
+        assumptions = (*closed.assumptions, told)
+        yield replace(closed, spec=spec, assumptions=assumptions), f'@{setting.release}'
 
 
 def _verified(
@@ -157,11 +177,14 @@ def _queries(args: argparse.Namespace) -> list[Query]:
 
 
 def _units(args: argparse.Namespace, stderr: TextIO) -> Iterator[ClosedSpec]:
+    from ros2cc_extract.cli.shared.releases import tell_releases
     from ros2cc_extract.pipeline.sources import load_units
     from ros2cc_extract.spec.close import close
 
-    for unit in load_units(args.path, stderr, lists_builtin=args.builtin):
-        yield close(unit, policy_of(args))
+    units = load_units(args.path, stderr, lists_builtin=args.builtin)
+    closed = [close(unit, policy_of(args)) for unit in units]
+    tell_releases((each.spec.rclpy for each in closed), stderr)
+    yield from closed
 
 
 def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:

@@ -43,6 +43,7 @@ LINES = (
 )
 BY_DISTRO = {line.distro: line for line in LINES}
 _BY_MAJOR = {line.major: line for line in LINES}
+_SUPPORTED = ', '.join(f'{line.distro.title()} {line.major}' for line in LINES)
 
 
 def release_of(version: str | None) -> Release | None:
@@ -80,21 +81,21 @@ def newest_of(version: str) -> str:
 
 def judged_as(version: str) -> str | None:
     """
-    What a release is judged as that is newer than all that were looked at, for the reader.
+    What a release is judged as that nobody has looked at, for the reader.
 
     :return: ``None`` for one that was, or that is no release.
     """
     release = release_of(version)
     if release is None:
         return None
-    line = _BY_MAJOR.get(release[0])
+    line, known = _BY_MAJOR.get(release[0]), max(_BY_MAJOR)
     if line is not None and release <= line.newest:
         return None
-    older = [known for known in _BY_MAJOR if known <= release[0]]
-    if line is None and (not older or max(older) != max(_BY_MAJOR)):
-        return None  # of a line between two others, or before all: see ``Behaviour.holds``
-    newest = _BY_MAJOR[max(older)].newest
-    return f'rclpy {text_of(release)} is judged as {text_of(newest)}, the newest known'
+    told = f'rclpy {text_of(release)} is judged as'
+    if line is None and release[0] < known:
+        return f'{told} a release of a line that is not supported; those are {_SUPPORTED}'
+    newest = (line or _BY_MAJOR[known]).newest
+    return f'{told} {text_of(newest)}, the newest known'
 
 
 def representatives(version: str | None, changes: Iterable[Release]) -> Iterator[Release]:

@@ -17,8 +17,12 @@ written. A release newer than all that were looked at is judged as the newest of
 
 `check` judges for all supported releases. A finding that only some of them have says on which, and
 a promise is kept only where it is kept on all. `--distro jazzy` or `--rclpy 7.1.6` judges for one.
-`verify` decides one model: what not all releases have, it takes none to have. `upgrade --from
-humble --to lyrical PATH` lists what changes for your nodes.
+`verify --profile rclpy` prints a table for each group of releases under which the unit behaves
+alike. `model` and a sweep have one model: what not all releases have, it takes none to have.
+`conform` judges by the release that the trace names. `upgrade --from humble --to lyrical PATH`
+lists what changes for your nodes.
+
+A release that is not in the table is told: *rclpy 12.3.0 is judged as 11.0.1, the newest known*.
 """
 
 

@@ -4,7 +4,7 @@ What releases of rclpy, and of Python, do otherwise than others: one row for eac
 The generator, the rules, ``upgrade`` and ``docs/releases.md`` read this table and nothing else: a
 new release is a number in a row. Sources are the change logs of rclpy and the files of 3.3.10,
 3.3.21, 7.1.6, 7.1.9, 7.1.11, 9.1.2, 9.1.5, 10.0.10 and 11.0.0. *Seen* on 7.1.6 and 9.1.2 means the
-wheels, on others what ``make releases`` builds.
+wheels, on others what ``make releases`` builds; programs and answers are in ``tests/releases``.
 """
 
 from __future__ import annotations
@@ -70,16 +70,6 @@ TIMEOUT_KEEPS_HARVEST = Behaviour(
     since={3: (3, 3, 11), 7: (7, 0, 0)},
     source='ros2/rclpy pull request 1165, `executors.py` (`wait_for_ready_callbacks`)',
     observed='a timer beside a callback that awaits runs on 7.1.6 and 9.1.2; source of 3.3.9',
-)
-DESTROYED_SPIN_GOES_ON = Behaviour(
-    name='destroyed-spin-goes-on',
-    concerns='what a destroyed entity does to a pool that waits for it',
-    without='`InvalidHandle` ends the spin',
-    having='the spin goes on',
-    since={9: (9, 1, 2)},
-    source='`executors.py` (`_wait_for_ready_callbacks`, `_take_subscription`)',
-    observed='entities made and destroyed under a pool: the spin ends after 3 rounds on 3.3.21 '
-    'and 34 to 43 on 7.1.6, and not within 243 on 9.1.2',
 )
 SHUTDOWN_WAITS_NOT = Behaviour(
     name='shutdown-waits-not',
@@ -176,7 +166,6 @@ RCLPY = (
     SPIN_REFUSED_TWICE,
     NODE_STAYS,
     TIMEOUT_KEEPS_HARVEST,
-    DESTROYED_SPIN_GOES_ON,
     SHUTDOWN_WAITS_NOT,
     EVENTS_EXECUTOR,
     COROUTINES_IN_EVENTS,

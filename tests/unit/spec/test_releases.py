@@ -82,7 +82,11 @@ def test_behaviour_that_came_and_went(version: str, is_lost: bool) -> None:
         ('7.1.11', None),
         ('7.1.12', 'rclpy 7.1.12 is judged as 7.1.11, the newest known'),
         ('12.3.0', 'rclpy 12.3.0 is judged as 11.0.1, the newest known'),
-        ('4.1.7', None),
+        (
+            '4.1.7',
+            'rclpy 4.1.7 is judged as a release of a line that is not supported; those are '
+            'Humble 3, Jazzy 7, Kilted 9, Lyrical 10, Rolling 11',
+        ),
         ('jazzy', None),
     ],
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import number_of_seconds
-from ros2cc_extract.cli.shared.exit_status import EXIT_ERROR
+from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR
 
 if TYPE_CHECKING:
     from ros2cc_extract.spec.model import Spec
@@ -63,13 +63,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.cli.shared.releases import tell_releases
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.extract.live.run import run_command
 
     command = args.command[1:] if args.command[:1] == ['--'] else args.command
     if not command:
         raise InputError('no command given', None, 'write it after --: run -- python node.py')
-    finish = _comparison(args.check, stdout, stderr) if args.check else None
+    compare = _comparison(args.check, stdout, stderr) if args.check else None
+
+    def finish(live: tuple[Spec, ...]) -> int:
+        tell_releases((unit.rclpy for unit in live), stderr)
+        return compare(live) if compare else EXIT_CLEAN
+
     return run_command(
         command, args.output, stderr, trace=args.trace, limit_s=args.watch, finish=finish
     )

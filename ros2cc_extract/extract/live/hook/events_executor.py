@@ -47,8 +47,7 @@ _SPIN_CODE = _spinning(None).__code__
 
 def measure_callbacks(recorder: Recorder, entity_class: Any, replace: Replace) -> None:
     """Let the C++ code get a measured callback from entities of this class."""
-    own: Any = entity_class.__dict__.get('callback')
-    get, put = (_stored, _store) if own is None else (own.fget, own.fset)
+    get, put = _access(inspect.getattr_static(entity_class, 'callback', None))
 
     def callback(entity: Any) -> Any:
         function = get(entity)
@@ -62,8 +61,23 @@ def measure_callbacks(recorder: Recorder, entity_class: Any, replace: Replace) -
     replace(entity_class, 'callback', property(callback, put))
 
 
+def _access(found: Any) -> tuple[Callable[[Any], Any], Callable[[Any, Any], None]]:
+    """
+    Give what reads and writes an attribute whose place a property takes.
+
+    It may be a property of a base (10.0, ``subscription.py``) that does more than to keep a value.
+    """
+    if inspect.isdatadescriptor(found):
+        descriptor: Any = found
+        return lambda entity: descriptor.__get__(entity, type(entity)), descriptor.__set__
+    return _stored, _store
+
+
 def _stored(entity: Any) -> Any:
-    return vars(entity)['callback']
+    try:
+        return vars(entity)['callback']
+    except KeyError:
+        raise AttributeError('callback') from None
 
 
 def _store(entity: Any, function: Any) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import atexit
 import functools
+import inspect
 import os
 import sys
 import time
@@ -64,32 +65,37 @@ class Hook:
 
     def _wrap_at_once(self, executors: Any) -> None:
         """Wrap what was loaded just now, so that nobody can have made an executor yet."""
-        self.wrap(executors)
-        self.recorder.sees_every_executor = True
+        self.recorder.sees_every_executor = self.wrap(executors)
 
-    def wrap(self, executors: Any) -> None:
-        """Wrap the classes of ``rclpy.executors`` and ``rclpy.callback_groups``."""
-        groups = sys.modules['rclpy.callback_groups']
+    def wrap(self, executors: Any) -> bool:
+        """
+        Wrap the classes of ``rclpy.executors`` and ``rclpy.callback_groups``.
+
+        A release may lack what another has: that is counted as lost, and the rest is wrapped.
+
+        :return: whether all was there.
+        """
+        steps = [self._wrap_executor, self._wrap_events_executor, self._wrap_groups]
+        if self._traced:
+            steps += [self._trace_waits, self._trace_takes, self._trace_runs, self._trace_pools]
+        done = [self._is_done(step, executors) for step in steps]
+        return all(done)
+
+    def _is_done(self, step: Callable[[Any], None], executors: Any) -> bool:
+        try:
+            step(executors)
+        except Exception as error:
+            self.recorder.lose(error)
+            return False
+        return True
+
+    def _wrap_executor(self, executors: Any) -> None:
         base = executors.Executor
         self._replace(base, '__init__', self._executor_made)
         self._replace(base, 'add_node', self._node_added)
         self._replace(base, 'remove_node', self._node_removed)
         self._replace(base, 'wake', self._woken)
         self._replace(base, 'create_task', self._task_created)
-        self._wrap_events_executor(executors)
-        self._replace(groups.CallbackGroup, '__init__', self._group_made)
-        self._replace(groups.CallbackGroup, 'add_entity', self._entity_added)
-        for group in _subclasses(groups.CallbackGroup):
-            self._wrap_group(group)
-        self._watch_new_groups(groups.CallbackGroup)
-        if self._traced:
-            self._wrap_steps(executors)
-
-    def _wrap_steps(self, executors: Any) -> None:
-        trace_waits(self.recorder, executors, self._set)
-        trace_takes(self.recorder, executors.Executor, self._set)
-        trace_runs(self.recorder, executors.Task, self._set)
-        self._replace(executors.MultiThreadedExecutor, '__init__', self._pool_made)
 
     def _wrap_events_executor(self, executors: Any) -> None:
         """Wrap the executor written in C++, which has no Python base class."""
@@ -99,6 +105,26 @@ class Hook:
             self._replace(events, 'remove_node', self._node_removed)
             self._replace(events, 'create_task', self._task_created)
             mark_spinning(events, self._set)
+
+    def _wrap_groups(self, _executors: Any) -> None:
+        groups = sys.modules['rclpy.callback_groups']
+        self._replace(groups.CallbackGroup, '__init__', self._group_made)
+        self._replace(groups.CallbackGroup, 'add_entity', self._entity_added)
+        for group in _subclasses(groups.CallbackGroup):
+            self._wrap_group(group)
+        self._watch_new_groups(groups.CallbackGroup)
+
+    def _trace_waits(self, executors: Any) -> None:
+        trace_waits(self.recorder, executors, self._set)
+
+    def _trace_takes(self, executors: Any) -> None:
+        trace_takes(self.recorder, executors.Executor, self._set)
+
+    def _trace_runs(self, executors: Any) -> None:
+        trace_runs(self.recorder, executors.Task, self._set)
+
+    def _trace_pools(self, executors: Any) -> None:
+        self._replace(executors.MultiThreadedExecutor, '__init__', self._pool_made)
 
     def unwrap(self) -> None:
         """Put everything back."""
@@ -112,7 +138,7 @@ class Hook:
 
     def _replace(self, owner: type, name: str, note: Callable[..., None]) -> None:
         """Call ``note(result, self, …)`` after each call of a method."""
-        original = owner.__dict__[name]
+        original = inspect.getattr_static(owner, name)  # of a base in some releases
         lose = self.recorder.lose
 
         @functools.wraps(original)

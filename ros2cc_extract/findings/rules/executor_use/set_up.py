@@ -89,13 +89,15 @@ ASYNCIO_AWAIT = Rule(
     slug='asyncio-await',
     severity=Severity.WARNING,
     title='rclpy future awaited by asyncio',
-    what='A coroutine that asyncio runs awaits an rclpy future. From rclpy 3.3.21 (Humble), '
+    what='A coroutine that asyncio runs, such as a callback of an `AsyncNode`, awaits an rclpy '
+    'future. From rclpy 3.3.21 (Humble), '
     '7.1.9 (Jazzy), 9.1.4 (Kilted) and 10.0.3 (Rolling) on this raises '
     '`RuntimeError: Task got bad yield` when the future is not done yet.',
     why='`Future.__await__` yielded `None`, which asyncio reads as "ask again"; now it yields '
     'the future itself, which only rclpy executors understand. Sources: rclpy 7.1.6 and 9.1.2, '
     '`task.py` (`Future.__await__`); ros2/rclpy issue 1588, pull requests 1469 and 1560. '
-    'Measured on 7.1.6: it works; with the new `__await__` it raises.',
+    'Measured on 7.1.6: it works; with the new `__await__` it raises, and on 10.0.10 and 11.0.0 '
+    'it ends an `AsyncNode`.',
     bad="""\
 async def main():                        # a thread spins the node
     answer = await node.client.call_async(Trigger.Request())

@@ -271,6 +271,8 @@ class Waits(ConcurrentMachine):
         """A callback awaits ``value``; awaiting its own coroutine is only a call."""
         if is_of_loop(value):
             self.world.awaited_of_loops.append(value)
+        if self.world.current is not None and self.world.current.is_on_loop:
+            outside_waits.note_in_loop(self.world, value, place)
         if not isinstance(value, (Coroutine, Const)):
             self.note_blocking(
                 'asyncio await' if self.world.on_loop else 'await', value, None, place

@@ -66,6 +66,13 @@ def note(
         _remember(world, name, client, place, spun)
 
 
+def note_in_loop(world: ConcurrentWorld, awaited: Value, place: Place) -> None:
+    """Tell of a callback that asyncio runs and that awaits what only an executor understands."""
+    state = awaited.state if isinstance(awaited, Instance) else None
+    if isinstance(state, PlainState) and state.kind in _FUTURES and not world.retelling:
+        world.diagnostics.append(_awaited_by_asyncio(place))
+
+
 def _remember(
     world: ConcurrentWorld,
     name: str,

@@ -1,0 +1,16 @@
+"""Tells of releases of rclpy that nobody has looked at: none is taken for another in silence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TextIO
+
+from ros2cc_extract.spec.releases.lines import judged_as
+
+
+def tell_releases(releases: Iterable[str | None], stderr: TextIO) -> None:
+    """Say what each of them is judged as, once."""
+    for release in dict.fromkeys(filter(None, releases)):
+        told = judged_as(release)
+        if told is not None:
+            print(told, file=stderr)

@@ -1,0 +1,44 @@
+"""A message awaits what only the next one does."""
+
+import asyncio
+
+import rclpy
+from rclpy.experimental.async_node import AsyncNode
+from std_msgs.msg import Empty
+
+
+class Robot(AsyncNode):
+    def __init__(self, name):
+        super().__init__(name)
+        self.event = asyncio.Event()
+        self.pub = self.create_publisher(Empty, 'topic', 10)
+        self.create_subscription(Empty, 'topic', self.on_topic, 10)
+        self.create_timer(0.1, self.tick)
+        self.count = 0
+
+    def tick(self):
+        self.pub.publish(Empty())
+
+    async def on_topic(self, msg):
+        self.count += 1
+        if self.count > 1:
+            self.event.set()
+            return
+        print('asks', flush=True)
+        await self.event.wait()
+        print('goes on', flush=True)
+
+    async def finished(self):
+        await asyncio.sleep(1.5)
+
+
+async def main():
+    rclpy.init()
+    async with Robot('robot') as node:
+        await node.finished()
+
+
+asyncio.run(main())
+
+# observed: hangs
+# warned of: nothing
