@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     is_endless,
@@ -11,7 +11,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
 )
 from ros2cc_extract.extract.static.program.text_queries import walk
 
-_LEAVES = (ast.Break, ast.Return, ast.Raise)
+LEAVES = (ast.Break, ast.Return, ast.Raise)
 
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
@@ -32,21 +32,21 @@ def exit_tests(loop: ast.While) -> Iterator[ast.expr]:
     """Tests one of which must come out otherwise for the loop to end."""
     if not is_endless(loop):
         yield loop.test
-    for part in _own_parts(loop):
+    for part in own_parts(loop.body):
         if isinstance(part, ast.If) and any(
-            isinstance(each, _LEAVES) for arm in (part.body, part.orelse) for each in arm
+            isinstance(each, LEAVES) for arm in (part.body, part.orelse) for each in arm
         ):
             yield part.test
 
 
 def leaves(loop: ast.While) -> bool:
     """Whether something in its body leaves it, or lets others run."""
-    return any(isinstance(part, (*_LEAVES, ast.Yield, ast.Await)) for part in _own_parts(loop))
+    return any(isinstance(part, (*LEAVES, ast.Yield, ast.Await)) for part in own_parts(loop.body))
 
 
-def _own_parts(loop: ast.While) -> Iterator[ast.AST]:
+def own_parts(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
     """What stands in the body of a loop, and in no function inside of it."""
-    waiting: list[ast.AST] = list(loop.body)
+    waiting: list[ast.AST] = list(body)
     while waiting:
         part = waiting.pop(0)
         if not isinstance(part, _INNER):

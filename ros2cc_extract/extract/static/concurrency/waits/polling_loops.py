@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
+from ros2cc_extract.extract.static.concurrency.waits import retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
@@ -207,6 +208,9 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     _note_asked(machine, loop, effects, before, frame)
     _note_own_end(machine.world, loop, effects, before, frame)
+    tests = list(exit_tests(loop))
+    if not tests and retry_loops.note(machine, loop, frame, before.waits):
+        return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
     if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
@@ -214,7 +218,6 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):
         return
-    tests = list(exit_tests(loop))
     if not tests:
         if is_endless(loop) and machine.world.in_callback and not leaves(loop):
             place = frame.place(loop)

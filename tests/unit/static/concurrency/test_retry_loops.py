@@ -1,0 +1,79 @@
+"""A loop that tries again until no error is raised waits for what makes the attempt succeed."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.random_waits.suite import ENDS, FOUND, UNDECIDED, judge
+
+PROGRAM = """\
+import collections
+import queue
+import time
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Shelf(Node):
+    def __init__(self):
+        super().__init__('shelf')
+        self.own = MutuallyExclusiveCallbackGroup()
+        self.other = MutuallyExclusiveCallbackGroup()
+        self.items = {made}
+        self.create_timer(1.0, self.take, callback_group=self.own)
+        self.create_subscription(String, 'in', self.fill, 10, callback_group=self.{group})
+
+    def take(self):
+        while {test}:
+            try:
+                item = {attempt}
+                {leaves}
+            except {error}:
+                {retries}
+
+    def fill(self, message):
+        {fills}
+
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=3)
+executor.add_node(Shelf())
+executor.spin()
+"""
+ITEMS = {'made': '{}', 'attempt': "self.items['a']", 'error': 'KeyError'}
+ITEMS |= {'fills': "self.items['a'] = message"}
+DEQUE = {'made': 'collections.deque()', 'attempt': 'self.items.popleft()', 'error': 'IndexError'}
+DEQUE |= {'fills': 'self.items.append(message)'}
+QUEUE = {'made': 'queue.Queue()', 'attempt': 'self.items.get(timeout=0.5)'}
+QUEUE |= {'error': 'queue.Empty', 'fills': 'self.items.put(message)'}
+AT_ONCE = QUEUE | {'attempt': 'self.items.get_nowait()'}
+
+
+def program(**parts: str) -> str:
+    given = {'test': 'True', 'leaves': 'break', 'retries': 'time.sleep(0.1)', 'group': 'own'}
+    return PROGRAM.format(**given | parts)
+
+
+def verdict(**parts: str) -> str:
+    return judge(program(**parts)).get('take', ENDS)
+
+
+@pytest.mark.parametrize('kind', [ITEMS, DEQUE, QUEUE], ids=['items', 'deque', 'queue'])
+@pytest.mark.parametrize('leaves', ['break', 'return'])
+@pytest.mark.parametrize('test', ['True', 'rclpy.ok()'])
+def test_it_waits_for_who_cannot_run(kind: dict[str, str], leaves: str, test: str) -> None:
+    assert verdict(**kind, leaves=leaves, test=test) == FOUND
+    assert verdict(**kind, leaves=leaves, test=test, group='other') == ENDS
+
+
+def test_what_no_data_tells_is_undecided() -> None:
+    assert verdict(**AT_ONCE) == UNDECIDED
+
+
+@pytest.mark.parametrize('kind', [ITEMS, DEQUE, QUEUE, AT_ONCE])
+def test_an_error_that_leaves_the_loop_is_the_end_of_it(kind: dict[str, str]) -> None:
+    assert verdict(**kind, retries='break') == ENDS
+    assert verdict(**kind, retries='raise') == ENDS
