@@ -73,11 +73,10 @@ from ros2cc_extract.spec.effects import (
 )
 from ros2cc_extract.spec.model import ActivityKind
 
-# What is waited for of one object may be several things.
-_COUNTED = frozenset({Word.PUT, Word.RELEASE, Word.GET, Word.DONE})
 _KEPT = 'it is kept in a collection, and who takes it out could not be followed'
 NOWHERE = Place('')
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
+# What is waited for of one object may be several things.
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
 
 

@@ -77,3 +77,9 @@ def test_what_no_data_tells_is_undecided() -> None:
 def test_an_error_that_leaves_the_loop_is_the_end_of_it(kind: dict[str, str]) -> None:
     assert verdict(**kind, retries='break') == ENDS
     assert verdict(**kind, retries='raise') == ENDS
+
+
+def test_a_handler_that_makes_room_sees_to_it_itself() -> None:
+    full = AT_ONCE | {'made': 'queue.Queue(maxsize=2)', 'error': 'queue.Full'}
+    full |= {'attempt': 'self.items.put_nowait(1)', 'retries': 'self.items.get_nowait()'}
+    assert verdict(**full) == ENDS

@@ -2,7 +2,8 @@
 Loops that try again until no error is raised.
 
 ``while True: try: return self.queue.get_nowait() except Empty: time.sleep(0.1)`` waits for what
-makes the attempt succeed. Which calls raise when their time is over: CPython 3.12, ``queue.py``,
+makes the attempt succeed. A handler that does more than to sleep and log may see to that itself:
+such a loop is left. Which calls raise when their time is over: CPython 3.12, ``queue.py``,
 ``concurrent/futures/_base.py``, ``subprocess.py``; rclpy 9.1.2, ``client.py``.
 """
 
@@ -15,6 +16,7 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import LEAVES, name_of, own_parts
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import passes_time
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
@@ -63,7 +65,8 @@ def _attempt(loop: ast.While) -> ast.Try | None:
     (attempt,) = trying
     inside = set(_leaves_of([*attempt.body, *attempt.orelse]))
     is_all = set(_leaves_of(loop.body)) == inside
-    return attempt if inside and is_all else None
+    pauses = all(passes_time(handler.body) for handler in attempt.handlers)
+    return attempt if inside and is_all and pauses else None
 
 
 def _leaves_of(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:

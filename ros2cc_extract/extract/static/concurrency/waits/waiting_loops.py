@@ -49,9 +49,14 @@ def _awaits(parts: Sequence[ast.AST]) -> bool:
 
 def is_idle(loop: ast.While) -> bool:
     """True for a loop that only sleeps and logs while it waits."""
+    return passes_time(loop.body)
+
+
+def passes_time(body: Sequence[ast.stmt]) -> bool:
+    """True for statements that only sleep and log."""
     return all(
         _called_name(part) in _PASTIMES
-        for statement in loop.body
+        for statement in body
         for part in ast.walk(statement)
         if isinstance(part, (ast.Call, ast.Await))
     )
