@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo quick test test-long texts slices shapes waits why random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
+.PHONY: demo quick test test-long texts slices shapes waits why enter random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -87,6 +87,13 @@ why: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.live.standing $(CURDIR)/$(JAZZY)/bin/python --hooked
 	$(BIN)/python -m tests.live.moments $(CURDIR)/$(JAZZY)/bin/python 200
 	$(BIN)/python -m tests.live.moments $(CURDIR)/$(KILTED)/bin/python 200
+
+# 300 entries into a process that allocates, loads C modules, makes entities and keeps the interpreter,
+# on both distributions: none of its threads stands, and nothing of ours is left in it.
+ENTRIES ?= 300
+enter: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
+	$(BIN)/python -m tests.live.entries $(CURDIR)/$(JAZZY)/bin/python $(ENTRIES)
+	$(BIN)/python -m tests.live.entries $(CURDIR)/$(KILTED)/bin/python $(ENTRIES)
 
 # What the table of shapes excuses, asked anew, and docs/waits.md from it.
 waits: $(VENV)/developed

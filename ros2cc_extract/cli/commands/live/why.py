@@ -21,7 +21,7 @@ examples:
 Looks twice at each process, 0.2 s apart, and leaves nothing behind. A node is searched for in all
 processes of yours on this machine that run rclpy. Exit status: 0 nothing hangs; 1 a deadlock, an
 executor that was never spun or is asleep, or a wait for another process; 3 undecided, or a process
-that could not be looked at. Needs what `attach` needs: pip install "hypno>=1.1"
+that could not be looked at. Needs what `attach` needs: pip install "pyinjector>=1.3"
 """
 
 
