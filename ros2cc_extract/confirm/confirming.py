@@ -1,0 +1,54 @@
+"""Confirms one finding: starts its node, watches it, and judges."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from ros2cc_extract.confirm.judging import Judgement, confirmed, not_confirmed
+from ros2cc_extract.confirm.observations import Observations
+from ros2cc_extract.confirm.processes import started
+from ros2cc_extract.confirm.schedules import Schedule
+
+LIMIT_S = 30.0
+_READ_EVERY_S = 0.1
+# After its last words the program may have ended by what was to be shown.
+_AFTER_END_S = 0.3
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """
+    :param seconds: how long it took.
+    """
+
+    schedule: Schedule
+    judgement: Judgement
+    seconds: float
+
+
+def confirm(schedule: Schedule, python: str, limit_s: float = LIMIT_S) -> Confirmation:
+    """
+    Run the program of a schedule until its finding is shown, or the time is over.
+
+    :raises InputError, ToolNotFoundError: as ``started``.
+    """
+    begun = time.monotonic()
+    judgement = _watch(schedule, python, begun + limit_s)
+    return Confirmation(schedule, judgement, time.monotonic() - begun)
+
+
+def _watch(schedule: Schedule, python: str, deadline: float) -> Judgement:
+    seen = Observations()
+    with started(schedule, python) as node:
+        while True:
+            ended = node.process.poll() is not None
+            if ended:
+                time.sleep(_AFTER_END_S)
+            if seen.update(node.report):
+                found = confirmed(schedule, seen)
+                if found is not None:
+                    return found
+            if ended or time.monotonic() > deadline:
+                return not_confirmed(schedule, seen, node.said, ended=ended)
+            time.sleep(_READ_EVERY_S)

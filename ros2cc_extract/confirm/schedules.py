@@ -1,0 +1,190 @@
+"""
+From a finding and its run to a schedule: what must have begun before what may end it.
+
+The order is that of the model's counterexample: every wait of the run is reached, and only then
+may a callback begin that would end one. Nothing else of the run is forced, as nothing else of it
+decides whether the waits end.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ros2cc_extract.confirm.statements import lines_of, tree_of, values_compared
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.files import read_regular
+from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.json_text import read_json
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+
+_VERSION = 1
+_MOST_BYTES = 1_000_000
+_LOCKS = 'CC111'
+_LOCK_OVER_WAIT = 'CC115'
+_KINDS = {EntityKind.CLIENT: 'client', EntityKind.SERVICE: 'service'}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """A statement that is to be reached; fields as in ``steering/plan.py``."""
+
+    file: str
+    first: int
+    last: int
+    column: int = 0
+    count: int = 1
+    holds: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Held:
+    """A callback that is held back; fields as in ``steering/plan.py``."""
+
+    kind: str = ''
+    function: str = ''
+    file: str = ''
+    line: int = 0
+    key: str = ''
+
+
+@dataclass(frozen=True, kw_only=True)
+class Schedule:
+    """
+    How a finding is to be shown.
+
+    :param code, path, line: of the finding.
+    :param entry: the file to start, and the function that its console script calls.
+    :param points: the first is the place of the finding.
+    :param values: what messages are filled with, after their defaults.
+    :param forever: the finding says that the wait never ends.
+    """
+
+    code: str
+    path: str
+    line: int
+    message: str
+    entry: str
+    function: str
+    points: tuple[Point, ...]
+    held: tuple[Held, ...] = ()
+    values: tuple[str | int | float, ...] = field(default=())
+    forever: bool = False
+
+
+def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
+    """Make the schedule of one finding; ``units`` are all of the scan."""
+    unit = next((each for each in units if each.name == finding.unit), None)
+    entry, function = _entry(finding, unit, units)
+    tree = tree_of(Path(finding.place.file))
+    points = tuple(_points(finding))
+    return Schedule(
+        code=finding.code,
+        path=finding.place.file,
+        line=finding.place.line,
+        message=finding.message,
+        entry=entry,
+        function=function,
+        points=points,
+        held=tuple(_held(finding, unit)) if unit is not None else (),
+        values=tuple(values_compared(tree)),
+        forever='forever' in finding.message and 'unless' not in finding.message,
+    )
+
+
+def _entry(finding: Finding, unit: Spec | None, units: Sequence[Spec]) -> tuple[str, str]:
+    """The program that has the finding: that of its unit, else one that reads its file."""
+    within = [each for each in units if finding.place.file in each.sources]
+    for each in (unit, *within):
+        if each is not None and each.entry:
+            file, colon, function = each.entry.rpartition(':')
+            if colon and file.endswith('.py'):
+                return file, function
+            if each.entry.endswith('.py'):
+                return each.entry, ''
+    return finding.place.file, ''
+
+
+def _points(finding: Finding) -> Iterator[Point]:
+    meets = finding.code == _LOCKS and len(set(finding.subjects[:2])) == 2
+    meets = meets and len(finding.subjects) == 4
+    yield _point(finding.place, holds=meets)
+    for remark in finding.related:
+        if 'waits here' in remark.text or (meets and ' takes ' in remark.text):
+            yield _point(remark.place, holds=meets)
+        elif finding.code == _LOCK_OVER_WAIT and remark.text.endswith('is taken here'):
+            yield _point(remark.place)
+
+
+def _point(place: Place, *, holds: bool = False) -> Point:
+    path = Path(place.file)
+    first, last = lines_of(tree_of(path), place.line)
+    return Point(
+        file=str(path.resolve()),
+        first=first,
+        last=last,
+        column=place.column if holds else 0,
+        holds=holds,
+    )
+
+
+def _held(finding: Finding, unit: Spec) -> Iterator[Held]:
+    """What ends the waits of the run, but for those that wait themselves."""
+    known = {each.name: each for each in unit.callbacks}
+    events = [e for m in (finding.run.moments if finding.run else ()) for e in m.events]
+    waiters = {e.who for e in events if e.is_wait} | {finding.subjects[0] if finding.subjects else ''}
+    enders = [name for e in events if e.is_wait and not e.is_for_lock for name in e.enders]
+    told: set[str] = set()
+    for name in [*enders, *finding.subjects[1:]]:
+        callback = known.get(name)
+        if callback is not None and name not in waiters and name not in told:
+            told.add(name)
+            held = _of_callback(callback)
+            if held is not None:
+                yield held
+
+
+def _of_callback(callback: Callback) -> Held | None:
+    defined = callback.defined
+    if defined is not None and callback.function_name and callback.entity is not EntityKind.CLIENT:
+        file = str(Path(defined.file).resolve())
+        return Held(function=callback.function_name, file=file, line=defined.line)
+    if callback.entity in _KINDS and isinstance(callback.key, str):
+        return Held(kind=_KINDS[callback.entity], key=callback.key)
+    return None
+
+
+def write_schedule(schedule: Schedule) -> str:
+    """Give the text of a file that ``read_schedule`` reads."""
+    return json.dumps({'ros2cc_confirm': _VERSION, **asdict(schedule)}, indent=2) + '\n'
+
+
+def read_schedule(path: Path) -> Schedule:
+    """
+    Read a schedule that was kept.
+
+    :raises InputError: where the file is none.
+    """
+    try:
+        row = read_json(read_regular(path, _MOST_BYTES))
+        if row.pop('ros2cc_confirm') != _VERSION:
+            raise ValueError('of another version')
+        return _schedule(row)
+    except OSError as error:
+        raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
+    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        what = 'is no schedule that confirm has written'
+        raise InputError(what, Place(str(path)), 'write one with confirm --keep') from error
+
+
+def _schedule(row: Mapping[str, Any]) -> Schedule:
+    lists = {
+        'points': tuple(Point(**each) for each in row['points']),
+        'held': tuple(Held(**each) for each in row['held']),
+        'values': tuple(row['values']),
+    }
+    return Schedule(**{**row, **lists})
