@@ -27,20 +27,23 @@ class Confirmation:
     seconds: float
 
 
-def confirm(schedule: Schedule, python: str, limit_s: float = LIMIT_S) -> Confirmation:
+def confirm(
+    schedule: Schedule, python: str, limit_s: float = LIMIT_S, *, stubs: bool = False
+) -> Confirmation:
     """
     Run the program of a schedule until its finding is shown, or the time is over.
 
+    :param stubs: stand-ins for modules that are not installed.
     :raises InputError, ToolNotFoundError: as ``started``.
     """
     begun = time.monotonic()
-    judgement = _watch(schedule, python, begun + limit_s)
+    judgement = _watch(schedule, python, begun + limit_s, stubs)
     return Confirmation(schedule, judgement, time.monotonic() - begun)
 
 
-def _watch(schedule: Schedule, python: str, deadline: float) -> Judgement:
+def _watch(schedule: Schedule, python: str, deadline: float, stubs: bool) -> Judgement:
     seen = Observations()
-    with started(schedule, python) as node:
+    with started(schedule, python, stubs=stubs) as node:
         while True:
             ended = node.process.poll() is not None
             if ended:

@@ -18,6 +18,7 @@ from ros2cc_extract.confirm.observations import Observations, Sample
 from ros2cc_extract.confirm.schedules import Point, Schedule
 from ros2cc_extract.confirm.statements import loop_future, tree_of
 from ros2cc_extract.extract.live.hang_analysis.formats import as_text
+from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, locks_held
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Frame, Look
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import (
     Explanation,
@@ -33,10 +34,8 @@ _EXCEPTIONS = {
     'CC113': ('TypeError',),
     'CC114': ('RuntimeError',),
 }
+_WORDS = {'CC107': ('generator already executing', 'already spinning'), 'CC113': ('coroutine',)}
 _NESTED_SPINS = ('CC106', 'CC107')
-_LEAVES = 'CC106'
-_WITHOUT_A_CALLBACK = 'CC110'
-_KEPT_LOCK = 'CC112'
 
 
 class Outcome(Enum):
@@ -66,6 +65,9 @@ def confirmed(schedule: Schedule, seen: Observations) -> Judgement | None:
         _exception,
         _nested,
         _node_lost,
+        _shut_out,
+        _kept_lock,
+        _crossed_locks,
     )
     return next((found for way in ways if (found := way(schedule, seen)) is not None), None)
 
@@ -159,9 +161,11 @@ def _exception(schedule: Schedule, seen: Observations) -> Judgement | None:
             return Judgement(
                 Outcome.CONFIRMED, f'raises {row["type"]} at line {schedule.line}', text
             )
-    if schedule.code == 'CC113':
+    # Where no line of the program raises: it has only handed something to rclpy.
+    words = _WORDS.get(schedule.code, ())
+    if words:
         for row in seen.failed:
-            if row['type'] in names and 'coroutine' in row['text']:
+            if row['type'] in names and any(each in row['text'] for each in words):
                 text = f'{row["type"]}: {row["text"]}'
                 return Judgement(Outcome.CONFIRMED, f'raises {row["type"]}', text)
     return None
@@ -169,7 +173,7 @@ def _exception(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 def _nested(schedule: Schedule, seen: Observations) -> Judgement | None:
     """A callback has begun inside the one that spins."""
-    if schedule.code not in _NESTED_SPINS:
+    if schedule.code not in _NESTED_SPINS or schedule.leaves:
         return None
     for row in seen.nested:
         if row['point'] == 0:
@@ -180,7 +184,7 @@ def _nested(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 def _node_lost(schedule: Schedule, seen: Observations) -> Judgement | None:
     """The node of the callback is in no executor after its nested spin, and nothing of it begins."""
-    if schedule.code != _LEAVES or not seen.passed.get(0):
+    if not schedule.leaves or not seen.passed.get(0):
         return None
     after = [each for each in seen.samples if each.at > seen.passed_at]
     if not after or after[-1].at - after[0].at < APART_S:
@@ -194,6 +198,105 @@ def _node_lost(schedule: Schedule, seen: Observations) -> Judgement | None:
         reason = f'{", ".join(nodes)} is in no executor for {seconds:.0f} s and more'
         return Judgement(Outcome.CONFIRMED, reason, as_text((after[-1].explanation,)))
     return None
+
+
+def _shut_out(schedule: Schedule, seen: Observations) -> Judgement | None:
+    """A callback spins on and on, and no other member of its group begins meanwhile."""
+    pair = _pair(seen)
+    if schedule.code != 'CC106' or pair is None or not seen.reached.get(0):
+        return None
+    earlier, later = pair
+    stood = {frame.number for _, frame in _at_first_point(schedule, earlier)}
+    for activity, frame in _at_first_point(schedule, later):
+        shut = _others_in_group(later.looks[1], activity)
+        begun = {entity for at, entity in seen.begins if at > earlier.at}
+        if frame.number in stood and shut and not shut & begun:
+            reason = (
+                f'spins at line {schedule.line} for {later.at - earlier.at:.0f} s and more, and no '
+                'other member of its group has begun'
+            )
+            return Judgement(Outcome.CONFIRMED, reason, as_text((later.explanation,)))
+    return None
+
+
+def _pair(seen: Observations) -> tuple[Sample, Sample] | None:
+    """The last sample, and the last one before that is far enough from it."""
+    last = seen.samples[-1] if seen.samples else None
+    before = [each for each in seen.samples if last and last.at - each.at >= APART_S]
+    return (before[-1], last) if last is not None and before else None
+
+
+def _at_first_point(schedule: Schedule, sample: Sample) -> Iterator[tuple[Activity, Frame]]:
+    for each in sample.looks[1].activities:
+        frame = _frame_at(each, schedule.points[:1])
+        if frame is not None:
+            yield each, frame
+
+
+def _others_in_group(look: Look, activity: Activity) -> set[int]:
+    """What somebody has written into the groups that a callback keeps closed."""
+    own = {look.entities[each].group for each in activity.entities if each in look.entities}
+    return {
+        number
+        for number, each in look.entities.items()
+        if each.group in own and each.exclusive and not each.builtin
+    } - set(activity.entities)
+
+
+def _kept_lock(schedule: Schedule, seen: Observations) -> Judgement | None:
+    """The callback is over, and another one waits for a lock that nobody is left to give back."""
+    pair = _pair(seen)
+    if schedule.code != 'CC112' or not seen.passed.get(0) or pair is None:
+        return None
+    waits = [_waits_for_kept(each) for each in pair]
+    for activity in waits[1]:
+        if any(activity.stands_as(each) for each in waits[0]):
+            reason = f'line {activity.place.line} waits for the lock that was kept'
+            return Judgement(Outcome.CONFIRMED, reason, as_text((pair[1].explanation,)))
+    return None
+
+
+def _crossed_locks(schedule: Schedule, seen: Observations) -> Judgement | None:
+    """
+    A thread stands at each of the two places, and nothing else runs.
+
+    Of a ``with`` for two locks the interpreter does not tell which one is waited for.
+    """
+    pair = _pair(seen)
+    if schedule.code != 'CC111' or len(schedule.points) < 2 or pair is None:
+        return None
+    stood, stand = (_at_locks(schedule, each) for each in pair)
+    if len(stand) == len(schedule.points) and all(
+        point in stood and activity.stands_as(stood[point]) for point, activity in stand.items()
+    ):
+        lines = ' and '.join(str(each.first) for each in schedule.points)
+        reason = f'wait for the locks at lines {lines} for {APART_S:.0f} s and more'
+        return Judgement(Outcome.CONFIRMED, reason, as_text((pair[1].explanation,)))
+    return None
+
+
+def _at_locks(schedule: Schedule, sample: Sample) -> dict[Point, Activity]:
+    inside = [each for each in sample.explanation.standings if each.in_callback]
+    if any(each.wait.kind is not Kind.LOCK or each.moved or each.wait.timed for each in inside):
+        return {}
+    return {
+        point: each.activity
+        for point in schedule.points
+        for each in inside
+        if _frame_at(each.activity, (point,))
+    }
+
+
+def _waits_for_kept(sample: Sample) -> list[Activity]:
+    """Waits for one lock, where no callback does anything else."""
+    look = sample.looks[1]
+    inside = [each for each in sample.explanation.standings if each.in_callback]
+    locks = {each.wait.resource for each in inside}
+    if len(locks) != 1 or any(each.wait.kind is not Kind.LOCK or each.moved for each in inside):
+        return []
+    held = {lock for each in inside for lock, _ in locks_held(each.activity)}
+    row = look.objects.get(locks.pop() or 0, {})
+    return [each.activity for each in inside] if row.get('locked') and not held else []
 
 
 def _out_of_executors(sample: Sample) -> set[int]:

@@ -19,11 +19,12 @@ from typing import IO
 from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
-from ros2cc_extract.extract.live.steering.plan import VARIABLE
+from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
 # The ports of domains up to 101 stay below Linux' ephemeral ports.
 _DOMAINS = range(1, 102)
+READY = 'ready'
 _MOST_LOG_BYTES = 4_000_000
 _VERSION = """
 from importlib import metadata
@@ -74,7 +75,7 @@ def release_of(python: str) -> str | None:
 
 
 @contextmanager
-def started(schedule: Schedule, python: str, *, steered: bool = True) -> Iterator[Node]:
+def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator[Node]:
     """
     Start the program of a schedule beside its stimulus; both are killed in the end.
 
@@ -87,7 +88,7 @@ def started(schedule: Schedule, python: str, *, steered: bool = True) -> Iterato
         folder = Path(name)
         (folder / 'recordings').mkdir()
         (folder / 'report').touch()
-        (folder / 'plan').write_text(_plan(schedule, folder / 'report'), encoding='utf-8')
+        (folder / 'plan').write_text(_plan(schedule, folder), encoding='utf-8')
         plain = {
             **{key: value for key, value in os.environ.items() if key != 'ROS_LOCALHOST_ONLY'},
             'ROS_DOMAIN_ID': str(domain),
@@ -97,11 +98,12 @@ def started(schedule: Schedule, python: str, *, steered: bool = True) -> Iterato
             'PYTHONDONTWRITEBYTECODE': '1',
         }
         hooked = hooked_environment(plain, folder / 'recordings')
-        if steered:
-            hooked[VARIABLE] = str(folder / 'plan')
+        hooked[VARIABLE] = str(folder / 'plan')
+        hooked[STUBS_VARIABLE] = '1' if stubs else '0'
         node = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
         node += [schedule.function] if schedule.function else []
-        stimulus = [python, str(_SCRIPTS / 'stimulus.py'), json.dumps(schedule.values)]
+        stimulus = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
+        stimulus += [json.dumps(schedule.values), str(schedule.at_once)]
         with (
             (folder / 'said').open('wb') as said,
             _running(stimulus, plain, subprocess.DEVNULL),
@@ -110,9 +112,10 @@ def started(schedule: Schedule, python: str, *, steered: bool = True) -> Iterato
             yield Node(process, folder / 'report', folder / 'said')
 
 
-def _plan(schedule: Schedule, report: Path) -> str:
+def _plan(schedule: Schedule, folder: Path) -> str:
     row = {
-        'report': str(report),
+        'report': str(folder / 'report'),
+        'surroundings': str(folder / READY),
         'points': [asdict(each) for each in schedule.points],
         'held': [asdict(each) for each in schedule.held],
     }

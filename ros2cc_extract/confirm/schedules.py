@@ -8,13 +8,15 @@ decides whether the waits end.
 
 from __future__ import annotations
 
+import ast
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.confirm.statements import lines_of, tree_of, values_compared
+from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_regular
 from ros2cc_extract.findings.base.model import Finding
@@ -26,6 +28,15 @@ _VERSION = 1
 _MOST_BYTES = 1_000_000
 _LOCKS = 'CC111'
 _LOCK_OVER_WAIT = 'CC115'
+_SPUN_TWICE = 'CC107'
+_PAUSE_S = 1.0
+CONFIRMABLE = frozenset(
+    {
+        *(f'CC{number}' for number in range(101, 108)),
+        *('CC108', 'CC109', 'CC110', 'CC111', 'CC112', 'CC113', 'CC114', 'CC115'),
+    }
+)
+"""Rules whose findings can be shown on a running node."""
 _KINDS = {EntityKind.CLIENT: 'client', EntityKind.SERVICE: 'service'}
 
 
@@ -39,6 +50,7 @@ class Point:
     column: int = 0
     count: int = 1
     holds: bool = False
+    pause_s: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +62,7 @@ class Held:
     file: str = ''
     line: int = 0
     key: str = ''
+    soft: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +75,8 @@ class Schedule:
     :param points: the first is the place of the finding.
     :param values: what messages are filled with, after their defaults.
     :param forever: the finding says that the wait never ends.
+    :param leaves: the finding says that its node leaves the executor for good.
+    :param at_once: how many requests of one service are on their way at a time.
     """
 
     code: str
@@ -74,12 +89,20 @@ class Schedule:
     held: tuple[Held, ...] = ()
     values: tuple[str | int | float, ...] = field(default=())
     forever: bool = False
+    leaves: bool = False
+    at_once: int = 1
+
+
+def can_be_tried(finding: Finding) -> bool:
+    """Whether there is a way to show it; a note claims nothing that could be shown."""
+    return finding.code in CONFIRMABLE and finding.severity is not Severity.NOTE
 
 
 def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
     """Make the schedule of one finding; ``units`` are all of the scan."""
-    unit = next((each for each in units if each.name == finding.unit), None)
-    entry, function = _entry(finding, unit, units)
+    within = [each for each in units if finding.place.file in each.sources]
+    unit = next((each for each in units if each.name == finding.unit), (*within, None)[0])
+    entry, function = _entry(finding, [unit, *within])
     tree = tree_of(Path(finding.place.file))
     points = tuple(_points(finding))
     return Schedule(
@@ -93,13 +116,13 @@ def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
         held=tuple(_held(finding, unit)) if unit is not None else (),
         values=tuple(values_compared(tree)),
         forever='forever' in finding.message and 'unless' not in finding.message,
+        leaves='the node leaves its' in finding.message,
     )
 
 
-def _entry(finding: Finding, unit: Spec | None, units: Sequence[Spec]) -> tuple[str, str]:
+def _entry(finding: Finding, units: Sequence[Spec | None]) -> tuple[str, str]:
     """The program that has the finding: that of its unit, else one that reads its file."""
-    within = [each for each in units if finding.place.file in each.sources]
-    for each in (unit, *within):
+    for each in units:
         if each is not None and each.entry:
             file, colon, function = each.entry.rpartition(':')
             if colon and file.endswith('.py'):
@@ -112,7 +135,9 @@ def _entry(finding: Finding, unit: Spec | None, units: Sequence[Spec]) -> tuple[
 def _points(finding: Finding) -> Iterator[Point]:
     meets = finding.code == _LOCKS and len(set(finding.subjects[:2])) == 2
     meets = meets and len(finding.subjects) == 4
-    yield _point(finding.place, holds=meets)
+    first = _point(finding.place, holds=meets)
+    # Two threads that both make the global executor would spin two.
+    yield replace(first, pause_s=_PAUSE_S) if finding.code == _SPUN_TWICE else first
     for remark in finding.related:
         if 'waits here' in remark.text or (meets and ' takes ' in remark.text):
             yield _point(remark.place, holds=meets)
@@ -133,19 +158,34 @@ def _point(place: Place, *, holds: bool = False) -> Point:
 
 
 def _held(finding: Finding, unit: Spec) -> Iterator[Held]:
-    """What ends the waits of the run, but for those that wait themselves."""
+    """What ends the waits of the run, and softly all else that has no part in it."""
     known = {each.name: each for each in unit.callbacks}
     events = [e for m in (finding.run.moments if finding.run else ()) for e in m.events]
-    waiters = {e.who for e in events if e.is_wait} | {finding.subjects[0] if finding.subjects else ''}
-    enders = [name for e in events if e.is_wait and not e.is_for_lock for name in e.enders]
-    told: set[str] = set()
-    for name in [*enders, *finding.subjects[1:]]:
-        callback = known.get(name)
-        if callback is not None and name not in waiters and name not in told:
-            told.add(name)
+    starts = {e.who for e in events if e.kind == 'start'} or set(finding.subjects)
+    starts |= {each.name for each in unit.callbacks if _is_inside(finding.place, each)}
+    waiters = starts | set(finding.subjects[: 2 if finding.code == _LOCKS else 1])
+    # A nested spin may take the node away while something of it is held.
+    waits = [e for e in events if e.is_wait and not e.is_for_lock and e.form != 'taken']
+    enders = {name for e in waits for name in e.enders} | set(finding.subjects[1:])
+    for name, callback in known.items():
+        if name not in waiters:
             held = _of_callback(callback)
-            if held is not None:
-                yield held
+            if held is not None and (name in enders or not callback.builtin):
+                yield replace(held, soft=name not in enders)
+
+
+def _is_inside(place: Place, callback: Callback) -> bool:
+    """Whether the place is in the function of the callback itself."""
+    defined = callback.defined
+    if defined is None or defined.file != place.file:
+        return False
+    functions = [
+        node
+        for node in ast.walk(tree_of(Path(place.file)))
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+        and node.lineno <= place.line <= (node.end_lineno or 0)
+    ]
+    return any(node.lineno == defined.line for node in functions)
 
 
 def _of_callback(callback: Callback) -> Held | None:

@@ -10,6 +10,7 @@ neighbours.
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 import threading
@@ -19,6 +20,8 @@ from typing import Any
 from .director import Director
 from .plan import Point
 from .report import Report
+
+_MAY_SUSPEND = inspect.CO_COROUTINE | inspect.CO_GENERATOR | inspect.CO_ASYNC_GENERATOR
 
 
 class Lines:
@@ -100,7 +103,9 @@ class _OfFrame:
 
     def _suspends(self, frame: FrameType, event: str) -> bool:
         """Whether a coroutine only gives its thread back: it stands where it stood."""
-        return event == 'return' and any(point.contains(frame.f_lineno) for _, point in self._points)
+        if event != 'return' or not frame.f_code.co_flags & _MAY_SUSPEND:
+            return False
+        return any(point.contains(frame.f_lineno) for _, point in self._points)
 
     def _raised(self, frame: FrameType, argument: Any) -> None:
         kind, value = argument[0], argument[1]

@@ -12,6 +12,7 @@ import os
 from typing import Any
 
 VARIABLE = 'ROS2CC_LIVE_STEER'
+STUBS_VARIABLE = 'ROS2CC_LIVE_STUBS'
 
 
 class Point:
@@ -23,6 +24,7 @@ class Point:
     :param column: 1-based, where the line holds more than one such place; else 0.
     :param count: how many threads are to stand there.
     :param holds: who arrives is held until all have arrived.
+    :param pause_s: how long the first to arrive is held in any case.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:
@@ -32,6 +34,7 @@ class Point:
         self.column = int(row.get('column', 0))
         self.count = int(row.get('count', 1))
         self.holds = bool(row.get('holds', False))
+        self.pause_s = float(row.get('pause_s', 0.0))
 
     def contains(self, line: int) -> bool:
         return self.first <= line <= self.last
@@ -44,6 +47,7 @@ class Held:
     :param kind: `timer`, `subscription`, `service`, `client` …; empty for any.
     :param function: name of its function, with the file and the line where it is defined.
     :param key: end of the name of its topic, service or action.
+    :param soft: it only has no part in the run, and may be what leads there: it is let go soon.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:
@@ -52,6 +56,7 @@ class Held:
         self.file = str(row.get('file', ''))
         self.line = int(row.get('line', 0))
         self.key = str(row.get('key', ''))
+        self.soft = bool(row.get('soft', False))
 
     def is_of(self, entity: Any) -> bool:
         """Whether it is the callback of an entity of rclpy."""
@@ -87,11 +92,13 @@ class Plan:
     :param report: the file that events and looks are written to, one object a line.
     :param points: to be reached.
     :param held: not to begin before.
+    :param surroundings: a file that is there once what the node meets outside is.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:
         self.report = str(row['report'])
+        self.surroundings = str(row.get('surroundings', ''))
         self.points = [Point(each) for each in row.get('points', ())]
         self.held = [Held(each) for each in row.get('held', ())]
         self.patience_s = float(row.get('patience_s', 4.0))

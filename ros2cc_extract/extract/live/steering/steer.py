@@ -18,8 +18,9 @@ from ..hang_analysis import probe
 from .begins import steer_groups
 from .director import Director
 from .lines import Lines
-from .plan import VARIABLE, read_plan
+from .plan import STUBS_VARIABLE, VARIABLE, read_plan
 from .report import Report
+from .stubs import offer_stubs
 
 LOOKS_EVERY_S = 1.0
 _MOST_FRAMES = 40
@@ -30,6 +31,8 @@ def steer_from_environment() -> Steering | None:
     path = os.environ.pop(VARIABLE, None)
     if path is None:
         return None
+    if os.environ.pop(STUBS_VARIABLE, '0') == '1':
+        offer_stubs()
     plan = read_plan(path)
     report = Report(plan.report)
     return Steering(Director(plan, report), report)

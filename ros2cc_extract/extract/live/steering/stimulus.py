@@ -1,10 +1,10 @@
 """
-Gives a node from outside what it waits for, as ``python stimulus.py VALUES``.
+Gives a node from outside what it waits for, as ``python stimulus.py READY VALUES [AT_ONCE]``.
 
 Publishes on every topic that a node of the domain subscribes to, calls every service, sends goals
 to every action server, and offers what the clients of the domain ask for and nobody offers. All
 messages are filled by default at first, later with VALUES, a JSON list of texts and numbers that
-the program compares with. Runs with the user's interpreter: the standard library and rclpy only.
+the program compares with. The file READY is made once all that was seen at first is offered. Runs with the user's interpreter: the standard library and rclpy only.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from typing import Any
 NODE = '_ros2cc_stimulus'
 ROUND_S = 0.1
 # What somebody else may offer a moment later is not offered in his place.
-GRACE_S = 1.5
-#: Requests of one client that are on their way at the same time; some overlap only then.
-AT_ONCE = 3
+GRACE_S = 0.7
+# For the other side to find what is offered.
+SETTLES_S = 0.5
 _PARAMETERS = 'set_parameters'
 _OF_RCLPY = (
     'describe_parameters', 'get_parameters', 'get_parameter_types', 'list_parameters',
@@ -37,7 +37,7 @@ _NUMBERS = ('int', 'uint', 'float', 'double', 'octet', 'byte')
 class Stimulus:
     """All that is offered and sent, by name."""
 
-    def __init__(self, values: Sequence[Any]) -> None:
+    def __init__(self, ready: str, values: Sequence[Any], at_once: int) -> None:
         rclpy = importlib.import_module('rclpy')
         self._rclpy = rclpy
         rclpy.init(args=[])
@@ -45,6 +45,9 @@ class Stimulus:
         self._texts = ['', *(each for each in values if isinstance(each, str))]
         self._numbers = [0, *(each for each in values if isinstance(each, (int, float))), 1]
         self._turn = 0
+        self._at_once = at_once
+        self._ready: str | None = ready
+        self._first: float | None = None
         self._publishers: dict[str, Any] = {}
         self._clients: dict[str, Any] = {}
         self._asked: dict[str, list[Any]] = {}
@@ -63,9 +66,17 @@ class Stimulus:
                     with contextlib.suppress(Exception):
                         act(name, namespace)
             self._turn += 1
+            self._tell_when_ready()
             until = time.monotonic() + ROUND_S
             while time.monotonic() < until:
                 executor.spin_once(timeout_sec=0.02)
+
+    def _tell_when_ready(self) -> None:
+        if self._ready is not None and any(self._others()):
+            self._first = self._first or time.monotonic()
+            if time.monotonic() - self._first > GRACE_S + SETTLES_S:
+                with open(self._ready, 'x', encoding='utf-8'):  # noqa: PTH123
+                    self._ready = None
 
     def _others(self) -> Iterator[tuple[str, str]]:
         for name, namespace in self._node.get_node_names_and_namespaces():
@@ -97,7 +108,7 @@ class Stimulus:
                 self._asked[service] = []
             client, asked = self._clients[service], self._asked[service]
             asked[:] = [each for each in asked if not each.done()]
-            if client.service_is_ready() and len(asked) < AT_ONCE:
+            if client.service_is_ready() and len(asked) < self._at_once:
                 request = self._request(kind, service, last)
                 if request is not None:
                     asked.append(client.call_async(request))
@@ -165,7 +176,7 @@ class Stimulus:
                 self._asked[action] = []
             client, asked = self._actions[action], self._asked[action]
             asked[:] = [each for each in asked if not each.done()]
-            if client.server_is_ready() and len(asked) < AT_ONCE:
+            if client.server_is_ready() and len(asked) < self._at_once:
                 goal = client.send_goal_async(self._filled(kind.Goal()))
                 goal.add_done_callback(self._follow)
                 asked.append(goal)
@@ -234,4 +245,4 @@ def _interface(name: str) -> Any:
 
 
 if __name__ == '__main__':
-    Stimulus(json.loads(sys.argv[1]) if len(sys.argv) > 1 else []).run()
+    Stimulus(sys.argv[1], json.loads(sys.argv[2]), int(sys.argv[3])).run()
