@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from ros2cc_extract.confirm.judging import Judgement, confirmed, not_confirmed
+from ros2cc_extract.confirm.judging import confirmed, not_confirmed
 from ros2cc_extract.confirm.observations import Observations
+from ros2cc_extract.confirm.outcomes import Judgement
 from ros2cc_extract.confirm.processes import started
 from ros2cc_extract.confirm.schedules import Schedule
 

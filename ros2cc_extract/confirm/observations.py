@@ -33,6 +33,7 @@ class Observations:
     All that was reported so far.
 
     :param reached, passed: threads by number of the point.
+    :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
     """
 
@@ -40,6 +41,8 @@ class Observations:
     reached: dict[int, int] = field(default_factory=dict)
     passed: dict[int, int] = field(default_factory=dict)
     passed_at: float = 0.0
+    times: list[float] = field(default_factory=list)
+    _since: dict[int, float] = field(default_factory=dict)
     is_open: bool = False
     given_up: tuple[int, ...] = ()
     raised: list[Row] = field(default_factory=list)
@@ -69,9 +72,13 @@ class Observations:
             self.process = int(row['process'])
         elif what == 'reached':
             self.reached[row['point']] = self.reached.get(row['point'], 0) + 1
+            if row['point'] == 0:
+                self._since[row['thread']] = at
         elif what == 'passed':
             self.passed[row['point']] = self.passed.get(row['point'], 0) + 1
             self.passed_at = at
+            if row['point'] == 0 and row['thread'] in self._since:
+                self.times.append(at - self._since.pop(row['thread']))
         elif what == 'open':
             self.is_open = True
             self.given_up = tuple(row['missing'])

@@ -54,8 +54,7 @@ class Node:
     @property
     def said(self) -> str:
         """The end of what it has said."""
-        text = self.log.read_bytes()[-_MOST_LOG_BYTES:].decode(errors='replace')
-        return text
+        return self.log.read_bytes()[-_MOST_LOG_BYTES:].decode(errors='replace')
 
 
 def release_of(python: str) -> str | None:
@@ -66,7 +65,9 @@ def release_of(python: str) -> str | None:
     """
     mend = 'source the workspace of ROS, or name an interpreter with --python'
     try:
-        found = subprocess.run([python, '-c', _VERSION], capture_output=True, text=True, timeout=60)
+        found = subprocess.run(
+            [python, '-c', _VERSION], capture_output=True, text=True, timeout=60
+        )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise ToolNotFoundError(f'{python} cannot be started: {error}', None, mend) from error
     if found.returncode:

@@ -77,6 +77,7 @@ class Schedule:
     :param forever: the finding says that the wait never ends.
     :param leaves: the finding says that its node leaves the executor for good.
     :param at_once: how many requests of one service are on their way at a time.
+    :param times_out_s: the finding says that the wait always takes so long, in vain.
     """
 
     code: str
@@ -91,6 +92,7 @@ class Schedule:
     forever: bool = False
     leaves: bool = False
     at_once: int = 1
+    times_out_s: float | None = None
 
 
 def can_be_tried(finding: Finding) -> bool:
@@ -117,6 +119,7 @@ def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
         values=tuple(values_compared(tree)),
         forever='forever' in finding.message and 'unless' not in finding.message,
         leaves='the node leaves its' in finding.message,
+        times_out_s=_time_out(finding, unit),
     )
 
 
@@ -130,6 +133,14 @@ def _entry(finding: Finding, units: Sequence[Spec | None]) -> tuple[str, str]:
             if each.entry.endswith('.py'):
                 return each.entry, ''
     return finding.place.file, ''
+
+
+def _time_out(finding: Finding, unit: Spec | None) -> float | None:
+    if unit is None or 'always times out' not in finding.message:
+        return None
+    blocks = (block for each in unit.callbacks for block in each.blocking)
+    found = (each.seconds for each in blocks if each.source == finding.place)
+    return next((float(each) for each in found if isinstance(each, (int, float))), None)
 
 
 def _points(finding: Finding) -> Iterator[Point]:

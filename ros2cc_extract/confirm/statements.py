@@ -1,4 +1,4 @@
-"""Which lines a place stands for: those of its statement; and the values a program compares with."""
+"""Which lines a place stands for, and the values that a program compares with."""
 
 from __future__ import annotations
 
@@ -10,7 +10,15 @@ from ros2cc_extract.files import read_regular
 
 _MOST_BYTES = 5_000_000
 _MOST_VALUES = 12
-_HEADED = (ast.If, ast.For, ast.AsyncFor, ast.With, ast.AsyncWith, ast.FunctionDef)
+_HEADED = (
+    ast.If,
+    ast.For,
+    ast.AsyncFor,
+    ast.With,
+    ast.AsyncWith,
+    ast.FunctionDef,
+    ast.AsyncFunctionDef,
+)
 
 
 def tree_of(path: Path) -> ast.Module:
@@ -35,7 +43,7 @@ def lines_of(tree: ast.Module, line: int) -> tuple[int, int]:
             best = node
     if best is None:
         return line, line
-    if isinstance(best, _HEADED) or isinstance(best, ast.AsyncFunctionDef):
+    if isinstance(best, _HEADED):
         return best.lineno, max(best.lineno, best.body[0].lineno - 1)
     return best.lineno, best.end_lineno or best.lineno
 
@@ -73,5 +81,4 @@ def _constants(tree: ast.Module) -> Iterator[str | int | float]:
                         if isinstance(part.value, (int, float)):
                             yield part.value + 1
         elif isinstance(node, ast.MatchValue) and isinstance(node.value, ast.Constant):
-            if type(node.value.value) in (str, int, float):
-                yield node.value.value  # type: ignore[misc]
+            yield from [node.value.value] if isinstance(node.value.value, (str, int)) else []

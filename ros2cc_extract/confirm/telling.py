@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from ros2cc_extract.confirm.confirming import Confirmation
-from ros2cc_extract.confirm.judging import Outcome
+from ros2cc_extract.confirm.outcomes import Outcome
 
 
 def as_text(found: Confirmation, release: str | None) -> str:

@@ -27,8 +27,8 @@ examples:
   ros2cc-extract confirm my_node.py CC101:24 --keep hang.json
   ros2cc-extract confirm --replay hang.json
 
-Starts your program, and beside it a stimulus that sends what the program waits for from outside, in
-a ROS domain of their own and on this machine only; both are killed in the end. Each finding is
+Starts your program, and beside it a stimulus that sends what the program waits for from outside,
+in a ROS domain of their own and on this machine only; both are killed in the end. Each finding is
 confirmed, not reached (with the reason), or contradicted. Asks before it starts a program for the
 first time. Exit status: 1 something is confirmed; 0 nothing is; 2 it could not be tried.
 """
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         'finding',
         nargs='?',
         metavar='CODE[:LINE]',
-        help='only findings of this rule, or the one at this line (default: all that can be shown)',
+        help='only findings of this rule, or of this line (default: all that can be shown)',
     )
     parser.add_argument(
         '--yes', action='store_true', help='start the program without asking; its code runs'
@@ -79,7 +79,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.confirm.confirming import confirm
     from ros2cc_extract.confirm.consent import ask_to_start
-    from ros2cc_extract.confirm.judging import Outcome
+    from ros2cc_extract.confirm.outcomes import Outcome
     from ros2cc_extract.confirm.processes import release_of
     from ros2cc_extract.confirm.telling import as_json, as_text, summary
     from ros2cc_extract.errors import InputError
@@ -97,7 +97,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         if args.output_format == 'text':
             stdout.write(as_text(found[-1], release))
             stdout.flush()
-    stdout.write(as_json(found, release) if args.output_format == 'json' else summary(found) + '\n')
+    stdout.write(
+        as_json(found, release) if args.output_format == 'json' else summary(found) + '\n'
+    )
     shown = [each for each in found if each.judgement.outcome is Outcome.CONFIRMED]
     _keep(args.keep, shown, stderr)
     return EXIT_FINDINGS if shown else EXIT_CLEAN
@@ -133,7 +135,7 @@ def _schedules_of_findings(
     from ros2cc_extract.pipeline.check import check_paths
     from ros2cc_extract.source_locations import Place
 
-    outcome = check_paths(_job(args.path, release, cached=not args.no_cache), stderr)
+    outcome = check_paths(job(args.path, release, cached=not args.no_cache), stderr)
     code, _, line = (args.finding or '').partition(':')
     asked = [
         each
@@ -152,7 +154,7 @@ def _schedules_of_findings(
     return [schedule_of(each, outcome.units) for each in found]
 
 
-def _job(path: Path, release: str | None, *, cached: bool) -> Job:
+def job(path: Path, release: str | None, *, cached: bool) -> Job:
     """The check with its usual limits, under the release that runs the node."""
     from ros2cc_extract.checker.engines.limits import Limits
     from ros2cc_extract.pipeline.check import Job

@@ -97,7 +97,7 @@ class _Running:
 
 
 def _file_of(frame: FrameType) -> str:
-    return os.path.realpath(frame.f_code.co_filename)  # noqa: PTH
+    return os.path.realpath(frame.f_code.co_filename)
 
 
 def _name(entity: Any) -> str:

@@ -16,7 +16,8 @@ import sys
 
 
 def main() -> None:
-    file, function = os.path.abspath(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else ''  # noqa: PTH
+    file = os.path.abspath(sys.argv[1])  # noqa: PTH100
+    function = sys.argv[2] if len(sys.argv) > 2 else ''
     sys.argv = [file, *sys.argv[3:]]
     root, name = _package_of(file)
     sys.path[0] = root
@@ -33,10 +34,10 @@ def main() -> None:
 
 def _package_of(file: str) -> tuple[str, str]:
     """Give the folder that is to be searched, and the dotted name below it."""
-    folder, base = os.path.split(file)  # noqa: PTH
+    folder, base = os.path.split(file)
     parts = [base.removesuffix('.py')]
-    while os.path.exists(os.path.join(folder, '__init__.py')):  # noqa: PTH
-        folder, package = os.path.split(folder)  # noqa: PTH
+    while os.path.exists(os.path.join(folder, '__init__.py')):  # noqa: PTH110, PTH118
+        folder, package = os.path.split(folder)
         parts.insert(0, package)
     return folder, '.'.join(parts)
 

@@ -59,7 +59,7 @@ class Lines:
         name = code.co_filename
         file = self._files.get(name)
         if file is None:
-            file = self._files[name] = os.path.realpath(name)  # noqa: PTH
+            file = self._files[name] = os.path.realpath(name)
         if file not in self._wanted:
             return ()
         lines = {line for _, _, line in code.co_lines() if line is not None}

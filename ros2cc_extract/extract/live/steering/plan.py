@@ -74,7 +74,7 @@ class Held:
         if not self.file:
             return True
         # The first line of the code is that of the first decorator.
-        return os.path.realpath(code.co_filename) == self.file and (  # noqa: PTH
+        return os.path.realpath(code.co_filename) == self.file and (
             not self.line or code.co_firstlineno <= self.line
         )
 

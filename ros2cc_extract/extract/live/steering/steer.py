@@ -93,5 +93,5 @@ class Steering:
             'failed',
             type=type(error).__name__,
             text=str(error)[:300],
-            frames=[[os.path.realpath(f.filename), f.lineno, f.name] for f in frames],  # noqa: PTH
+            frames=[[os.path.realpath(f.filename), f.lineno, f.name] for f in frames],
         )

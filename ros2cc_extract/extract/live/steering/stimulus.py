@@ -1,10 +1,13 @@
 """
-Gives a node from outside what it waits for, as ``python stimulus.py READY VALUES [AT_ONCE]``.
+Gives a node from outside what it waits for, as ``python stimulus.py READY VALUES AT_ONCE``.
 
 Publishes on every topic that a node of the domain subscribes to, calls every service, sends goals
 to every action server, and offers what the clients of the domain ask for and nobody offers. All
 messages are filled by default at first, later with VALUES, a JSON list of texts and numbers that
-the program compares with. The file READY is made once all that was seen at first is offered. Runs with the user's interpreter: the standard library and rclpy only.
+the program compares with. Of each service, AT_ONCE requests are on their way at a time. The file
+READY is made once all that was seen at first is offered.
+
+Runs with the user's interpreter: the standard library and rclpy only.
 """
 
 from __future__ import annotations
@@ -61,7 +64,13 @@ class Stimulus:
         executor.add_node(self._node)
         while self._rclpy.ok():
             for name, namespace in self._others():
-                for act in (self._publish, self._call, self._offer, self._act, self._serve_actions):
+                for act in (
+                    self._publish,
+                    self._call,
+                    self._offer,
+                    self._act,
+                    self._serve_actions,
+                ):
                     # What cannot be built, as a type that is not installed, is left out.
                     with contextlib.suppress(Exception):
                         act(name, namespace)
@@ -127,7 +136,9 @@ class Stimulus:
     def _parameters(self, node: str) -> list[Any]:
         """What its own program has declared, as it is; read by way of its services."""
         kind = importlib.import_module('rcl_interfaces.srv')
-        names = self._answer(kind.ListParameters, f'{node}/list_parameters', kind.ListParameters.Request())
+        names = self._answer(
+            kind.ListParameters, f'{node}/list_parameters', kind.ListParameters.Request()
+        )
         own = [
             each for each in (names.result.names if names else ())
             if not each.startswith(('use_sim_time', 'qos_overrides', 'start_type'))

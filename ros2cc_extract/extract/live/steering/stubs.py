@@ -9,6 +9,7 @@ Runs inside the user's process: the standard library only.
 
 from __future__ import annotations
 
+import importlib.abc
 import importlib.machinery
 import sys
 from collections.abc import Iterator, Sequence
@@ -46,8 +47,8 @@ def _asked_by_program() -> bool:
     return name.partition('.')[0] not in sys.stdlib_module_names or name == '__main__'
 
 
-class _Loader:
-    def create_module(self, spec: Any) -> ModuleType:
+class _Loader(importlib.abc.Loader):
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
         return _Module(spec.name)
 
     def exec_module(self, module: ModuleType) -> None:
