@@ -23,10 +23,13 @@ from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import (
     explain,
 )
 
+#: What they say of a nested spin is something else, and the exceptions end what they are about.
+_CLAIM_NO_HANG = frozenset({'CC106', 'CC107', 'CC108', 'CC113', 'CC114'})
+
 
 def hang(schedule: Schedule, seen: Observations) -> Judgement | None:
     """A call stands at the finding's line, and nothing is left that could end its wait."""
-    if not schedule.points:
+    if not schedule.points or schedule.code in _CLAIM_NO_HANG:
         return None
     for later in seen.samples[-1:]:
         for earlier in seen.samples:

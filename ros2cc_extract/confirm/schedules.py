@@ -76,6 +76,7 @@ class Schedule:
     :param values: what messages are filled with, after their defaults.
     :param forever: the finding says that the wait never ends.
     :param leaves: the finding says that its node leaves the executor for good.
+    :param runs_inside: the finding says that other callbacks run inside its own.
     :param at_once: how many requests of one service are on their way at a time.
     :param times_out_s: the finding says that the wait always takes so long, in vain.
     """
@@ -91,6 +92,7 @@ class Schedule:
     values: tuple[str | int | float, ...] = field(default=())
     forever: bool = False
     leaves: bool = False
+    runs_inside: bool = False
     at_once: int = 1
     times_out_s: float | None = None
 
@@ -118,6 +120,7 @@ def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
         held=tuple(_held(finding, unit)) if unit is not None else (),
         values=tuple(values_compared(tree)),
         forever='forever' in finding.message and 'unless' not in finding.message,
+        runs_inside='run inside this one' in finding.message,
         leaves='the node leaves its' in finding.message,
         times_out_s=_time_out(finding, unit),
     )

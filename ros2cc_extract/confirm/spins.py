@@ -17,7 +17,6 @@ _EXCEPTIONS = {
     'CC114': ('RuntimeError',),
 }
 _WORDS = {'CC107': ('generator already executing', 'already spinning'), 'CC113': ('coroutine',)}
-_NESTED_SPINS = ('CC106', 'CC107')
 
 
 def exception(schedule: Schedule, seen: Observations) -> Judgement | None:
@@ -40,7 +39,7 @@ def exception(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 def nested(schedule: Schedule, seen: Observations) -> Judgement | None:
     """A callback has begun inside the one that spins."""
-    if schedule.code not in _NESTED_SPINS or schedule.leaves:
+    if not schedule.runs_inside:
         return None
     for row in seen.nested:
         if row['point'] == 0:

@@ -19,7 +19,7 @@ import time
 from types import FrameType
 from typing import Any
 
-from .director import Director
+from .director import Director, is_of_program
 from .report import Report
 
 # An executor asks at once again; without a pause it would ask all the time.
@@ -69,7 +69,7 @@ class _Running:
 
     def begin(self, entity: Any) -> None:
         stack = self._stack()
-        if stack and self._director.plan.points:
+        if stack and self._director.plan.points and is_of_program(entity):
             self._tell_nested(entity)
         stack.append(id(entity))
         self._report.write('begin', entity=id(entity), name=_name(entity))

@@ -43,7 +43,7 @@ class Director:
 
     def may_begin(self, entity: Any) -> bool:
         """Whether a callback may begin now; it is asked again if not."""
-        if not self._is_ready() and _is_of_program(entity):
+        if not self._is_ready() and is_of_program(entity):
             return False
         if self.is_open:
             return True
@@ -104,7 +104,7 @@ class Director:
             self._changed.notify_all()
 
 
-def _is_of_program(entity: Any) -> bool:
+def is_of_program(entity: Any) -> bool:
     """Whether the program has written what it runs."""
     function = getattr(entity, 'callback', None)
     module = str(getattr(function, '__module__', '') or 'rclpy')
