@@ -25,6 +25,7 @@ from ros2cc_extract.spec.close import close
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
+EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
 BUGS = Path(__file__).parents[2] / 'bugs'
 OPTIONS = Options(profile=Profile.RCLPY, text=Text.COMPACT)
 SOURCE = """\
@@ -40,7 +41,10 @@ def wait(self, future):
 
 
 def schedules(stem: str) -> list[Schedule]:
-    path = BUGS / f'{stem}.py'
+    return schedules_of(BUGS / f'{stem}.py')
+
+
+def schedules_of(path: Path) -> list[Schedule]:
     extraction = scan_text(path.read_text(encoding='utf-8'), str(path))
     units = [unit for unit in extraction.units if unit.callbacks]
     verifications = [verify_unit(close(unit), OPTIONS) for unit in units]
@@ -71,9 +75,10 @@ def test_what_sets_the_event_is_held_until_it_is_waited_for() -> None:
 
 
 def test_the_answer_is_held_until_all_threads_wait_for_it() -> None:
-    (schedule,) = schedules('b12_pool_exhausted')
-    assert [point.first for point in schedule.points] == [21, 24, 27, 30]
-    assert schedule.held == (Held(kind='client', key='plan'),)
+    (schedule,) = schedules_of(EXAMPLES / 'pool_exhaustion' / 'node.py')
+    assert [point.first for point in schedule.points] == [52, 57]
+    held = {(each.kind or each.function, each.key, each.soft) for each in schedule.held}
+    assert held == {('on_plan', '', True), ('client', 'plan', False)}
 
 
 def test_what_has_no_part_in_the_run_is_held_softly() -> None:
@@ -82,7 +87,7 @@ def test_what_has_no_part_in_the_run_is_held_softly() -> None:
     assert schedule.leaves
 
 
-@pytest.mark.parametrize('stem', ['g4_lock_order', 'b12_pool_exhausted', 'd2_asyncio_sleep'])
+@pytest.mark.parametrize('stem', ['g4_lock_order', 'b14_event_set_by_own_group', 'd2_asyncio_sleep'])
 def test_a_schedule_is_read_as_it_was_written(stem: str, tmp_path: Path) -> None:
     (schedule,) = schedules(stem)
     file = tmp_path / 'kept.json'
