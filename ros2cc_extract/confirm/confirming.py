@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ros2cc_extract.confirm.judging import confirmed, not_confirmed
 from ros2cc_extract.confirm.observations import Observations
-from ros2cc_extract.confirm.outcomes import Judgement
+from ros2cc_extract.confirm.outcomes import Judgement, Outcome
 from ros2cc_extract.confirm.processes import started
 from ros2cc_extract.confirm.schedules import Schedule
 
@@ -38,11 +38,18 @@ def confirm(
     :raises InputError, ToolNotFoundError: as ``started``.
     """
     begun = time.monotonic()
-    judgement = _watch(schedule, python, begun + limit_s, stubs)
+    judgement, raised = _watch(schedule, python, begun + limit_s, stubs)
+    if raised and judgement.outcome is not Outcome.CONFIRMED:
+        # It does not stand messages of defaults, as a text that is to be a number.
+        schedule = replace(schedule, defaults=False)
+        judgement, _ = _watch(schedule, python, begun + limit_s, stubs)
     return Confirmation(schedule, judgement, time.monotonic() - begun)
 
 
-def _watch(schedule: Schedule, python: str, deadline: float, stubs: bool) -> Judgement:
+def _watch(
+    schedule: Schedule, python: str, deadline: float, stubs: bool
+) -> tuple[Judgement, bool]:
+    """Also say whether the program has ended by an exception."""
     seen = Observations()
     with started(schedule, python, stubs=stubs) as node:
         while True:
@@ -52,7 +59,8 @@ def _watch(schedule: Schedule, python: str, deadline: float, stubs: bool) -> Jud
             if seen.update(node.report):
                 found = confirmed(schedule, seen)
                 if found is not None:
-                    return found
+                    return found, False
             if ended or time.monotonic() > deadline:
-                return not_confirmed(schedule, seen, node.said, ended=ended)
+                found = not_confirmed(schedule, seen, node.said, ended=ended)
+                return found, ended and bool(seen.failed)
             time.sleep(_READ_EVERY_S)

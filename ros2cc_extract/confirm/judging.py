@@ -7,6 +7,7 @@ from collections.abc import Callable
 from ros2cc_extract.confirm.hangs import crossed_locks, hang, kept_lock, timed_out
 from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
+from ros2cc_extract.confirm.races import raced
 from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.confirm.spins import exception, nested, node_lost, shut_out
 from ros2cc_extract.extract.live.hang_analysis.formats import as_text
@@ -20,6 +21,7 @@ _WAYS: tuple[Callable[[Schedule, Observations], Judgement | None], ...] = (
     kept_lock,
     crossed_locks,
     timed_out,
+    raced,
 )
 
 
@@ -46,6 +48,9 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
         return Judgement(
             Outcome.NOT_REACHED, f'line {lines} was not reached while the others waited'
         )
+    if seen.alone and not seen.raced:
+        reason = f'nobody else wrote while line {schedule.line} was held, {seen.alone} times'
+        return Judgement(Outcome.NOT_REACHED, reason)
     if schedule.forever and seen.passed.get(0):
         reason = f'the wait at line {schedule.line} ended; the model says that it never does'
         return Judgement(Outcome.CONTRADICTED, reason, _last_look(seen))

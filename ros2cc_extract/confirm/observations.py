@@ -33,6 +33,8 @@ class Observations:
     All that was reported so far.
 
     :param reached, passed: threads by number of the point.
+    :param raced: what was read, what another thread wrote then, and what was written over it.
+    :param alone: how often nobody else wrote in time.
     :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
     """
@@ -47,6 +49,8 @@ class Observations:
     given_up: tuple[int, ...] = ()
     raised: list[Row] = field(default_factory=list)
     failed: list[Row] = field(default_factory=list)
+    raced: list[Row] = field(default_factory=list)
+    alone: int = 0
     nested: list[Row] = field(default_factory=list)
     begins: list[tuple[float, int]] = field(default_factory=list)
     samples: list[Sample] = field(default_factory=list)
@@ -84,6 +88,10 @@ class Observations:
             self.given_up = tuple(row['missing'])
         elif what in ('raised', 'failed', 'nested'):
             {'raised': self.raised, 'failed': self.failed, 'nested': self.nested}[what].append(row)
+        elif what == 'raced':
+            self.raced.append(row)
+        elif what == 'alone':
+            self.alone += 1
         elif what == 'begin':
             self.begins.append((at, int(row['entity'])))
         elif what == 'looks':

@@ -105,6 +105,7 @@ def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator
         node += [schedule.function] if schedule.function else []
         stimulus = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
         stimulus += [json.dumps(schedule.values), str(schedule.at_once)]
+        stimulus.append('1' if schedule.defaults else '0')
         with (
             (folder / 'said').open('wb') as said,
             _running(stimulus, plain, subprocess.DEVNULL),
@@ -118,6 +119,7 @@ def _plan(schedule: Schedule, folder: Path) -> str:
         'report': str(folder / 'report'),
         'surroundings': str(folder / READY),
         'points': [asdict(each) for each in schedule.points],
+        'race': None if schedule.race is None else asdict(schedule.race),
         'held': [asdict(each) for each in schedule.held],
     }
     return json.dumps(row)

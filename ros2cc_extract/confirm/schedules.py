@@ -37,6 +37,8 @@ CONFIRMABLE = frozenset(
     }
 )
 """Rules whose findings can be shown on a running node."""
+RACES = frozenset({'CC301', 'CC302', 'CC303', 'CC304'})
+_TOGETHER = 3
 _KINDS = {EntityKind.CLIENT: 'client', EntityKind.SERVICE: 'service'}
 
 
@@ -54,6 +56,15 @@ class Point:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Lines:
+    """Lines of a statement."""
+
+    file: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class Held:
     """A callback that is held back; fields as in ``steering/plan.py``."""
 
@@ -63,6 +74,15 @@ class Held:
     line: int = 0
     key: str = ''
     soft: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class RacePlan:
+    """Writes of one attribute that are to meet; fields as in ``steering/races.py``."""
+
+    attribute: str
+    own: Lines
+    others: tuple[Lines, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +96,9 @@ class Schedule:
     :param values: what messages are filled with, after their defaults.
     :param forever: the finding says that the wait never ends.
     :param leaves: the finding says that its node leaves the executor for good.
+    :param race: the finding is about an attribute that two threads write.
     :param runs_inside: the finding says that other callbacks run inside its own.
+    :param defaults: every other message holds its defaults.
     :param at_once: how many requests of one service are on their way at a time.
     :param times_out_s: the finding says that the wait always takes so long, in vain.
     """
@@ -92,14 +114,16 @@ class Schedule:
     values: tuple[str | int | float, ...] = field(default=())
     forever: bool = False
     leaves: bool = False
+    race: RacePlan | None = None
     runs_inside: bool = False
     at_once: int = 1
+    defaults: bool = True
     times_out_s: float | None = None
 
 
 def can_be_tried(finding: Finding) -> bool:
     """Whether there is a way to show it; a note claims nothing that could be shown."""
-    return finding.code in CONFIRMABLE and finding.severity is not Severity.NOTE
+    return finding.code in CONFIRMABLE | RACES and finding.severity is not Severity.NOTE
 
 
 def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
@@ -120,6 +144,8 @@ def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
         held=tuple(_held(finding, unit)) if unit is not None else (),
         values=tuple(values_compared(tree)),
         forever='forever' in finding.message and 'unless' not in finding.message,
+        race=_race(finding),
+        at_once=_TOGETHER if finding.code in RACES else 1,
         runs_inside='run inside this one' in finding.message,
         leaves='the node leaves its' in finding.message,
         times_out_s=_time_out(finding, unit),
@@ -136,6 +162,25 @@ def _entry(finding: Finding, units: Sequence[Spec | None]) -> tuple[str, str]:
             if each.entry.endswith('.py'):
                 return each.entry, ''
     return finding.place.file, ''
+
+
+def _race(finding: Finding) -> RacePlan | None:
+    """What is written in several places; of one that overlaps itself, twice in the same place."""
+    attribute = next((each for each in finding.subjects if '.' in each), '')
+    if finding.code not in RACES or not attribute:
+        return None
+    others = [r.place for r in finding.related if ' writes ' in r.text or ' changes ' in r.text]
+    return RacePlan(
+        attribute=attribute.rpartition('.')[2],
+        own=_lines(finding.place),
+        others=tuple(map(_lines, others or [finding.place])),
+    )
+
+
+def _lines(place: Place) -> Lines:
+    path = Path(place.file)
+    first, last = lines_of(tree_of(path), place.line)
+    return Lines(file=str(path.resolve()), first=first, last=last)
 
 
 def _time_out(finding: Finding, unit: Spec | None) -> float | None:
@@ -176,6 +221,9 @@ def _held(finding: Finding, unit: Spec) -> Iterator[Held]:
     known = {each.name: each for each in unit.callbacks}
     events = [e for m in (finding.run.moments if finding.run else ()) for e in m.events]
     starts = {e.who for e in events if e.kind == 'start'} or set(finding.subjects)
+    if finding.code in RACES:
+        starts = {each for each in finding.subjects if '.' not in each and each in known}
+        starts &= set(finding.subjects[:2])
     starts |= {each.name for each in unit.callbacks if _is_inside(finding.place, each)}
     waiters = starts | set(finding.subjects[: 2 if finding.code == _LOCKS else 1])
     # A nested spin may take the node away while something of it is held.
@@ -185,7 +233,8 @@ def _held(finding: Finding, unit: Spec) -> Iterator[Held]:
         if name not in waiters:
             held = _of_callback(callback)
             if held is not None and (name in enders or not callback.builtin):
-                yield replace(held, soft=name not in enders)
+                is_soft = name not in enders or finding.code in RACES
+                yield replace(held, soft=is_soft)
 
 
 def _is_inside(place: Place, callback: Callback) -> bool:
@@ -203,6 +252,8 @@ def _is_inside(place: Place, callback: Callback) -> bool:
 
 
 def _of_callback(callback: Callback) -> Held | None:
+    if callback.entity is EntityKind.ACTION_SERVER and isinstance(callback.key, str):
+        return Held(kind='actionserver', key=callback.key)
     defined = callback.defined
     if defined is not None and callback.function_name and callback.entity is not EntityKind.CLIENT:
         file = str(Path(defined.file).resolve())
@@ -235,10 +286,20 @@ def read_schedule(path: Path) -> Schedule:
         raise InputError(what, Place(str(path)), 'write one with confirm --keep') from error
 
 
+def _race_of(row: Mapping[str, Any]) -> RacePlan:
+    return RacePlan(
+        attribute=row['attribute'],
+        own=Lines(**row['own']),
+        others=tuple(Lines(**each) for each in row['others']),
+    )
+
+
 def _schedule(row: Mapping[str, Any]) -> Schedule:
-    lists = {
+    race = row['race']
+    lists: dict[str, Any] = {
         'points': tuple(Point(**each) for each in row['points']),
         'held': tuple(Held(**each) for each in row['held']),
         'values': tuple(row['values']),
+        'race': race and _race_of(race),
     }
     return Schedule(**{**row, **lists})

@@ -73,7 +73,7 @@ def values_compared(tree: ast.Module) -> list[str | int | float]:
 
 def _constants(tree: ast.Module) -> Iterator[str | int | float]:
     for node in ast.walk(tree):
-        if isinstance(node, ast.Compare):
+        if isinstance(node, ast.Compare) and ast.unparse(node.left) != '__name__':
             for each in (node.left, *node.comparators):
                 for part in ast.walk(each):
                     if isinstance(part, ast.Constant) and type(part.value) in (str, int, float):

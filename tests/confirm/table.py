@@ -24,7 +24,14 @@ from ros2cc_extract.confirm.confirming import confirm
 from ros2cc_extract.confirm.judging import confirmed
 from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.processes import release_of, started
-from ros2cc_extract.confirm.schedules import Point, Schedule, can_be_tried, schedule_of
+from ros2cc_extract.confirm.schedules import (
+    Lines,
+    Point,
+    RacePlan,
+    Schedule,
+    can_be_tried,
+    schedule_of,
+)
 from ros2cc_extract.confirm.statements import lines_of, tree_of
 from ros2cc_extract.pipeline.check import check_paths
 
@@ -49,28 +56,46 @@ def schedules(path: Path, release: str | None) -> list[Schedule]:
 
 def onto(schedule: Schedule, twin: Path) -> Schedule:
     """Move a schedule to the lines of the twin that are most like those of the bad node."""
-    own, other = (path.read_text().splitlines() for path in (Path(schedule.path), twin))
-    file = str(twin.resolve())
+    bad, file = Path(schedule.path), str(twin.resolve())
     points = []
     for point in schedule.points:
-        if Path(point.file) != Path(schedule.path).resolve():
-            continue
-        text = own[point.first - 1]
-        found = difflib.get_close_matches(text, other, 1, ALIKE)
-        if found:
-            line = other.index(found[0]) + 1
-            first, last = lines_of(tree_of(twin), line)
-            points.append(replace(point, file=file, first=first, last=last, column=0))
+        found = _like(bad, point.first, twin)
+        if Path(point.file) == bad.resolve() and found is not None:
+            points.append(replace(point, file=file, first=found[0], last=found[1], column=0))
     held = tuple(replace(each, file=file if each.file else '', line=0) for each in schedule.held)
     return replace(
-        schedule, path=str(twin), entry=str(twin), points=tuple(points), held=held, forever=False
+        schedule,
+        path=str(twin),
+        entry=str(twin),
+        points=tuple(points),
+        held=held,
+        race=schedule.race and _race_onto(schedule.race, bad, twin),
+        forever=False,
     )
+
+
+def _race_onto(race: RacePlan, bad: Path, twin: Path) -> RacePlan | None:
+    moved = [_like(bad, each.first, twin) for each in (race.own, *race.others)]
+    file = str(twin.resolve())
+    lines = [Lines(file=file, first=each[0], last=each[1]) for each in moved if each is not None]
+    if len(lines) < len(moved):
+        return None
+    return replace(race, own=lines[0], others=tuple(lines[1:]))
+
+
+def _like(bad: Path, line: int, twin: Path) -> tuple[int, int] | None:
+    """Give the lines of the statement of the twin that reads most like a line."""
+    own, other = (path.read_text().splitlines() for path in (bad, twin))
+    found = difflib.get_close_matches(own[line - 1].strip(), [x.strip() for x in other], 1, ALIKE)
+    if not found:
+        return None
+    return lines_of(tree_of(twin), [x.strip() for x in other].index(found[0]) + 1)
 
 
 def is_confirmed_falsely(schedule: Schedule, python: str) -> str:
     """Give what is shown of a twin, at the place of the finding or anywhere else."""
     anywhere = Point(file=str(Path(schedule.entry).resolve()), first=1, last=ANYWHERE)
-    wide = replace(schedule, code='CC101', points=(anywhere,))
+    wide = replace(schedule, code='CC101', points=(anywhere,), race=None)
     seen, end = Observations(), time.monotonic() + TWIN_S
     with started(schedule, python) as node:
         while time.monotonic() < end and node.process.poll() is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -11,7 +12,7 @@ from pathlib import Path
 from ros2cc_extract.confirm.confirming import confirm
 from ros2cc_extract.confirm.outcomes import Outcome
 from ros2cc_extract.confirm.schedules import read_schedule
-from tests.confirm.table import onto
+from tests.confirm.table import onto, schedules
 
 BUGS = Path(__file__).parents[1] / 'bugs'
 LIMIT_S = 120.0
@@ -34,6 +35,18 @@ def test_locks_in_opposite_order_are_confirmed_and_the_twin_is_not(
     twin = onto(read_schedule(kept), BUGS / 'g4_lock_order_mended.py')
     result = confirm(replace(twin, forever=True), rclpy_python, TWIN_S)
     assert result.judgement.outcome is not Outcome.CONFIRMED
+
+
+def test_a_lost_update_is_shown_by_its_values_and_the_twin_loses_none(rclpy_python: str) -> None:
+    node, twin = BUGS / 'g2_lost_update.py', BUGS / 'g2_lost_update_mended.py'
+    (schedule,) = schedules(node, '7.1.6')
+    shown = confirm(schedule, rclpy_python, LIMIT_S).judgement
+    assert shown.outcome is Outcome.CONFIRMED
+    values = r'count was [1-9]\d* when line 21 had read it, another thread set it to 0, and .*'
+    assert re.fullmatch(values, shown.reason)
+    result = confirm(onto(schedule, twin), rclpy_python, TWIN_S).judgement
+    assert result.outcome is Outcome.NOT_REACHED
+    assert 'nobody else wrote while line' in result.reason
 
 
 def test_a_missing_module_is_the_reason(rclpy_python: str, tmp_path: Path) -> None:

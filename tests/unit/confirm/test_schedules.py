@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.confirm.schedules import (
-    Held,
     Point,
     Schedule,
     can_be_tried,
@@ -87,7 +86,9 @@ def test_what_has_no_part_in_the_run_is_held_softly() -> None:
     assert schedule.leaves
 
 
-@pytest.mark.parametrize('stem', ['g4_lock_order', 'b14_event_set_by_own_group', 'd2_asyncio_sleep'])
+@pytest.mark.parametrize(
+    'stem', ['g4_lock_order', 'b14_event_set_by_own_group', 'd2_asyncio_sleep']
+)
 def test_a_schedule_is_read_as_it_was_written(stem: str, tmp_path: Path) -> None:
     (schedule,) = schedules(stem)
     file = tmp_path / 'kept.json'

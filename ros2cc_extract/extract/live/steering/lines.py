@@ -19,6 +19,7 @@ from typing import Any
 
 from .director import Director
 from .plan import Point
+from .races import Race, Trace
 from .report import Report
 
 _MAY_SUSPEND = inspect.CO_COROUTINE | inspect.CO_GENERATOR | inspect.CO_ASYNC_GENERATOR
@@ -34,6 +35,8 @@ class Lines:
     def __init__(self, director: Director, report: Report) -> None:
         self._director = director
         self._report = report
+        race = director.plan.race
+        self._race = None if race is None else Race(race, report)
         self._points = list(enumerate(director.plan.points))
         self._known: dict[CodeType, tuple[tuple[int, Point], ...]] = {}
         self._files: dict[str, str] = {}
@@ -49,11 +52,13 @@ class Lines:
         found = self._known.get(code)
         if found is None:
             found = self._known[code] = self._points_in(code)
+        racing = None if self._race is None else self._race.of(frame)
         if not found:
-            return None
+            return racing
         if any(point.column for _, point in found):
             frame.f_trace_opcodes = True
-        return _OfFrame(found, self._director, self._report).trace
+        own = _OfFrame(found, self._director, self._report).trace
+        return own if racing is None else _both(own, racing)
 
     def _points_in(self, code: CodeType) -> tuple[tuple[int, Point], ...]:
         name = code.co_filename
@@ -113,6 +118,15 @@ class _OfFrame:
             if point.contains(frame.f_lineno):
                 text = str(value)[:300]
                 self._report.write('raised', point=index, type=kind.__name__, text=text)
+
+
+def _both(one: Trace, other: Trace) -> Trace:
+    def trace(frame: FrameType, event: str, argument: Any) -> Any:
+        one(frame, event, argument)
+        other(frame, event, argument)
+        return trace
+
+    return trace
 
 
 def _is_at(frame: FrameType, event: str, point: Point) -> bool:

@@ -93,6 +93,7 @@ class Plan:
     :param points: to be reached.
     :param held: not to begin before.
     :param surroundings: a file that is there once what the node meets outside is.
+    :param race: two writes of one attribute to be forced, see ``races.py``.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 
@@ -101,6 +102,7 @@ class Plan:
         self.surroundings = str(row.get('surroundings', ''))
         self.points = [Point(each) for each in row.get('points', ())]
         self.held = [Held(each) for each in row.get('held', ())]
+        self.race: dict[str, Any] | None = row.get('race')
         self.patience_s = float(row.get('patience_s', 4.0))
 
 
