@@ -12,6 +12,9 @@ from ros2cc_extract.confirm.processes import started
 from ros2cc_extract.confirm.schedules import Schedule
 
 LIMIT_S = 30.0
+# Who was held before a write that often, and nobody else wrote, is given up.
+MOST_TRIES = 8
+_OF_IMPORTS = ('ModuleNotFoundError', 'ImportError')
 _READ_EVERY_S = 0.1
 # After its last words the program may have ended by what was to be shown.
 _AFTER_END_S = 0.3
@@ -60,7 +63,9 @@ def _watch(
                 found = confirmed(schedule, seen)
                 if found is not None:
                     return found, False
-            if ended or time.monotonic() > deadline:
+            in_vain = not seen.raced and seen.alone >= MOST_TRIES
+            if ended or in_vain or time.monotonic() > deadline:
                 found = not_confirmed(schedule, seen, node.said, ended=ended)
-                return found, ended and bool(seen.failed)
+                raised = any(row['type'] not in _OF_IMPORTS for row in seen.failed)
+                return found, ended and raised
             time.sleep(_READ_EVERY_S)
