@@ -9,13 +9,6 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, CallbackGroup, Executor
 
 
-def group_words(group: CallbackGroup) -> str:
-    """Say which group: ``the default group of 'arm'`` or ``group 'arm_group'``."""
-    if group.default and group.node:
-        return f'the default group of {group.node!r}'
-    return 'the default group' if group.default else f'group {group.name!r}'
-
-
 def listing(names: Iterable[str], limit: int = 6) -> str:
     """Join names in their order; many are cut with their number."""
     distinct = list(dict.fromkeys(names))
@@ -65,7 +58,7 @@ def served_at(executor: Executor, place: Place) -> Iterator[Remark]:
 
 def _made_words(owner: Callback | CallbackGroup) -> str:
     if isinstance(owner, CallbackGroup):
-        return group_words(owner)
+        return owner.display_name
     kind = owner.entity.value.replace('_', ' ') if owner.entity else owner.type.value
     name = f' {owner.key!r}' if isinstance(owner.key, str) else ''
     owned = '' if owner.display_name == kind else f' of {owner.display_name}'
