@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, Spec
 
 
 def display_names(spec: Spec) -> Mapping[str, str]:
@@ -15,7 +15,11 @@ def display_names(spec: Spec) -> Mapping[str, str]:
 
     Namesakes have their line with them, or else the name of the unit.
     """
-    named = (*spec.callbacks, *spec.activities, *spec.groups)
+    named: tuple[Callback | Activity | CallbackGroup, ...] = (
+        *spec.callbacks,
+        *spec.activities,
+        *spec.groups,
+    )
     return _told_apart((each.name, each.display_name, each.source) for each in named)
 
 

@@ -26,8 +26,10 @@ def called(doer: Callback | Activity) -> str:
     """A callback by its function; a thread by its name, and its function where that differs."""
     if isinstance(doer, Callback) or doer.kind is ActivityKind.MAIN:
         return doer.display_name
-    words = f'{_THREADS.get(doer.kind, "thread")} {doer.name}'
-    return words if doer.display_name == doer.name else f'{words} ({doer.display_name})'
+    kind, function = _THREADS.get(doer.kind, 'thread'), doer.display_name
+    if function.rpartition('.')[2] == doer.name:
+        return f'{kind} {function}'
+    return f'{kind} {doer.name} ({function})'
 
 
 _THREADS = {ActivityKind.TIMER: 'timer thread', ActivityKind.POOL: 'pool thread'}
