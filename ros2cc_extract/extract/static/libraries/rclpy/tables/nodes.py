@@ -30,6 +30,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     GroupState,
     NodeState,
+    PublisherState,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
@@ -81,12 +82,19 @@ class CreateCall:
     key: tuple[int, str] | None = None
     callback: tuple[int, str] | None = None
     period: tuple[int, str] | None = None
+    type: tuple[int, str] | None = None
+    qos: tuple[int | None, str] | None = None
     group_position: int | None = None
 
 
 CREATE_CALLS = {
     'create_subscription': CreateCall(
-        EntityKind.SUBSCRIPTION, 'rclpy.subscription.Subscription', (1, 'topic'), (2, 'callback')
+        EntityKind.SUBSCRIPTION,
+        'rclpy.subscription.Subscription',
+        (1, 'topic'),
+        (2, 'callback'),
+        type=(0, 'msg_type'),
+        qos=(3, 'qos_profile'),
     ),
     'create_timer': CreateCall(
         EntityKind.TIMER,
@@ -96,9 +104,20 @@ CREATE_CALLS = {
         group_position=2,
     ),
     'create_service': CreateCall(
-        EntityKind.SERVICE, 'rclpy.service.Service', (1, 'srv_name'), (2, 'callback')
+        EntityKind.SERVICE,
+        'rclpy.service.Service',
+        (1, 'srv_name'),
+        (2, 'callback'),
+        type=(0, 'srv_type'),
+        qos=(None, 'qos_profile'),
     ),
-    'create_client': CreateCall(EntityKind.CLIENT, 'rclpy.client.Client', (1, 'srv_name')),
+    'create_client': CreateCall(
+        EntityKind.CLIENT,
+        'rclpy.client.Client',
+        (1, 'srv_name'),
+        type=(0, 'srv_type'),
+        qos=(None, 'qos_profile'),
+    ),
     'create_guard_condition': CreateCall(
         EntityKind.GUARD_CONDITION,
         'rclpy.guard_condition.GuardCondition',
@@ -161,6 +180,7 @@ def init_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
         _note_begun_again(machine, receiver, call)
         state = receiver.state
         state.name = call.argument(0, 'node_name') or NONE
+        state.namespace = call.argument(None, 'namespace')
         state.has_parameter_services = option_of_node(
             machine, 'start_parameter_services', call, default=True
         )
@@ -199,6 +219,8 @@ def _creator(row: CreateCall) -> Handler:
         entity.key = key
         entity.callback = callback
         entity.period = call.argument(*row.period) if row.period else None
+        entity.type = call.argument(*row.type) if row.type else None
+        entity.qos = call.argument(*row.qos) if row.qos else None
         if call.argument(None, 'autostart') == Const(False):
             entity.dormant = call.place
         made = Instance(Name(row.cls), call.place)
@@ -237,9 +259,24 @@ def _create_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value
         given = call.argument(None, 'callback_group')
         group = group_of(machine, receiver, given, call.place)
         add_events_of(machine, receiver, group, call.place, None)
+        _note_publisher(machine, receiver, call)
     made = Instance(Name('rclpy.publisher.Publisher'), call.place)
     made.state = PlainState('publisher', call.argument(1, 'topic'), receiver, call.place)
     return made
+
+
+def _note_publisher(machine: RosMachine, node: Instance, call: Call) -> None:
+    topic = call.argument(1, 'topic')
+    text = topic.value if isinstance(topic, Const) else None
+    publisher = PublisherState(
+        node,
+        topic,
+        call.argument(0, 'msg_type'),
+        call.argument(2, 'qos_profile'),
+        call.place,
+        machine.world.path,
+    )
+    machine.world.publishers.setdefault((id(node), call.place, text), publisher)
 
 
 def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
@@ -252,6 +289,7 @@ def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node.state = make_node(machine, node)
     remember(machine, node, call)
     node.state.name = call.argument(0, 'node_name')
+    node.state.namespace = call.argument(None, 'namespace')
     add_builtins_of_node(machine, node, call)
     machine.world.instances.append(node)
     return node
