@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
@@ -45,6 +45,7 @@ def scan_sources(
     *,
     cached: bool = True,
     lists_builtin: bool = False,
+    parameters: Mapping[str, object] | None = None,
     files: Files = DISK,
     patience: Patience = PATIENT,
 ) -> Extraction:
@@ -53,6 +54,7 @@ def scan_sources(
 
     :param cached: take an earlier result when no file has changed since.
     :param lists_builtin: also list what rclpy makes by itself for every node.
+    :param parameters: values that a launch sets for parameters of the nodes, by name.
     :param files: those of the disk, or of another revision.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither
@@ -69,6 +71,7 @@ def scan_sources(
             progress=meter.step,
             cache=folder,
             lists_builtin=lists_builtin,
+            parameters=parameters,
             files=files,
             patience=patience,
         )

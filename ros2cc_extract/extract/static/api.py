@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ def scan(
     cache: Path | None = None,
     processes: int | None = None,
     lists_builtin: bool = False,
+    parameters: Mapping[str, object] | None = None,
     files: Files = DISK,
     patience: Patience = PATIENT,
 ) -> Extraction:
@@ -36,6 +37,7 @@ def scan(
     :param cache: folder of earlier results, see ``cache_file.default_cache_folder``.
     :param processes: at most so many share the work; by default one for each core.
     :param lists_builtin: also list what rclpy makes by itself for every node; never cached.
+    :param parameters: values that a launch sets for parameters of the nodes, by name.
     :param files: those of the disk, or of another revision.
     :param patience: when to end before all is followed.
     :raises InputError: for a missing path, or a directory without any Python file.
@@ -44,6 +46,7 @@ def scan(
         project = Project.of_paths(paths, root, files)
         project.lists_builtin = lists_builtin
         project.deadline = patience.deadline
+        project.parameters = parameters or {}
         if cache is None or lists_builtin:
             return _scanned(project, usable_cores(processes), progress, patience)[0]
         return _scan_cached(project, progress, cache, usable_cores(processes), patience)

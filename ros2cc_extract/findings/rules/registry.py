@@ -46,6 +46,7 @@ from ros2cc_extract.findings.rules.starvation import (
     timeout_harvest,
     transform_wait,
 )
+from ros2cc_extract.findings.rules.systems import near_names, same_node_name, two_types
 
 RULES: tuple[Rule, ...] = (
     own_group_call.RULE,
@@ -94,6 +95,9 @@ RULES: tuple[Rule, ...] = (
     requirements.VIOLATED,
     requirements.UNKNOWN_NAME,
     requirements.UNDECIDED,
+    near_names.RULE,
+    two_types.RULE,
+    same_node_name.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

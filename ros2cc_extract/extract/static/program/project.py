@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from ros2cc_extract.deadline import Deadline
@@ -34,6 +34,7 @@ class Project:
     :param given: the files that the user asked for, by path; others are only followed, and
         found by where they stand alone, so that nothing depends on what was read before.
     :param lists_builtin: whether what rclpy makes for every node is wanted too.
+    :ivar parameters: what the launch sets for the nodes, by name.
     :ivar deadline: when to end before all is followed.
     :ivar disk: where files are looked for.
     :ivar barred: folders that could not be looked into.
@@ -51,6 +52,7 @@ class Project:
         self._roots: dict[tuple[Path, str], Path | None] = {}
         self.given: list[SourceFile] = []
         self.lists_builtin = False
+        self.parameters: Mapping[str, object] = {}
         self.deadline: Deadline | None = None
 
     @staticmethod

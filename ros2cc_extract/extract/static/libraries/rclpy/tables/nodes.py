@@ -66,7 +66,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.model import EntityKind, GroupType
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
 _BEGUN = '__begun__'
@@ -340,13 +340,30 @@ def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
         if default is not None:
             known[name.value] = default
         default = known.get(name.value)
+        default = _given(machine, name.value, default)
     default = _usable(default_of(default))
     if isinstance(default, Const):
         text = f'{text} (default {default.value!r})'
     made = Instance(Name('rclpy.parameter.Parameter'), call.place)
-    value = Mystery(Unknown(f'value of {text}', call.place), text, default)
+    value: Value = Mystery(Unknown(f'value of {text}', call.place), text, default)
+    if default is not None and _is_settled(machine, name):
+        value = default
     made.state = PlainState('parameter', value)
     return made
+
+
+def _given(machine: RosMachine, name: object, default: Value | None) -> Value | None:
+    """What the launch sets, before the default."""
+    given = machine.world.parameters.get(str(name))
+    if isinstance(given, tuple):
+        return Sequence(tuple(Const(item) for item in given), 'list')
+    return default if given is None else Const(given)
+
+
+def _is_settled(machine: RosMachine, name: Value | None) -> bool:
+    """Whether a launch sets it, and it is read before anybody may set it anew."""
+    is_given = isinstance(name, Const) and str(name.value) in machine.world.parameters
+    return is_given and machine.world.when is When.START and not machine.world.in_callback
 
 
 def _declared(node: Instance) -> dict[object, Value]:
