@@ -19,7 +19,6 @@ from ros2cc_extract.spec.joined_executors import Joined, enders_of
 from ros2cc_extract.verify.results.results import Verification
 
 _OPEN = (UNDECIDED.code, OUTSIDE_WAIT.code)
-_BETWEEN = '; they are on executors that run at the same time'
 
 
 def findings_of_joined(joined: Joined, verification: Verification | None) -> tuple[Finding, ...]:
@@ -35,7 +34,7 @@ def findings_of_joined(joined: Joined, verification: Verification | None) -> tup
     def several(hits: Iterable[Hit]) -> Iterator[Hit]:
         for hit in hits:
             if joined.executors_of(hit.subjects) > 1:
-                yield replace(hit, message=hit.message + _BETWEEN)
+                yield replace(hit, message=hit.message + joined.between)
 
     rules = (
         (never_ends.RULE, tuple(several(never_ends.hits_of(context, concerns)))),

@@ -131,17 +131,22 @@ class _Builder:
 
     def extraction(self, noticed: Sequence[Diagnostic], sources: Sequence[str]) -> Extraction:
         """All scans as one."""
-        found = tuple(self._scans.values())
-        told = dict.fromkeys([*noticed, *(d for each in found for d in each.diagnostics)])
-        return Extraction(
-            units=tuple(dict.fromkeys(unit for each in found for unit in each.units)),
-            diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
-            files_seen=tuple(dict.fromkeys([*sources, *(f for e in found for f in e.files_seen)])),
-            joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
-            nodes=tuple(each for e in found for each in e.nodes),
-            cut=next((each.cut for each in found if each.cut), ''),
-            interrupted=any(each.interrupted for each in found),
-        )
+        launches = Extraction(units=(), diagnostics=tuple(noticed), files_seen=tuple(sources))
+        return as_one([launches, *self._scans.values()])
+
+
+def as_one(found: Sequence[Extraction]) -> Extraction:
+    """Several scans as one; what several of them found stands in it once."""
+    told = dict.fromkeys(d for each in found for d in each.diagnostics)
+    return Extraction(
+        units=tuple(dict.fromkeys(unit for each in found for unit in each.units)),
+        diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
+        files_seen=tuple(dict.fromkeys(file for each in found for file in each.files_seen)),
+        joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
+        nodes=tuple(each for e in found for each in e.nodes),
+        cut=next((each.cut for each in found if each.cut), ''),
+        interrupted=any(each.interrupted for each in found),
+    )
 
 
 def _is_plain(value: object) -> bool:
@@ -155,7 +160,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
     if launched.kind in _NO_CODE:
         return Unknown(f'a {launched.kind} node is no Python', launched.source)
     if launched.kind == 'process':
-        return _of_command(launched)
+        return _of_command(launched, started)
     for fact in (launched.package, launched.executable):
         if isinstance(fact, Unknown):
             return Unknown(fact.reason, fact.at or launched.source)
@@ -163,7 +168,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
         return Unknown('no executable is in sight', launched.source)
     package, name = launched.package or '', launched.executable
     if not package:
-        return _python_file(Path(name), launched)
+        return _python_file(Path(name), launched, started)
     if started.packages.folder(package) is None:
         return Unknown(f'package {package} is not in sight', launched.source)
     found = started.packages.executable(package, name)
@@ -175,7 +180,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
     return found
 
 
-def _of_command(launched: Launched) -> Executable | Unknown:
+def _of_command(launched: Launched, started: Launch) -> Executable | Unknown:
     """``python3 file.py``, ``file.py``."""
     words = [word for word in launched.command if not word.startswith('-')]
     if words and _PYTHON.fullmatch(words[0]):
@@ -183,11 +188,13 @@ def _of_command(launched: Launched) -> Executable | Unknown:
     if not words or not words[0].endswith('.py'):
         shown = ' '.join(launched.command[:3]) or 'of this process'
         return Unknown(f'command {shown} runs no Python file', launched.source)
-    return _python_file(Path(words[0]), launched)
+    return _python_file(Path(words[0]), launched, started)
 
 
-def _python_file(path: Path, launched: Launched) -> Executable | Unknown:
-    if not path.is_file():
+def _python_file(
+    path: Path, launched: Launched, started: Launch
+) -> Executable | Unknown:
+    if not started.packages.has(path):
         return Unknown(f'{path} is not there', launched.source)
     return Executable(path.absolute())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
 
@@ -12,13 +13,61 @@ from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.launch.api import is_launch_file
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
-from ros2cc_extract.pipeline.system import Scanned, scan_system
+from ros2cc_extract.pipeline.system import Scanned, as_one, scan_system
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.system.joined_processes import circles_of
+from ros2cc_extract.spec.system.model import System
 
 
-def launch_files_among(paths: Sequence[Path], files: Files = DISK) -> list[Path]:
-    """Those of the paths that are launch files."""
-    return [path for path in paths if is_launch_file(path, files)]
+def scan_paths(
+    paths: Sequence[Path],
+    arguments: Mapping[str, str],
+    stderr: TextIO,
+    *,
+    cached: bool = True,
+    lists_builtin: bool = False,
+    files: Files = DISK,
+    patience: Patience = PATIENT,
+) -> tuple[Extraction, System | None]:
+    """
+    Scan files and folders; of launch files what they start, as one system.
+
+    :raises InputError: for an argument without a launch file that takes it.
+    """
+    launches = [path for path in paths if is_launch_file(path, files)]
+    others = [path for path in paths if path not in launches]
+    if not launches and arguments:
+        name = next(iter(arguments))
+        raise InputError(f'{name}:= is for a launch file', None, 'name the launch file too')
+    found: list[Extraction] = []
+    system: System | None = None
+    if launches:
+        scanned = scan_launch_files(
+            launches,
+            arguments,
+            stderr,
+            cached=cached,
+            lists_builtin=lists_builtin,
+            files=files,
+            patience=patience,
+        )
+        circles = circles_of(scanned.system)
+        extraction = scanned.extraction
+        together = (*extraction.joined, *circles.joined)
+        found.append(replace(extraction, joined=together))
+        system = scanned.system
+    if others or not launches:
+        found.append(
+            scan_sources(
+                others,
+                stderr,
+                cached=cached,
+                lists_builtin=lists_builtin,
+                files=files,
+                patience=patience,
+            )
+        )
+    return (found[0] if len(found) == 1 else as_one(found)), system
 
 
 def scan_launch_files(

@@ -27,6 +27,7 @@ MOST_THREADS = 32
 """What has more that may wait at a time takes longer to judge than it is worth."""
 _ONE_THREAD, _POOL = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
 KINDS = (_ONE_THREAD, _POOL)
+BETWEEN_EXECUTORS = '; they are on executors that run at the same time'
 _Part = int | str
 """The number of an executor, or the name of a thread of the program's own."""
 
@@ -37,11 +38,13 @@ class Joined:
     Several units as one.
 
     :param spec: without the callbacks that neither wait nor are waited for.
-    :param parts: names of the callbacks of each executor.
+    :param parts: names of the callbacks of each executor, or of each process.
+    :param between: what a message says of the parts.
     """
 
     spec: Spec
     parts: tuple[tuple[str, ...], ...]
+    between: str = BETWEEN_EXECUTORS
 
     def executors_of(self, names: Iterable[str]) -> int:
         """How many executors have some of the callbacks of these names."""
@@ -162,7 +165,7 @@ def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> 
     callbacks = list(spec.callbacks)
     for number, unit in enumerate(units):
         mine = [each for each in callbacks if part_of[each.name] == number]
-        if unit.executor.kind != _ONE_THREAD or _awaits(mine):
+        if len(unit.executor.threads) > 1 or _awaits(mine):
             continue
         name = _free(f'only_thread_of_{unit.executor.name}', taken)
         groups[name] = CallbackGroup(

@@ -60,6 +60,7 @@ class Execution:
         self.files: list[Path] = []
         self._context = context
         self._load = load
+        self._packages = packages
         self._evaluator = Evaluator(context, packages.folder)
         self._facts = ProcessFacts(context, self._evaluator, packages)
         self._doubts: list[Unknown] = []
@@ -199,7 +200,7 @@ class Execution:
         file = Path(path)
         if self.files.count(file) > _DEEPEST:
             self._note(action.place, Unknown('launch file includes itself'))
-        elif not file.is_file():
+        elif not self._packages.has(file):
             self._note(action.place, Unknown(f'included launch file {path} is not there'))
         else:
             self.include(file)

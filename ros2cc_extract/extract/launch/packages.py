@@ -74,6 +74,10 @@ class Packages:
         except (OSError, ValueError):
             return ''
 
+    def has(self, path: Path) -> bool:
+        """Whether a file is there."""
+        return self._files.is_file(path)
+
     def _search(self, root: Path) -> Iterator[tuple[str, Path]]:
         seen = 0
         for base, folders, names in self._files.walk(root, lambda error: None):

@@ -127,7 +127,7 @@ class ProcessFacts:
         if isinstance(path, Unknown):
             open_facts.append(('parameters', Unknown(f'parameter file: {path.reason}', path.at)))
             return
-        if not Path(path).is_file():
+        if not self._packages.has(Path(path)):
             open_facts.append(('parameters', Unknown(f'parameter file {path} is not there')))
             return
         found = parameters_in(self._packages.text(Path(path)), shown_name(path))
