@@ -18,6 +18,7 @@ from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
 from ros2cc_extract.spec.system.model import Process, System
 from ros2cc_extract.spec.system.nodes import system_node
+from ros2cc_extract.spec.system.parameters import parameters_for
 
 ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
 _PYTHON = re.compile(r'(?:.*/)?python3?(?:\.\d+)?')
@@ -82,6 +83,7 @@ class _Builder:
         self._root = root
         self._names: dict[str, int] = {}
         self._scans: dict[object, Extraction] = {}
+        self._kept: dict[int, Extraction] = {}
         self._paths: dict[Path, None] = {}
 
     @property
@@ -100,15 +102,16 @@ class _Builder:
         assert executable.file is not None
         path = executable.file
         shown = path.relative_to(self._root) if path.is_relative_to(self._root) else path
-        parameters = {p.name: p.value for p in launched.parameters if _is_plain(p.value)}
-        key = (path, repr(sorted(parameters.items())))
-        if key not in self._scans:
-            self._scans[key] = self._scan([shown], parameters)
         self._paths[shown] = None
-        found = self._scans[key]
         file = shown_name(shown.as_posix())
+        found = self._scan_once(shown, parameters_for(launched, ()))
         entry = _entry(found, file, executable.function)
         graphs = [each for each in found.nodes if each.entry == entry]
+        known = parameters_for(launched, [system_node(each, launched) for each in graphs])
+        if known != parameters_for(launched, ()):
+            found = self._scan_once(shown, known)
+            graphs = [each for each in found.nodes if each.entry == entry]
+        self._kept.setdefault(id(found), found)
         process = Process(
             name=self._name(launched),
             launched=launched,
@@ -121,6 +124,12 @@ class _Builder:
             return replace(process, outside=Unknown('no start of a node is in sight in its file'))
         return process
 
+    def _scan_once(self, path: Path, parameters: Mapping[str, object]) -> Extraction:
+        key = (path, repr(sorted(parameters.items())))
+        if key not in self._scans:
+            self._scans[key] = self._scan([path], parameters)
+        return self._scans[key]
+
     def _name(self, launched: Launched) -> str:
         words = launched.executable or next(iter(launched.command[-1:]), '')
         last = next((w for w in launched.command if w.endswith('.py')), words)
@@ -132,7 +141,7 @@ class _Builder:
     def extraction(self, noticed: Sequence[Diagnostic], sources: Sequence[str]) -> Extraction:
         """All scans as one."""
         launches = Extraction(units=(), diagnostics=tuple(noticed), files_seen=tuple(sources))
-        return as_one([launches, *self._scans.values()])
+        return as_one([launches, *self._kept.values()])
 
 
 def as_one(found: Sequence[Extraction]) -> Extraction:
@@ -149,24 +158,19 @@ def as_one(found: Sequence[Extraction]) -> Extraction:
     )
 
 
-def _is_plain(value: object) -> bool:
-    if isinstance(value, tuple):
-        return all(map(_is_plain, value))
-    return isinstance(value, (str, int, float, bool))
-
-
 def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
     """The Python file of a process, or why there is none."""
     if launched.kind in _NO_CODE:
         return Unknown(f'a {launched.kind} node is no Python', launched.source)
     if launched.kind == 'process':
         return _of_command(launched, started)
-    for fact in (launched.package, launched.executable):
-        if isinstance(fact, Unknown):
-            return Unknown(fact.reason, fact.at or launched.source)
-    if launched.executable is None:
-        return Unknown('no executable is in sight', launched.source)
     package, name = launched.package or '', launched.executable
+    if isinstance(package, Unknown):
+        return Unknown(package.reason, package.at or launched.source)
+    if isinstance(name, Unknown):
+        return Unknown(name.reason, name.at or launched.source)
+    if name is None:
+        return Unknown('no executable is in sight', launched.source)
     if not package:
         return _python_file(Path(name), launched, started)
     if started.packages.folder(package) is None:
@@ -191,9 +195,7 @@ def _of_command(launched: Launched, started: Launch) -> Executable | Unknown:
     return _python_file(Path(words[0]), launched, started)
 
 
-def _python_file(
-    path: Path, launched: Launched, started: Launch
-) -> Executable | Unknown:
+def _python_file(path: Path, launched: Launched, started: Launch) -> Executable | Unknown:
     if not started.packages.has(path):
         return Unknown(f'{path} is not there', launched.source)
     return Executable(path.absolute())
@@ -201,9 +203,8 @@ def _python_file(
 
 def _entry(found: Extraction, file: str, function: str | None) -> str | None:
     """Which of the starts of a file the process is."""
-    known = dict.fromkeys(
-        each.entry for each in (*found.units, *found.nodes) if each.entry is not None
-    )
+    starts = [*(unit.entry for unit in found.units), *(node.entry for node in found.nodes)]
+    known = dict.fromkeys(entry for entry in starts if entry is not None)
     mine = [entry for entry in known if entry.startswith(f'{file}:')]
     wanted = f'{file}:{function or "main"}'
     if wanted in mine:

@@ -1,8 +1,8 @@
 """
-What launch files of every form say: one value for each action, whichever language it stands in.
+What launch files of every form say: one value for each action, in whichever language.
 
-Source: launch and launch_ros (Jazzy) ``actions/``; ``launch_xml`` and ``launch_yaml`` name the same
-actions.
+Source: launch and launch_ros (Jazzy) ``actions/``; ``launch_xml`` and ``launch_yaml`` name the
+same actions.
 """
 
 from __future__ import annotations

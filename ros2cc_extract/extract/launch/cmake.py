@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 _COMMAND = re.compile(r'(\w+)\s*\(([^()]*)\)')
 _COMMENT = re.compile(r'#[^\n]*')
@@ -50,7 +51,7 @@ def _expanded(word: str, variables: dict[str, list[str]]) -> list[str]:
 def _of_install(words: list[str]) -> Iterator[tuple[str, str]]:
     ends = [number for number, word in enumerate(words) if word in _KEYWORDS]
     paths = words[1 : ends[0]] if ends else words[1:]
-    after = dict(zip(words, words[1:], strict=False))
+    after = dict(pairwise(words))
     target = after.get('DESTINATION', '')
     if not target.startswith('lib'):
         return

@@ -55,7 +55,7 @@ def read_xml(data: bytes, shown: str) -> Element | Unknown:
     parser.EndElementHandler = end
     parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(data, True)  # noqa: FBT003
+        parser.Parse(data, True)
     except expat.ExpatError as error:
         return Unknown('it is no XML', Place(shown, error.lineno, error.offset + 1))
     except ValueError as error:

@@ -1,8 +1,8 @@
 """
 What substitutions stand for, given what is set; ``Unknown`` where that cannot be told.
 
-Source: launch (Jazzy) ``substitutions/``, ``conditions/evaluate_condition_expression_impl.py`` (``true``
-and ``1``, ``false`` and ``0``, in any case).
+Source: launch (Jazzy) ``substitutions/``, ``conditions/evaluate_condition_expression_impl.py``
+(``true`` and ``1``, ``false`` and ``0``, in any case).
 """
 
 from __future__ import annotations

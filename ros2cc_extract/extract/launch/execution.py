@@ -168,7 +168,7 @@ class Execution:
 
     def _group(self, action: Group) -> None:
         self._later += [action.later] if action.later else []
-        given = {name: value for name, value in self._pairs(action.configurations)}
+        given = dict(self._pairs(action.configurations))
         if action.scoped:
             with self._context.group():
                 if not action.forwarding:

@@ -1,8 +1,8 @@
 """
 XML and YAML launch files: their elements as actions.
 
-Source: launch (Jazzy) ``frontend/``, ``actions/`` and launch_ros ``actions/`` (the ``parse`` of each
-action); names with ``-`` and ``_`` are the same.
+Source: launch (Jazzy) ``frontend/``, ``actions/`` and launch_ros ``actions/`` (the ``parse`` of
+each action); names with ``-`` and ``_`` are the same.
 """
 
 from __future__ import annotations
@@ -108,9 +108,7 @@ def _node(kind: str) -> Callable[[Element], Action]:
             ),
             parameters=tuple(_parameters(element.all('param'), ())),
             arguments=tuple(each for each in given if each is not None),
-            loaded=tuple(
-                each for child in element.all('composable_node') for each in _one(child)
-            ),
+            loaded=tuple(each for child in element.all('composable_node') for each in _one(child)),
         )
 
     return make

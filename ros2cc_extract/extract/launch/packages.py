@@ -1,8 +1,8 @@
 """
 The packages of a workspace, and the executables that they install.
 
-Sources: colcon (a package is a folder with a ``package.xml``); ament_cmake and ament_python (what is
-installed to ``lib/PACKAGE`` is an executable of the package); setuptools (``console_scripts``).
+Sources: colcon (a package is a folder with a ``package.xml``); ament_cmake and ament_python (what
+is installed to ``lib/PACKAGE`` is an executable of the package); setuptools (``console_scripts``).
 """
 
 from __future__ import annotations
@@ -79,9 +79,8 @@ class Packages:
         return self._files.is_file(path)
 
     def _search(self, root: Path) -> Iterator[tuple[str, Path]]:
-        seen = 0
-        for base, folders, names in self._files.walk(root, lambda error: None):
-            seen += 1
+        walked = self._files.walk(root, lambda error: None)
+        for seen, (base, folders, names) in enumerate(walked):
             here = Path(base)
             if _MANIFEST in names:
                 match = _NAME.search(self.text(here / _MANIFEST))

@@ -31,12 +31,14 @@ def parameters_in(text: str, shown: str) -> tuple[SetParameter, ...] | Unknown:
 def read_value(text: str) -> object:
     """A value as YAML reads it; the text itself where that fails."""
     try:
-        return yaml.load(text, Loader=_LOADER)  # noqa: S506  a safe loader
+        return yaml.load(text, Loader=_LOADER)
     except (yaml.YAMLError, RecursionError, ValueError):
         return text
 
 
-def _of_nodes(node: yaml.Node | None, prefix: str, shown: str, depth: int) -> Iterator[SetParameter]:
+def _of_nodes(
+    node: yaml.Node | None, prefix: str, shown: str, depth: int
+) -> Iterator[SetParameter]:
     if not isinstance(node, yaml.MappingNode) or depth > _DEEPEST:
         return
     for key, value in node.value:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from ros2cc_extract.extract.launch.actions import (
@@ -154,7 +155,7 @@ class ProcessFacts:
         """``--ros-args -r old:=new -p name:=value --params-file FILE``."""
         parameters: list[SetParameter] = []
         remaps: list[Remap] = []
-        for flag, word in zip(words, words[1:], strict=False):
+        for flag, word in pairwise(words):
             if flag in _REMAP:
                 remap = read_remap(word, place)
                 remaps += [remap] if remap is not None else []

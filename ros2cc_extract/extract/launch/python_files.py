@@ -143,7 +143,9 @@ class PythonFile:
             found: list[Action] = []
 
             def follow() -> None:
-                context = self._machine.call_library(Library(f'{PREFIX}{CONTEXT}'), Call(call.place))
+                context = self._machine.call_library(
+                    Library(f'{PREFIX}{CONTEXT}'), Call(call.place)
+                )
                 arguments = Call(call.place, [context, *items], keywords)
                 found.extend(
                     self._actions.of_description(

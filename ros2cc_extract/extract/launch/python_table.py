@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     Library,
@@ -20,7 +21,6 @@ from ros2cc_extract.extract.static.python.machine.library_table import (
     LibraryModel,
 )
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

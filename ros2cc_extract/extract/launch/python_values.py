@@ -201,7 +201,9 @@ class Values:
         call = made(value).call  # type: ignore[union-attr]
         assert call is not None
         name = self.expression(call.argument(0, 'name'), call.place)
-        yield Given(name, self.constant_or_text(call.argument(1, 'value') or NONE, call.place), call.place)
+        yield Given(
+            name, self.constant_or_text(call.argument(1, 'value') or NONE, call.place), call.place
+        )
 
     def _entries(
         self, value: Mapping, prefix: Expression, place: Place

@@ -1,8 +1,8 @@
 """
 Substitutions of launch files: texts that are known only when the file is launched.
 
-Source: launch (Jazzy) ``substitutions/``, launch_ros ``substitutions/``. What they stand for is told
-by ``evaluation.py``.
+Source: launch (Jazzy) ``substitutions/``, launch_ros ``substitutions/``. What they stand for
+is told by ``evaluation.py``.
 """
 
 from __future__ import annotations

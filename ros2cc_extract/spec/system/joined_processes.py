@@ -101,12 +101,9 @@ def _needed(process: Process) -> Iterator[tuple[str, str]]:
     """Services and actions whose answer something in the process waits for without a time-out."""
     for unit in process.units:
         names = _Names(process, unit, '')
-        waits = [
-            block.on
-            for doer in (*unit.callbacks, *unit.activities)
-            for block in doer.blocking
-            if block.seconds is None
-        ]
+        doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
+        blocks = (block for doer in doers for block in doer.blocking)
+        waits = [block.on for block in blocks if block.seconds is None]
         for callback in unit.callbacks:
             key = names.key(callback)
             is_client = callback.entity in _CLIENTS and callback.name in waits

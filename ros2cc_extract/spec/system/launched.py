@@ -38,7 +38,7 @@ class Launched:
     :param command: of ``ExecuteProcess``, its words.
     :param conditional: why it may not be started.
     :param later: what begins it, where that is not the start of the launch.
-    :param open: facts that could not be told, with why: ``parameters``, ``remappings``, ``arguments``.
+    :param open: facts that could not be told, with why: ``parameters``, ``remappings`` …
     """
 
     kind: str

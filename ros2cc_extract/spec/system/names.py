@@ -2,8 +2,8 @@
 Names of nodes, topics, services and actions: how they are expanded and remapped.
 
 Sources: design.ros2.org, "Topic and Service name mapping to DDS" and "Remapping Names in ROS"
-(relative names, private ``~``, the first rule that matches); rcl (Jazzy) ``expand_topic_name.c`` and
-``remap.c`` (both sides of a rule are expanded with the namespace and the name of the node);
+(relative names, private ``~``, the first rule that matches); rcl (Jazzy) ``expand_topic_name.c``
+and ``remap.c`` (both sides of a rule are expanded with the namespace and the name of the node);
 launch_ros (Jazzy) ``utilities/namespace_utils.py``.
 """
 

@@ -34,11 +34,12 @@ def system_node(graph: NodeGraph, launched: Launched) -> SystemNode:
         namespace = known.namespace
     why = next((fact for fact in (name, namespace) if isinstance(fact, Unknown)), None)
     opened = dict(reversed(launched.open))
+    unknown = {p.name: p.value for p in launched.parameters if isinstance(p.value, Unknown)}
     return SystemNode(
         name=known.full_name if why is None else why,
         own_name=graph.name,
         endpoints=tuple(
-            _endpoint(each, known, name, namespace, opened) for each in graph.endpoints
+            _endpoint(each, known, name, namespace, opened, unknown) for each in graph.endpoints
         ),
         parameters=graph.parameters,
         open=graph.open,
@@ -63,8 +64,9 @@ def _endpoint(
     node: Fact,
     namespace: Fact,
     opened: dict[str, Unknown],
+    unknown: dict[str, Unknown],
 ) -> SystemEndpoint:
-    name, rule = _resolved(endpoint, known, node, namespace, opened)
+    name, rule = _resolved(endpoint, known, node, namespace, opened, unknown)
     return SystemEndpoint(
         kind=endpoint.kind,
         name=name,
@@ -84,6 +86,7 @@ def _resolved(
     node: Fact,
     namespace: Fact,
     opened: dict[str, Unknown],
+    unknown: dict[str, Unknown],
 ) -> tuple[Fact, Remap | None]:
     written = endpoint.name
     if isinstance(written, Unknown):
@@ -92,6 +95,9 @@ def _resolved(
         return opened['remappings'], None
     if 'parameters' in opened and (endpoint.assumed or '').startswith(_PARAMETER):
         return opened['parameters'], None
+    for name, why in unknown.items():
+        if (endpoint.assumed or '').startswith(f'{_PARAMETER} {name!r}'):
+            return why, None
     if isinstance(namespace, Unknown) and not written.startswith('/'):
         return namespace, None
     if isinstance(node, Unknown) and written.startswith('~'):

@@ -1,4 +1,4 @@
-"""The YAML of a system; ``schema.json`` beside this file describes it, the units keep their format."""
+"""The YAML of a system, as ``schema.json`` describes it; the units keep their format."""
 
 from __future__ import annotations
 

@@ -105,6 +105,6 @@ def generate_launch_description():
         Node(package='arm', executable='driver', namespace='arm'),
     ])
 """,
-    mend='Write the name alike in both, start both nodes in one namespace, or remap the one to the '
-    'other in the launch file.',
+    mend='Write the name alike in both, start both nodes in one namespace, or remap the one to '
+    'the other in the launch file.',
 )

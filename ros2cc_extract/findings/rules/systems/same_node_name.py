@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Hit, Rule
-from ros2cc_extract.spec.system.model import Process, SystemNode, System
+from ros2cc_extract.spec.system.model import Process, System, SystemNode
 
 
 def find(system: System) -> Iterator[Hit]:
