@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
@@ -12,6 +12,7 @@ from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.diagnostics import BARRED, UNREAD, Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.files import DISK, Files, read_named, read_stream, real_path
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.source_locations import Place, shown_name
@@ -45,7 +46,7 @@ def scan_sources(
     *,
     cached: bool = True,
     lists_builtin: bool = False,
-    parameters: Mapping[str, object] | None = None,
+    parameters: GivenParameters = NONE_GIVEN,
     files: Files = DISK,
     patience: Patience = PATIENT,
 ) -> Extraction:
@@ -54,7 +55,7 @@ def scan_sources(
 
     :param cached: take an earlier result when no file has changed since.
     :param lists_builtin: also list what rclpy makes by itself for every node.
-    :param parameters: values that a launch sets for parameters of the nodes, by name.
+    :param parameters: what a launch sets for the nodes.
     :param files: those of the disk, or of another revision.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither

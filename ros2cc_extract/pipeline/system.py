@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.given_parameters import GivenParameters
 from ros2cc_extract.extract.launch.api import Launch, launch
 from ros2cc_extract.extract.launch.packages import Executable
 from ros2cc_extract.files import Files
@@ -16,14 +17,14 @@ from ros2cc_extract.source_locations import Unknown, shown_name
 from ros2cc_extract.spec.model import Unresolved
 from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
-from ros2cc_extract.spec.system.model import Process, System
+from ros2cc_extract.spec.system.model import Process, System, SystemNode
 from ros2cc_extract.spec.system.nodes import system_node
 from ros2cc_extract.spec.system.parameters import parameters_for
 
 ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
 _PYTHON = re.compile(r'(?:.*/)?python3?(?:\.\d+)?')
 _NO_CODE = ('container', 'composable')
-Scan = Callable[[Sequence[Path], Mapping[str, object]], Extraction]
+Scan = Callable[[Sequence[Path], GivenParameters], Extraction]
 
 
 @dataclass(frozen=True)
@@ -104,11 +105,11 @@ class _Builder:
         shown = path.relative_to(self._root) if path.is_relative_to(self._root) else path
         self._paths[shown] = None
         file = shown_name(shown.as_posix())
-        found = self._scan_once(shown, parameters_for(launched, ()))
+        found = self._scan_once(shown, _given(launched, ()))
         entry = _entry(found, file, executable.function)
         graphs = [each for each in found.nodes if each.entry == entry]
-        known = parameters_for(launched, [system_node(each, launched) for each in graphs])
-        if known != parameters_for(launched, ()):
+        known = _given(launched, [system_node(each, launched) for each in graphs])
+        if known != _given(launched, ()):
             found = self._scan_once(shown, known)
             graphs = [each for each in found.nodes if each.entry == entry]
         self._kept.setdefault(id(found), found)
@@ -124,8 +125,8 @@ class _Builder:
             return replace(process, outside=Unknown('no start of a node is in sight in its file'))
         return process
 
-    def _scan_once(self, path: Path, parameters: Mapping[str, object]) -> Extraction:
-        key = (path, repr(sorted(parameters.items())))
+    def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
+        key = (path, parameters.key)
         if key not in self._scans:
             self._scans[key] = self._scan([path], parameters)
         return self._scans[key]
@@ -156,6 +157,11 @@ def as_one(found: Sequence[Extraction]) -> Extraction:
         cut=next((each.cut for each in found if each.cut), ''),
         interrupted=any(each.interrupted for each in found),
     )
+
+
+def _given(launched: Launched, nodes: Sequence[SystemNode]) -> GivenParameters:
+    values, are_all = parameters_for(launched, nodes)
+    return GivenParameters(values, are_all)
 
 
 def _executable(launched: Launched, started: Launch) -> Executable | Unknown:

@@ -10,6 +10,7 @@ from typing import TextIO
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.given_parameters import GivenParameters
 from ros2cc_extract.extract.launch.api import is_launch_file
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
@@ -92,7 +93,7 @@ def scan_launch_files(
             mend = 'launch files end in .launch.py, .launch.xml or .launch.yaml'
             raise InputError('is no launch file', Place(str(path)), mend)
 
-    def scan(names: Sequence[Path], parameters: Mapping[str, object]) -> Extraction:
+    def scan(names: Sequence[Path], parameters: GivenParameters) -> Extraction:
         return scan_sources(
             names,
             stderr,

@@ -46,6 +46,11 @@ class Joined:
     parts: tuple[tuple[str, ...], ...]
     between: str = BETWEEN_EXECUTORS
 
+    @property
+    def is_of_processes(self) -> bool:
+        """Whether its parts are processes of a system."""
+        return self.between != BETWEEN_EXECUTORS
+
     def executors_of(self, names: Iterable[str]) -> int:
         """How many executors have some of the callbacks of these names."""
         wanted = set(names)

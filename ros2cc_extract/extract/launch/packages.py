@@ -48,7 +48,10 @@ class Packages:
 
     def __init__(self, files: Files, start: Path) -> None:
         self._files = files
-        self._found = dict(self._search(_root(files, start.absolute().parent)))
+        own, root = _root(files, start.absolute().parent)
+        self._found = dict(self._search(root))
+        if own is not None:
+            self._found[self._name_of(own)] = own
 
     def folder(self, name: str) -> Path | None:
         """The folder of a package; what it shares stands there as in its share folder."""
@@ -83,12 +86,16 @@ class Packages:
         for seen, (base, folders, names) in enumerate(walked):
             here = Path(base)
             if _MANIFEST in names:
-                match = _NAME.search(self.text(here / _MANIFEST))
-                yield (match.group(1) if match else here.name), here
+                yield self._name_of(here), here
             is_deep = len(here.relative_to(root).parts) >= _DEPTH
-            if is_deep or _MANIFEST in names or seen > _MOST_FOLDERS:
+            is_package = _MANIFEST in names and here != root
+            if is_deep or is_package or seen > _MOST_FOLDERS:
                 folders.clear()
             folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
+
+    def _name_of(self, folder: Path) -> str:
+        match = _NAME.search(self.text(folder / _MANIFEST))
+        return match.group(1) if match else folder.name
 
     def _console_script(self, folder: Path, name: str) -> Executable | None:
         for path, data in script_files(self._files, [folder]):
@@ -146,11 +153,11 @@ class Packages:
         return Executable(file if is_python else None)
 
 
-def _root(files: Files, folder: Path) -> Path:
-    """Where to look: the repository, else the workspace, else beside the package."""
+def _root(files: Files, folder: Path) -> tuple[Path | None, Path]:
+    """The package of the launch file; the repository, else the workspace, else what is beside."""
     above = [folder, *list(folder.parents)[:_LEVELS]]
     package = next((each for each in above if files.is_file(each / _MANIFEST)), None)
     for each in above:
         if files.exists(each / '.git') or each.name == 'src' or each.name == 'share':
-            return each
-    return package.parent if package is not None else folder
+            return package, each
+    return package, package.parent if package is not None else folder

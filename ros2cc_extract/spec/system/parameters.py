@@ -15,25 +15,30 @@ from ros2cc_extract.spec.system.model import SystemNode
 
 _WILD = re.compile(r'/\*\*|\*')
 _SCALARS = (str, int, float, bool)
+_OPEN = ('parameters', 'arguments', 'command')
 
 
-def parameters_for(launched: Launched, nodes: Sequence[SystemNode]) -> dict[str, object]:
+def parameters_for(
+    launched: Launched, nodes: Sequence[SystemNode]
+) -> tuple[dict[str, object], bool]:
     """
-    The values that the code of a process finds, as far as they are known.
+    The values that the code of a process finds, and whether nothing else is set for it.
 
     :param nodes: of the process; what is set for one of several is left out, since the code is
         followed once for all. Without any, what is set for every node.
     """
     names = [node.name for node in nodes if isinstance(node.name, str)]
     found: dict[str, object] = {}
+    are_all = not any(fact in _OPEN for fact, _ in launched.open)
     for each in launched.parameters:
         reached = [name for name in names if matches(each.node, name)]
         is_for_all = each.node == ANY_NODE or (bool(names) and len(reached) == len(nodes))
         if is_for_all and _is_plain(each.value):
             found[each.name] = each.value
-        elif is_for_all:
+        elif is_for_all or reached or not names:
             found.pop(each.name, None)
-    return found
+            are_all = False
+    return found, are_all
 
 
 def matches(pattern: str, name: str) -> bool:

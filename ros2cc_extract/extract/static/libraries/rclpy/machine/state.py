@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from ros2cc_extract.extract.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,
     ConcurrentWorld,
@@ -307,7 +307,7 @@ class RosWorld(ConcurrentWorld):
     :param open_to: those that were down when a goal was accepted, by the same.
     :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
     :param publishers: by node, place and topic.
-    :param parameters: values that a launch sets for parameters of the nodes, by name.
+    :param parameters: what a launch sets for the nodes.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     """
 
@@ -329,7 +329,7 @@ class RosWorld(ConcurrentWorld):
     followed: int = 0
     by_node: dict[int, list[EntityState]] = field(default_factory=dict)
     lists_builtin: bool = False
-    parameters: Mapping[str, object] = field(default_factory=dict)
+    parameters: GivenParameters = NONE_GIVEN
     builtins: list[EntityState] = field(default_factory=list)
     global_executor: Instance | None = None
     groupless: Instance | None = None

@@ -354,7 +354,7 @@ def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 def _given(machine: RosMachine, name: object, default: Value | None) -> Value | None:
     """What the launch sets, before the default."""
-    given = machine.world.parameters.get(str(name))
+    given = machine.world.parameters.values.get(str(name))
     if isinstance(given, tuple):
         return Sequence(tuple(Const(item) for item in given), 'list')
     return default if given is None else Const(given)
@@ -362,7 +362,8 @@ def _given(machine: RosMachine, name: object, default: Value | None) -> Value | 
 
 def _is_settled(machine: RosMachine, name: Value | None) -> bool:
     """Whether a launch sets it, and it is read before anybody may set it anew."""
-    is_given = isinstance(name, Const) and str(name.value) in machine.world.parameters
+    given = machine.world.parameters
+    is_given = isinstance(name, Const) and (given.are_all or str(name.value) in given.values)
     return is_given and machine.world.when is When.START and not machine.world.in_callback
 
 

@@ -1,0 +1,31 @@
+"""Confirms after it has read what is to be confirmed."""
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class Witness(Node):
+    def __init__(self):
+        super().__init__('witness')
+        self.read = self.create_client(
+            AddTwoInts, 'read', callback_group=MutuallyExclusiveCallbackGroup()
+        )
+        self.create_service(AddTwoInts, 'confirm', self.on_confirm)
+
+    def on_confirm(self, request, response):
+        self.read.call(AddTwoInts.Request())
+        return response
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(Witness())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()
