@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.identifiers import mend
-from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined
+from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined, why_not_joined
 from ros2cc_extract.spec.model import (
     Activity,
     Callback,
@@ -52,11 +52,11 @@ def circles_of(system: System) -> Circles:
     left: list[tuple[tuple[Process, ...], Unknown]] = []
     for circle in _circles(system):
         why = next(filter(None, map(_why_not, circle)), None)
-        one = _joined(circle) if why is None else None
-        if one is not None:
+        one = _joined(circle) if why is None else why
+        if isinstance(one, Joined):
             found.append(one)
-        elif why is not None:
-            left.append((tuple(circle), why))
+        elif one is not None:
+            left.append((tuple(circle), one))
     return Circles(joined=tuple(found), open=tuple(left))
 
 
@@ -97,23 +97,47 @@ def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
     return found
 
 
-def _needed(process: Process) -> Iterator[tuple[str, str]]:
-    """Services and actions whose answer something in the process waits for without a time-out."""
+@dataclass(frozen=True)
+class ServiceWait:
+    """
+    A wait without a time-out for the answer of a service or an action.
+
+    :param name: resolved.
+    """
+
+    unit: Spec
+    doer: Callback | Activity
+    block: Blocking
+    what: str
+    name: str
+
+
+def service_waits(process: Process) -> Iterator[ServiceWait]:
+    """The waits of a process for answers."""
     for unit in process.units:
         names = _Names(process, unit, '')
+        clients = {each.name: each for each in unit.callbacks if each.entity in _CLIENTS}
         doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
-        blocks = (block for doer in doers for block in doer.blocking)
-        waits = [block.on for block in blocks if block.seconds is None]
-        for callback in unit.callbacks:
-            key = names.key(callback)
-            is_client = callback.entity in _CLIENTS and callback.name in waits
-            if is_client and isinstance(key, str):
-                what = 'service' if callback.entity is EntityKind.CLIENT else 'action'
-                yield what, key
+        for doer in doers:
+            for block in doer.blocking:
+                client = clients.get(block.on) if isinstance(block.on, str) else None
+                key = names.key(client) if client is not None else None
+                if client is not None and block.seconds is None and isinstance(key, str):
+                    what = 'service' if client.entity is EntityKind.CLIENT else 'action'
+                    yield ServiceWait(unit, doer, block, what, key)
+
+
+def _needed(process: Process) -> Iterator[tuple[str, str]]:
+    """Services and actions whose answer something in the process waits for."""
+    for wait in service_waits(process):
+        yield wait.what, wait.name
 
 
 def _why_not(process: Process) -> Unknown | None:
     """Why the executors of a process cannot be put beside others."""
+    if process.launched.conditional is not None:
+        why = process.launched.conditional
+        return Unknown(f'{process.name} may not be started: {why.reason}', why.at)
     for unit in process.units:
         executor = unit.executor
         is_known = isinstance(executor.kind, str) and executor.kind in KINDS
@@ -125,15 +149,18 @@ def _why_not(process: Process) -> Unknown | None:
     return None
 
 
-def _joined(circle: Sequence[Process]) -> Joined | None:
+def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
+    """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
     parts = [
         _renamed(process, unit, number)
         for process in circle
         for number, unit in enumerate(process.units)
     ]
-    found = joined(_whole(parts), parts)
+    whole = _whole(parts)
+    found = joined(whole, parts)
     if found is None:
-        return None
+        why = why_not_joined(whole, parts)
+        return Unknown(why) if why else None
     counts = [len(process.units) for process in circle]
     by_process: list[tuple[str, ...]] = []
     at = 0

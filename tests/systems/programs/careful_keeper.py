@@ -3,10 +3,10 @@
 import threading
 
 import rclpy
-from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 
 class Keeper(Node):
@@ -15,22 +15,23 @@ class Keeper(Node):
         self.lock = threading.Lock()
         self.count = 0
         self.confirm = self.create_client(
-            AddTwoInts, 'confirm', callback_group=MutuallyExclusiveCallbackGroup()
+            Trigger, 'confirm', callback_group=MutuallyExclusiveCallbackGroup()
         )
         self.create_service(
-            AddTwoInts, 'read', self.on_read, callback_group=MutuallyExclusiveCallbackGroup()
+            Trigger, 'read', self.on_read, callback_group=MutuallyExclusiveCallbackGroup()
         )
         self.create_timer(0.2, self.tick)
 
     def tick(self):
+        print('asks', flush=True)
         with self.lock:
             self.count += 1
-        self.confirm.call(AddTwoInts.Request())
+        self.confirm.call(Trigger.Request())
         print('goes on', flush=True)
 
     def on_read(self, request, response):
         with self.lock:
-            response.sum = self.count
+            response.message = str(self.count)
         return response
 
 

@@ -1,21 +1,22 @@
 """Serves ``plan``, and asks back before it answers."""
 
 import rclpy
-from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 
 class Planner(Node):
     def __init__(self):
         super().__init__('planner')
         answers = MutuallyExclusiveCallbackGroup()
-        self.back = self.create_client(AddTwoInts, 'back', callback_group=answers)
-        self.create_service(AddTwoInts, 'plan', self.on_plan)
+        self.back = self.create_client(Trigger, 'back', callback_group=answers)
+        self.create_service(Trigger, 'plan', self.on_plan)
 
     def on_plan(self, request, response):
-        self.back.call(AddTwoInts.Request())
+        print('asks back', flush=True)
+        self.back.call(Trigger.Request())
         return response
 
 

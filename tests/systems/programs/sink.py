@@ -1,14 +1,14 @@
 """Answers at once."""
 
 import rclpy
-from example_interfaces.srv import AddTwoInts
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 
 class Sink(Node):
     def __init__(self):
         super().__init__('sink')
-        self.create_service(AddTwoInts, 'request', self.on_request)
+        self.create_service(Trigger, 'request', self.on_request)
 
     def on_request(self, request, response):
         return response

@@ -1,22 +1,23 @@
 """Confirms after it has read what is to be confirmed."""
 
 import rclpy
-from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 
 class Witness(Node):
     def __init__(self):
         super().__init__('witness')
         self.read = self.create_client(
-            AddTwoInts, 'read', callback_group=MutuallyExclusiveCallbackGroup()
+            Trigger, 'read', callback_group=MutuallyExclusiveCallbackGroup()
         )
-        self.create_service(AddTwoInts, 'confirm', self.on_confirm)
+        self.create_service(Trigger, 'confirm', self.on_confirm)
 
     def on_confirm(self, request, response):
-        self.read.call(AddTwoInts.Request())
+        print('asks back', flush=True)
+        self.read.call(Trigger.Request())
         return response
 
 
