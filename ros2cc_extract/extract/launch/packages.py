@@ -18,7 +18,7 @@ from ros2cc_extract.files import Files
 
 _MANIFEST = 'package.xml'
 _NAME = re.compile(r'<name>\s*([\w.\-]+)\s*</name>')
-_SCRIPT = re.compile(r'["\']?\s*([\w.\-]+)\s*=\s*([\w.]+):([\w.]+)')
+_SCRIPT = re.compile(r'["\']?\s*([\w.\-]+)\s*=\s*["\']?([\w.]+):([\w.]+)')
 _TEXTS = re.compile(r'["\']([^"\'\n]+)["\']')
 _SKIPPED = frozenset({'build', 'log', 'node_modules', 'venv', '__pycache__'})
 _LEVELS, _DEPTH = 6, 6

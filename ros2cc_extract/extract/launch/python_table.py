@@ -87,6 +87,13 @@ def _keep(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _begin(machine: Machine, receiver: Value, call: Call) -> Value:
+    """A description; what is added to it later is kept apart from what it is made with."""
+    if isinstance(receiver, Instance):
+        machine.store.write(receiver, ADDED, Sequence((), 'list'))
+    return _keep(machine, receiver, call)
+
+
 def _add(machine: Machine, receiver: Value, call: Call) -> Value:
     """``LaunchDescription.add_action`` and ``add_entity``."""
     assert isinstance(receiver, Instance)
@@ -99,11 +106,7 @@ def _add(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _added(machine: Machine, receiver: Instance) -> Value:
     known = receiver.slots.get(ADDED)
-    if isinstance(known, Value):
-        return known
-    added = Sequence((), 'list')
-    machine.store.write(receiver, ADDED, added)
-    return added
+    return known if isinstance(known, Value) else Sequence((), 'list')
 
 
 def _performer(perform: Perform) -> Handler:
@@ -176,7 +179,7 @@ def launch_model(share_of: ShareOf, perform: Perform, configurations: Perform) -
     }
     classes[f'{PREFIX}{DESCRIPTION}'] = LibraryClass(
         state=_state(DESCRIPTION),
-        init=_keep,
+        init=_begin,
         methods={'add_action': _add, 'add_entity': _add},
         properties={'entities': _entities},
     )

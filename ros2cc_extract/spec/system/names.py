@@ -15,7 +15,9 @@ from dataclasses import dataclass
 
 from ros2cc_extract.source_locations import Place
 
-_RULE = re.compile(r'(?:(?P<node>[\w/~*]+):)?(?:(?P<kind>rostopic|rosservice)://)?(?P<old>[^:]+)')
+_RULE = re.compile(
+    r'(?:(?P<node>[\w/~*]+):(?!//))?(?:(?P<kind>rostopic|rosservice)://)?(?P<old>[^:]+)'
+)
 NODE, NAMESPACE = '__node', '__ns'
 _OF_NODE = {'__name': NODE, NODE: NODE, NAMESPACE: NAMESPACE}
 _TOPIC, _SERVICE = 'rostopic', 'rosservice'
