@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.launch import paths
 from ros2cc_extract.extract.launch.actions import Action, Unfollowed
 from ros2cc_extract.extract.launch.context import Context
 from ros2cc_extract.extract.launch.evaluation import Evaluator
@@ -44,6 +46,14 @@ class _LaunchInterpreter(Interpreter):
     def file_of(self, source: SourceFile) -> Value | None:
         """What ``__file__`` is in a module."""
         return Const(str(source.path))
+
+    def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
+        """``path / name``."""
+        return paths.joined([left, right]) if isinstance(op, ast.Div) else None
+
+    def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
+        """``path.parent`` and the like."""
+        return paths.member(value, name) or super().attribute(value, name, place, text)
 
     def import_module(self, name: str, place: Place) -> Value:
         """The folder of launch files is often called ``launch``; that is never the package."""

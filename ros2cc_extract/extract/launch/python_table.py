@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2cc_extract.extract.launch import paths
 from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.library_table import (
@@ -28,14 +29,13 @@ from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Handler,
     Instance,
-    Mystery,
     Value,
 )
-from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.source_locations import Place
 
 PREFIX = 'launch.'
 ADDED = '__added__'
-_PACKAGES = ('launch.', 'launch_ros.')
+_PACKAGES = ('launch.', 'launch_ros.', 'launch_xml.', 'launch_yaml.')
 _SHARE = 'ament_index_python.packages.get_package_share_directory'
 DESCRIPTION = 'LaunchDescription'
 CLASSES = frozenset(
@@ -122,25 +122,6 @@ def _entities(machine: Machine, receiver: Instance, place: Place) -> Value:
     return _added(machine, receiver)
 
 
-def _join(machine: Machine, receiver: Value, call: Call) -> Value:
-    texts = [arg.value for arg in call.args if isinstance(arg, Const)]
-    if len(texts) == len(call.args) and all(isinstance(text, str) for text in texts) and texts:
-        return Const(os.path.join(*texts))  # noqa: PTH118
-    why = next((arg.unknown for arg in call.args if isinstance(arg, Mystery)), None)
-    return Mystery(why or Unknown('a path that could not be followed', call.place), 'a path')
-
-
-def _of_path(act: Callable[[str], str]) -> Handler:
-    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
-        given = call.args[0] if call.args else NONE
-        if isinstance(given, Const) and isinstance(given.value, str):
-            return Const(act(given.value))
-        why = given.unknown if isinstance(given, Mystery) else None
-        return Mystery(why or Unknown('a path that could not be followed', call.place), 'a path')
-
-    return handler
-
-
 def _share(share_of: ShareOf) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         name = call.argument(0, 'package_name', 'package')
@@ -196,15 +177,20 @@ def launch_model(share_of: ShareOf, perform: Perform, configurations: Perform) -
         },
     )
     share = _share(share_of)
+    classes[f'{PREFIX}FindPackageShare'] = LibraryClass(
+        state=_state('FindPackageShare'), init=_keep, methods={**methods, 'find': share}
+    )
     functions: dict[str, Handler] = {
         _SHARE: share,
         'ament_index_python.get_package_share_directory': share,
-        'os.path.join': _join,
-        'posixpath.join': _join,
-        'os.path.dirname': _of_path(os.path.dirname),
-        'os.path.abspath': _of_path(os.path.normpath),
-        'os.path.realpath': _of_path(os.path.normpath),
-        'os.path.basename': _of_path(os.path.basename),
+        'ament_index_python.packages.get_package_share_path': share,
+        'ament_index_python.get_package_share_path': share,
+        'os.path.join': paths.join,
+        'pathlib.Path': paths.join,
+        'os.path.dirname': paths.changed(os.path.dirname),
+        'os.path.abspath': paths.changed(os.path.normpath),
+        'os.path.realpath': paths.changed(os.path.normpath),
+        'os.path.basename': paths.changed(os.path.basename),
     }
     table = Library(classes=classes, functions=functions)
     return _LaunchModel([builtin_functions.TABLE, table], harmless=('launch', 'os.', 'ament_'))

@@ -136,8 +136,8 @@ def _needed(process: Process) -> Iterator[tuple[str, str]]:
 def _why_not(process: Process) -> Unknown | None:
     """Why the executors of a process cannot be put beside others."""
     if process.launched.conditional is not None:
-        why = process.launched.conditional
-        return Unknown(f'{process.name} may not be started: {why.reason}', why.at)
+        doubt = process.launched.conditional
+        return Unknown(f'{process.name} may not be started: {doubt.reason}', doubt.at)
     for unit in process.units:
         executor = unit.executor
         is_known = isinstance(executor.kind, str) and executor.kind in KINDS
