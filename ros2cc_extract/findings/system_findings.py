@@ -8,7 +8,14 @@ from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Hit, Rule
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import UNDECIDED
-from ros2cc_extract.findings.rules.systems import near_names, same_node_name, two_types
+from ros2cc_extract.findings.rules.systems import (
+    near_names,
+    qos,
+    same_node_name,
+    sim_time,
+    two_types,
+    unused_settings,
+)
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.joined_processes import circles_of, service_waits
 from ros2cc_extract.spec.system.model import Process, System
@@ -16,7 +23,10 @@ from ros2cc_extract.spec.system.model import Process, System
 _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (near_names.RULE, near_names.find),
     (two_types.RULE, two_types.find),
+    (qos.RULE, qos.find),
+    (sim_time.RULE, sim_time.find),
     (same_node_name.RULE, same_node_name.find),
+    (unused_settings.RULE, unused_settings.find),
 )
 
 

@@ -46,7 +46,14 @@ from ros2cc_extract.findings.rules.starvation import (
     timeout_harvest,
     transform_wait,
 )
-from ros2cc_extract.findings.rules.systems import near_names, same_node_name, two_types
+from ros2cc_extract.findings.rules.systems import (
+    near_names,
+    qos,
+    same_node_name,
+    sim_time,
+    two_types,
+    unused_settings,
+)
 
 RULES: tuple[Rule, ...] = (
     own_group_call.RULE,
@@ -97,7 +104,10 @@ RULES: tuple[Rule, ...] = (
     requirements.UNDECIDED,
     near_names.RULE,
     two_types.RULE,
+    qos.RULE,
+    sim_time.RULE,
     same_node_name.RULE,
+    unused_settings.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

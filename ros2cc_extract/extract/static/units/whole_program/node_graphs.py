@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
+from ros2cc_extract.extract.static.units.whole_program.qos_profiles import qos_of
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind, NodeGraph
@@ -71,6 +72,7 @@ def _of_publisher(publisher: PublisherState) -> Endpoint:
         kind=EndpointKind.PUBLISHER,
         name=name if name is not None else Unknown('no topic is in sight', publisher.place),
         type=_type(publisher.type),
+        qos=qos_of(publisher.qos),
         source=publisher.place,
         conditional=bool(beyond(publisher.path, publisher.node.path)),
         assumed=assumed,
@@ -83,6 +85,7 @@ def _of_entity(entity: EntityState, kind: EndpointKind) -> Endpoint:
         kind=kind,
         name=name if name is not None else Unknown('no name is in sight', entity.place),
         type=_type(entity.type),
+        qos=qos_of(entity.qos),
         source=entity.place,
         conditional=bool(beyond(entity.path, entity.node.path)) or entity.when is When.CALLBACK,
         assumed=assumed,
@@ -113,5 +116,7 @@ def _type(value: Value | None) -> str | None:
 
 def _parameters(node: Instance) -> tuple[str, ...] | None:
     """Names that the code declares or asks for; ``None`` where one could not be followed."""
+    if node.state.takes_any_parameter:
+        return None
     known = node.slots.get('__parameters__', {})
     return tuple(name for name in known if isinstance(name, str))

@@ -51,6 +51,7 @@ class NodeState(LibraryState):
     :param name: value of the name argument; ``None`` when none was seen.
     :param namespace: value of that argument.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
+    :param takes_any_parameter: its code may ask for parameters whose names are not in sight.
     :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
     :param more: why it may have entities that we do not see.
     :param begun: the call of ``Node.__init__``.
@@ -70,6 +71,7 @@ class NodeState(LibraryState):
     on_asyncio: bool = False
     rate_group: Instance | None = None
     has_parameter_services: bool = True
+    takes_any_parameter: bool = False
     parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False

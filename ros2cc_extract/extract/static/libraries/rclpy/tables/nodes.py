@@ -69,6 +69,11 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 NODE = 'rclpy.node.Node'
+_UNDECLARED = (
+    'allow_undeclared_parameters',
+    'automatically_declare_parameters_from_overrides',
+    'parameter_overrides',
+)
 _BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
 
@@ -181,6 +186,7 @@ def init_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
         state = receiver.state
         state.name = call.argument(0, 'node_name') or NONE
         state.namespace = call.argument(None, 'namespace')
+        state.takes_any_parameter = any(map(call.keywords.__contains__, _UNDECLARED))
         state.has_parameter_services = option_of_node(
             machine, 'start_parameter_services', call, default=True
         )
@@ -341,6 +347,8 @@ def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
             known[name.value] = default
         default = known.get(name.value)
         default = _given(machine, name.value, default)
+    else:
+        receiver.state.takes_any_parameter = True
     default = _usable(default_of(default))
     if isinstance(default, Const):
         text = f'{text} (default {default.value!r})'
@@ -406,6 +414,13 @@ def _keep_parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
     value = call.argument(2, 'value') or machine.mystery('value of a parameter', call.place)
     receiver.state = PlainState('parameter', value, call.argument(0, 'name'), call.place)
     return NONE
+
+
+def _by_prefix(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    """``get_parameters_by_prefix``: whichever there are."""
+    if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
+        receiver.state.takes_any_parameter = True
+    return machine.mystery('parameters at run time', call.place)
 
 
 def _parameter_or(machine: RosMachine, receiver: Value, call: Call) -> Value:
@@ -485,6 +500,7 @@ NODE_METHODS: dict[str, Handler] = {
     'get_parameter': _parameter,
     'get_parameters': _get_all,
     'get_parameter_or': _parameter_or,
+    'get_parameters_by_prefix': _by_prefix,
     'get_clock': clock_of,
     'get_name': _name_of,
     'get_logger': _unfollowed('the logger'),
