@@ -12,7 +12,7 @@ from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.diagnostics import BARRED, UNREAD, Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.given_parameters import NONE_GIVEN, GivenParameters
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.files import DISK, Files, read_named, read_stream, real_path
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.source_locations import Place, shown_name

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.given_parameters import GivenParameters
 from ros2cc_extract.extract.launch.api import Launch, launch
-from ros2cc_extract.extract.launch.packages import Executable
+from ros2cc_extract.extract.launch.workspace.packages import Executable
+from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Unknown, shown_name
 from ros2cc_extract.spec.model import Unresolved

@@ -10,8 +10,8 @@ from typing import TextIO
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.given_parameters import GivenParameters
 from ros2cc_extract.extract.launch.api import is_launch_file
+from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
 from ros2cc_extract.pipeline.system import Scanned, as_one, scan_system

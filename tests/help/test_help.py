@@ -26,6 +26,9 @@ NO_PROGRAM = {
     'CC603': 'a requirement, which is not in the program',
     'CC701': 'a system of several programs: tests/systems',
     'CC702': 'a system of several programs: tests/systems',
+    'CC703': 'a system of several programs: tests/systems',
+    'CC704': 'a system of several programs: tests/systems',
+    'CC706': 'a system of several programs: tests/systems',
     'CC705': 'a system of several programs: tests/systems',
 }
 PAIRS = [

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic
-from ros2cc_extract.extract.launch.actions import Action
-from ros2cc_extract.extract.launch.context import Context
 from ros2cc_extract.extract.launch.execution import Execution, shown_path
-from ros2cc_extract.extract.launch.frontend import XML, YAML, read_frontend
-from ros2cc_extract.extract.launch.packages import Packages
-from ros2cc_extract.extract.launch.python_files import read_python
+from ros2cc_extract.extract.launch.language.actions import Action
+from ros2cc_extract.extract.launch.language.context import Context
+from ros2cc_extract.extract.launch.markup.files import XML, YAML, read_frontend
+from ros2cc_extract.extract.launch.python.files import read_python
+from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.files import Files
 from ros2cc_extract.spec.system.launched import Launched
 

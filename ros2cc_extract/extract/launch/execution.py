@@ -14,7 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.launch.actions import (
+from ros2cc_extract.extract.launch.language.actions import (
     Action,
     Computed,
     Declare,
@@ -28,11 +28,11 @@ from ros2cc_extract.extract.launch.actions import (
     StartProcess,
     Unfollowed,
 )
-from ros2cc_extract.extract.launch.context import Context, Value
-from ros2cc_extract.extract.launch.evaluation import Evaluator
-from ros2cc_extract.extract.launch.packages import Packages
+from ros2cc_extract.extract.launch.language.context import Context, Value
+from ros2cc_extract.extract.launch.language.evaluation import Evaluator
+from ros2cc_extract.extract.launch.language.substitutions import Expression
 from ros2cc_extract.extract.launch.process_facts import ProcessFacts
-from ros2cc_extract.extract.launch.substitutions import Expression
+from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.source_locations import Place, Unknown, shown_name
 from ros2cc_extract.spec.system.launched import Launched
 from ros2cc_extract.spec.system.names import Remap, joined_namespace

@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from ros2cc_extract.extract.launch.actions import (
+from ros2cc_extract.extract.launch.language.actions import (
     Constant,
     FromFile,
     ParameterSource,
     StartNode,
     StartProcess,
 )
-from ros2cc_extract.extract.launch.context import Context, Value
-from ros2cc_extract.extract.launch.evaluation import Evaluator
-from ros2cc_extract.extract.launch.packages import Packages
+from ros2cc_extract.extract.launch.language.context import Context, Value
+from ros2cc_extract.extract.launch.language.evaluation import Evaluator
+from ros2cc_extract.extract.launch.language.substitutions import Expression
 from ros2cc_extract.extract.launch.parameter_files import parameters_in, read_value
-from ros2cc_extract.extract.launch.substitutions import Expression
+from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.source_locations import Place, Unknown, shown_name
 from ros2cc_extract.spec.system.launched import Launched, SetParameter
 from ros2cc_extract.spec.system.names import Remap, joined_namespace, read_remap

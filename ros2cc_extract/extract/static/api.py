@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.given_parameters import NONE_GIVEN, GivenParameters
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 from ros2cc_extract.files import DISK, Files

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2cc_extract.extract.launch.packages import Executable, Packages
+from ros2cc_extract.extract.launch.workspace.packages import Executable, Packages
 from ros2cc_extract.files import DISK
 from tests.unit.launch.following import package
 

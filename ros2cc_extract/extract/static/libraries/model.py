@@ -20,11 +20,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     executors,
     groups,
     nodes,
-    qos,
     shutdown,
     spinning_helpers,
     spins,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.values import parameters, qos
 from ros2cc_extract.extract.static.libraries.standard import (
     asyncio_loops,
     futures,
@@ -100,6 +100,7 @@ def model() -> LibraryModel:
             groups.TABLE,
             clocks.TABLE,
             nodes.TABLE,
+            parameters.TABLE,
             executors.TABLE,
             spins.TABLE,
             clients.TABLE,

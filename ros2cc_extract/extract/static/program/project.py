@@ -10,7 +10,7 @@ from pathlib import Path
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.diagnostics import Diagnostic, unreadable_folder
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.given_parameters import NONE_GIVEN
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN
 from ros2cc_extract.extract.static.program.source import SourceFile
 from ros2cc_extract.extract.static.program.workspace import home_of
 from ros2cc_extract.files import DISK, Files, OnError

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from ros2cc_extract.extract.given_parameters import NONE_GIVEN
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     NodeState,
@@ -21,6 +20,7 @@ from ros2cc_extract.extract.static.program.call_order import (
     leading_to_entities,
 )
 from ros2cc_extract.extract.static.program.entry_points import Entry
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.relevance import creates_entities
 from ros2cc_extract.extract.static.program.text_queries import is_test, walk

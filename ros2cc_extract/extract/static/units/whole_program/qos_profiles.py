@@ -7,7 +7,7 @@ and volatile; the presets as ``rclpy.qos`` of that release has them.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.libraries.rclpy.tables.qos import ProfileState
+from ros2cc_extract.extract.static.libraries.rclpy.values.qos import ProfileState
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,

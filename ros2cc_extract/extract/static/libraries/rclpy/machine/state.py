@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2cc_extract.extract.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,
     ConcurrentWorld,
@@ -12,6 +11,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     Over,
     TimedJoin,
 )
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of

@@ -2,7 +2,7 @@
 launch and launch_ros as a table for the interpreter: objects that keep how they were made.
 
 Source: launch, launch_ros (Jazzy). Classes are known by their last name, in whichever module of
-these packages they stand. What an object means is told by ``python_values.py``, once the file was
+these packages they stand. What an object means is told by ``values.py``, once the file was
 followed to its end, since lists may be filled behind its making.
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros2cc_extract.extract.launch import paths
+from ros2cc_extract.extract.launch.python import paths
 from ros2cc_extract.extract.static.python.builtins import builtin_functions
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.library_table import (

@@ -7,7 +7,7 @@ blanks, may be quoted, and may hold further substitutions.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.launch.substitutions import (
+from ros2cc_extract.extract.launch.language.substitutions import (
     Configuration,
     Evaluated,
     Expression,

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros2cc_extract.extract.launch.cmake import installed_programs, targets_of
+from ros2cc_extract.extract.launch.workspace.cmake import installed_programs, targets_of
 from ros2cc_extract.extract.static.program.entry_points import script_files
 from ros2cc_extract.files import Files
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
-from ros2cc_extract.extract.launch.actions import ParameterSource
+from ros2cc_extract.extract.launch.language.actions import ParameterSource
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.names import Remap
 

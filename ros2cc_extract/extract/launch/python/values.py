@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.launch.actions import (
+from ros2cc_extract.extract.launch.language.actions import (
     Condition,
     Constant,
     FromFile,
     Given,
     ParameterSource,
 )
-from ros2cc_extract.extract.launch.python_table import Made
-from ros2cc_extract.extract.launch.substitutions import (
+from ros2cc_extract.extract.launch.language.substitutions import (
     Configuration,
     Evaluated,
     Expression,
@@ -27,6 +26,7 @@ from ros2cc_extract.extract.launch.substitutions import (
     text,
     unresolved,
 )
+from ros2cc_extract.extract.launch.python.table import Made
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ros2cc_extract.extract.launch.actions import (
+from ros2cc_extract.extract.launch.language.actions import (
     Action,
     Condition,
     Declare,
@@ -28,9 +28,9 @@ from ros2cc_extract.extract.launch.actions import (
     StartProcess,
     Unfollowed,
 )
-from ros2cc_extract.extract.launch.elements import Element, read_xml, read_yaml
-from ros2cc_extract.extract.launch.frontend_text import parsed
-from ros2cc_extract.extract.launch.substitutions import Expression, Text
+from ros2cc_extract.extract.launch.language.substitutions import Expression, Text
+from ros2cc_extract.extract.launch.markup.elements import Element, read_xml, read_yaml
+from ros2cc_extract.extract.launch.markup.texts import parsed
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Place, Unknown
 

@@ -7,14 +7,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.launch import paths
-from ros2cc_extract.extract.launch.actions import Action, Unfollowed
-from ros2cc_extract.extract.launch.context import Context
-from ros2cc_extract.extract.launch.evaluation import Evaluator
-from ros2cc_extract.extract.launch.packages import Packages
-from ros2cc_extract.extract.launch.python_actions import Actions
-from ros2cc_extract.extract.launch.python_table import CONTEXT, PREFIX, launch_model
-from ros2cc_extract.extract.launch.python_values import Values
+from ros2cc_extract.extract.launch.language.actions import Action, Unfollowed
+from ros2cc_extract.extract.launch.language.context import Context
+from ros2cc_extract.extract.launch.language.evaluation import Evaluator
+from ros2cc_extract.extract.launch.python import paths
+from ros2cc_extract.extract.launch.python.actions import Actions
+from ros2cc_extract.extract.launch.python.table import CONTEXT, PREFIX, launch_model
+from ros2cc_extract.extract.launch.python.values import Values
+from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 from ros2cc_extract.extract.static.program.source import SourceFile

@@ -11,10 +11,10 @@ import os
 from collections.abc import Callable
 from pathlib import Path as FilePath
 
-from ros2cc_extract.extract.launch.actions import Condition
-from ros2cc_extract.extract.launch.context import Context, Value
-from ros2cc_extract.extract.launch.expressions import computed
-from ros2cc_extract.extract.launch.substitutions import (
+from ros2cc_extract.extract.launch.language.actions import Condition
+from ros2cc_extract.extract.launch.language.context import Context, Value
+from ros2cc_extract.extract.launch.language.expressions import computed
+from ros2cc_extract.extract.launch.language.substitutions import (
     Configuration,
     Evaluated,
     Expression,

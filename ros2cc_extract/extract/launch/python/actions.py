@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.launch.actions import (
+from ros2cc_extract.extract.launch.language.actions import (
     Action,
     Computed,
     Condition,
@@ -21,9 +21,9 @@ from ros2cc_extract.extract.launch.actions import (
     StartProcess,
     Unfollowed,
 )
-from ros2cc_extract.extract.launch.python_table import ADDED, DESCRIPTION
-from ros2cc_extract.extract.launch.python_values import Values, made, why_open
-from ros2cc_extract.extract.launch.substitutions import text
+from ros2cc_extract.extract.launch.language.substitutions import text
+from ros2cc_extract.extract.launch.python.table import ADDED, DESCRIPTION
+from ros2cc_extract.extract.launch.python.values import Values, made, why_open
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
