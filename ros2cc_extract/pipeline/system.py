@@ -132,10 +132,11 @@ class _Builder:
         return self._scans[key]
 
     def _name(self, launched: Launched) -> str:
-        words = launched.executable or next(iter(launched.command[-1:]), '')
-        last = next((w for w in launched.command if w.endswith('.py')), words)
-        given = launched.name if isinstance(launched.name, str) else None
-        name = given or (str(last).rpartition('/')[2] if isinstance(last, str) else 'process')
+        file = next((w for w in reversed(launched.command) if w.endswith('.py')), '')
+        words = file or ''.join(launched.command[:1])
+        facts = (launched.name, launched.executable, words)
+        told = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
+        name = told.rpartition('/')[2] or told
         number = self._names[name] = self._names.get(name, 0) + 1
         return name if number == 1 else f'{name}_{number}'
 

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import add_cache_argument
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_UNDECIDED
+
+if TYPE_CHECKING:
+    from ros2cc_extract.spec.system.model import System
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,6 +20,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs='*',
         metavar='PATH|ARG:=VALUE',
         help='a launch file (Python, XML or YAML), or an argument of it',
+    )
+    parser.add_argument(
+        '--output-format',
+        choices=['yaml', 'json', 'mermaid', 'dot'],
+        default='yaml',
+        help='the specification, or a picture (default %(default)s)',
     )
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
     add_cache_argument(parser)
@@ -32,7 +42,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.pipeline.sources import print_diagnostics
     from ros2cc_extract.pipeline.system import divided
     from ros2cc_extract.pipeline.system_sources import scan_launch_files
-    from ros2cc_extract.spec.system.system_yaml import system_schema, write_system
+    from ros2cc_extract.spec.system.system_yaml import system_schema
 
     if args.schema:
         stdout.write(system_schema())
@@ -42,6 +52,19 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         raise InputError('no path given', None, 'name a launch file')
     scanned = scan_launch_files(paths, arguments, stderr, cached=not args.no_cache, files=DISK)
     print_diagnostics(scanned.extraction.diagnostics, stderr)
-    write_text(write_system(scanned.system), args.output, stdout)
+    write_text(_written(scanned.system, args.output_format), args.output, stdout)
     is_open = bool(scanned.system.unresolved)
     return EXIT_UNDECIDED if args.strict and is_open else EXIT_CLEAN
+
+
+def _written(system: System, form: str) -> str:
+    from ros2cc_extract.report.system_pictures import dot, mermaid
+    from ros2cc_extract.spec.system.system_yaml import system_data, write_system
+
+    if form == 'mermaid':
+        return mermaid(system)
+    if form == 'dot':
+        return dot(system)
+    if form == 'json':
+        return json.dumps(system_data(system), indent=2) + '\n'
+    return write_system(system)

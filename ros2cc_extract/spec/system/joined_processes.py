@@ -50,7 +50,7 @@ def circles_of(system: System) -> Circles:
     """Find the processes that wait for each other, and put each circle into one unit."""
     found: list[Joined] = []
     left: list[tuple[tuple[Process, ...], Unknown]] = []
-    for circle in _circles(system):
+    for circle in circles_in(system):
         why = next(filter(None, map(_why_not, circle)), None)
         one = _joined(circle) if why is None else why
         if isinstance(one, Joined):
@@ -60,7 +60,7 @@ def circles_of(system: System) -> Circles:
     return Circles(joined=tuple(found), open=tuple(left))
 
 
-def _circles(system: System) -> Iterator[list[Process]]:
+def circles_in(system: System) -> Iterator[list[Process]]:
     """Sets of several processes, each of which needs each other one."""
     offered = {
         (each.what, each.name): {
