@@ -136,7 +136,7 @@ class _Builder:
         words = file or ''.join(launched.command[:1])
         facts = (launched.name, launched.executable, words)
         told = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
-        name = told.rpartition('/')[2] or told
+        name = (told.rpartition('/')[2] or told).removesuffix('.py')
         number = self._names[name] = self._names.get(name, 0) + 1
         return name if number == 1 else f'{name}_{number}'
 

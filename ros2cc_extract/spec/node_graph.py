@@ -93,6 +93,7 @@ class NodeGraph:
     :param entry: where its program starts, as of a unit.
     :param parameters: names that the code declares or asks for; ``None`` where not all are known.
     :param open: why it may have more endpoints than these.
+    :param apart: why names and remaps that its process is told may not reach it.
     """
 
     name: str | Unknown
@@ -101,4 +102,5 @@ class NodeGraph:
     endpoints: tuple[Endpoint, ...] = ()
     parameters: tuple[str, ...] | None = ()
     open: Unknown | None = None
+    apart: Unknown | None = None
     source: Place | None = None

@@ -3,15 +3,17 @@ Processes that wait for each other in a circle, as one unit.
 
 A unit's verdict rests on the assumption that what is outside of it answers. Where a process needs
 another one, and that one needs the first, neither verdict can bear the other: these processes, and
-no others, are put into one network. What they call each other is told by the graph, and each part
-of theirs has the name of its process before it.
+no others, are put into one network. What they call each other is told by the graph; parts of
+one name have that of their process before it.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.identifiers import mend
@@ -115,7 +117,7 @@ class ServiceWait:
 def service_waits(process: Process) -> Iterator[ServiceWait]:
     """The waits of a process for answers."""
     for unit in process.units:
-        names = _Names(process, unit, '')
+        names = _Names(process, unit)
         clients = {each.name: each for each in unit.callbacks if each.entity in _CLIENTS}
         doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
         for doer in doers:
@@ -138,6 +140,9 @@ def _why_not(process: Process) -> Unknown | None:
     if process.launched.conditional is not None:
         doubt = process.launched.conditional
         return Unknown(f'{process.name} may not be started: {doubt.reason}', doubt.at)
+    if not process.launched.is_beside_others:
+        later = process.launched.later
+        return Unknown(f'{process.name} is begun by the {later}', process.launched.source)
     for unit in process.units:
         executor = unit.executor
         is_known = isinstance(executor.kind, str) and executor.kind in KINDS
@@ -151,12 +156,16 @@ def _why_not(process: Process) -> Unknown | None:
 
 def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
+    shared = _shared_names([unit for process in circle for unit in process.units])
     parts = [
-        _renamed(process, unit, number)
+        _renamed(process, unit, _prefix(process, number), shared)
         for process in circle
         for number, unit in enumerate(process.units)
     ]
-    whole = _whole(parts)
+    try:
+        whole = _whole(parts)
+    except SpecFormatError as error:
+        return Unknown(str(error))
     found = joined(whole, parts)
     if found is None:
         why = why_not_joined(whole, parts)
@@ -189,19 +198,26 @@ def _whole(parts: Sequence[Spec]) -> Spec:
 class _Names:
     """The names that the parts of one unit have in the system."""
 
-    def __init__(self, process: Process, unit: Spec, prefix: str) -> None:
+    def __init__(
+        self,
+        process: Process,
+        unit: Spec,
+        prefix: str = '',
+        shared: frozenset[str] = frozenset(),
+    ) -> None:
         self._nodes: dict[str, SystemNode] = {
             node.own_name: node for node in process.nodes if isinstance(node.own_name, str)
         }
         self._prefix = prefix
+        self._shared = shared
         self._own = {
             *(each.name for each in unit.callbacks),
             *(each.name for each in unit.activities),
         }
 
     def name(self, name: str) -> str:
-        """A name of the unit, with that of its process before it."""
-        return f'{self._prefix}{name}'
+        """A name of the unit, with that of its process before it where others have it too."""
+        return f'{self._prefix}{name}' if name in self._shared else name
 
     def doer(self, name: str) -> str:
         """A callback or activity; time and what is outside have no process."""
@@ -237,10 +253,32 @@ class _Names:
         return Unknown('its name in the system is not known')
 
 
-def _renamed(process: Process, unit: Spec, number: int) -> Spec:
+def _prefix(process: Process, number: int) -> str:
     label = mend(process.name.replace('.', '_'))
-    prefix = f'{label}_' if len(process.units) == 1 else f'{label}_{number}_'
-    names = _Names(process, unit, prefix)
+    return f'{label}_' if len(process.units) == 1 else f'{label}_{number}_'
+
+
+def _shared_names(units: Sequence[Spec]) -> frozenset[str]:
+    """What parts of several units are called; the others keep their names."""
+    counted = Counter(name for unit in units for name in set(_names_in(unit)))
+    return frozenset(name for name, number in counted.items() if number > 1)
+
+
+def _names_in(unit: Spec) -> Iterator[str]:
+    yield from unit.nodes
+    yield unit.name
+    yield from (each.name for each in unit.callbacks)
+    yield from (each.name for each in unit.groups)
+    yield from (each.name for each in unit.activities)
+    doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
+    for doer in doers:
+        yield from (act.name for act in doer.locks if isinstance(act.name, str))
+        for block in doer.blocking:
+            yield from (block.resource, *block.held) if block.resource else block.held
+
+
+def _renamed(process: Process, unit: Spec, prefix: str, shared: frozenset[str]) -> Spec:
+    names = _Names(process, unit, prefix, shared)
     return replace(
         unit,
         name=names.name(unit.name),

@@ -10,6 +10,8 @@ from ros2cc_extract.spec.system.names import Remap
 Fact = str | Unknown
 """A text, or why it could not be told."""
 ANY_NODE = '/**'
+TIMER, START_OF_PROCESS = 'timer', 'start of a process'
+_BESIDE = ('', TIMER, START_OF_PROCESS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,3 +55,8 @@ class Launched:
     conditional: Unknown | None = None
     later: str = ''
     open: tuple[tuple[str, Unknown], ...] = ()
+
+    @property
+    def is_beside_others(self) -> bool:
+        """Whether it runs beside what the launch starts at once, and not only behind its end."""
+        return self.later in _BESIDE

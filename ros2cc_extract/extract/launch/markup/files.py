@@ -33,6 +33,7 @@ from ros2cc_extract.extract.launch.markup.elements import Element, read_xml, rea
 from ros2cc_extract.extract.launch.markup.texts import parsed
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.system.launched import TIMER
 
 _MOST_BYTES = 1_000_000
 _HARMLESS = frozenset(
@@ -160,7 +161,7 @@ def _group(element: Element) -> Action:
 
 def _timer(element: Element) -> Action:
     inner = tuple(_all(element.children))
-    return Group(place=element.place, actions=inner, scoped=False, later='timer')
+    return Group(place=element.place, actions=inner, scoped=False, later=TIMER)
 
 
 def _load(element: Element) -> Action:

@@ -38,6 +38,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.system.launched import START_OF_PROCESS, TIMER
 
 _NODES = {
     'Node': 'node',
@@ -46,7 +47,7 @@ _NODES = {
     'ComposableNode': 'composable',
 }
 _EVENTS = {
-    'OnProcessStart': ('target_action', 'on_start', 'start of a process'),
+    'OnProcessStart': ('target_action', 'on_start', START_OF_PROCESS),
     'OnProcessExit': ('target_action', 'on_exit', 'end of a process'),
     'OnProcessIO': ('target_action', 'on_stdout', 'output of a process'),
     'OnExecutionComplete': ('target_action', 'on_completion', 'end of an action'),
@@ -273,7 +274,7 @@ class Actions:
 
     def _timer(self, call: Call) -> Action:
         given = call.argument(1, 'actions')
-        return self._later(given, call, 'timer')
+        return self._later(given, call, TIMER)
 
     def _later(self, given: Value | None, call: Call, what: str) -> Action:
         """What an event begins; a function gives it where that is written instead of a list."""

@@ -14,7 +14,8 @@ def find(system: System) -> Iterator[Hit]:
     known: dict[str, tuple[Process, SystemNode]] = {}
     told: set[str] = set()
     for process in system.processes:
-        if process.launched.conditional is not None:
+        launched = process.launched
+        if launched.conditional is not None or not launched.is_beside_others:
             continue
         for node in process.nodes:
             if not isinstance(node.name, str) or node.name in told:

@@ -49,6 +49,9 @@ def graphs_of(world: RosWorld, entry: str | None) -> Iterator[NodeGraph]:
             parameters=_parameters(node),
             open=Unknown(*more[0]) if more else _cut(world),
             source=node.state.begun or node.place,
+            apart=Unknown('the node has arguments of its own', node.place)
+            if node.state.has_own_arguments
+            else None,
         )
 
 

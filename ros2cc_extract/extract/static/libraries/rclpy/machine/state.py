@@ -52,6 +52,7 @@ class NodeState(LibraryState):
     :param namespace: value of that argument.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
     :param takes_any_parameter: its code may ask for parameters whose names are not in sight.
+    :param has_own_arguments: it is made with arguments that stand for those of its process.
     :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
     :param more: why it may have entities that we do not see.
     :param begun: the call of ``Node.__init__``.
@@ -72,6 +73,7 @@ class NodeState(LibraryState):
     rate_group: Instance | None = None
     has_parameter_services: bool = True
     takes_any_parameter: bool = False
+    has_own_arguments: bool = False
     parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False

@@ -69,11 +69,14 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 NODE = 'rclpy.node.Node'
+_OWN_ARGUMENTS = ('use_global_arguments', 'cli_args', 'context')
 _UNDECLARED = (
     'allow_undeclared_parameters',
     'automatically_declare_parameters_from_overrides',
     'parameter_overrides',
+    *_OWN_ARGUMENTS,
 )
+
 _BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
 
@@ -185,14 +188,20 @@ def init_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
         _note_begun_again(machine, receiver, call)
         state = receiver.state
         state.name = call.argument(0, 'node_name') or NONE
-        state.namespace = call.argument(None, 'namespace')
-        state.takes_any_parameter = any(map(call.keywords.__contains__, _UNDECLARED))
+        _note_arguments(state, call)
         state.has_parameter_services = option_of_node(
             machine, 'start_parameter_services', call, default=True
         )
         machine.store.remove(receiver, DEFAULT_GROUP)
         add_builtins_of_node(machine, receiver, call)
     return NONE
+
+
+def _note_arguments(state: NodeState, call: Call) -> None:
+    """Its namespace, and what keeps the arguments of its process from it."""
+    state.namespace = call.argument(None, 'namespace')
+    state.has_own_arguments = any(map(call.keywords.__contains__, _OWN_ARGUMENTS))
+    state.takes_any_parameter = any(map(call.keywords.__contains__, _UNDECLARED))
 
 
 def _note_begun_again(machine: RosMachine, node: Instance, call: Call) -> None:
@@ -295,7 +304,7 @@ def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node.state = make_node(machine, node)
     remember(machine, node, call)
     node.state.name = call.argument(0, 'node_name')
-    node.state.namespace = call.argument(None, 'namespace')
+    _note_arguments(node.state, call)
     add_builtins_of_node(machine, node, call)
     machine.world.instances.append(node)
     return node

@@ -56,7 +56,7 @@ def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
         text = f'{text} (default {default.value!r})'
     made = Instance(Name('rclpy.parameter.Parameter'), call.place)
     value: Value = Mystery(Unknown(f'value of {text}', call.place), text, default)
-    if default is not None and _is_settled(machine, name):
+    if default is not None and _is_settled(machine, receiver, name):
         value = default
     made.state = PlainState('parameter', value)
     return made
@@ -70,10 +70,12 @@ def _given(machine: RosMachine, name: object, default: Value | None) -> Value | 
     return default if given is None else Const(given)
 
 
-def _is_settled(machine: RosMachine, name: Value | None) -> bool:
+def _is_settled(machine: RosMachine, node: Instance, name: Value | None) -> bool:
     """Whether a launch sets it, and it is read before anybody may set it anew."""
     given = machine.world.parameters
     is_given = isinstance(name, Const) and (given.are_all or str(name.value) in given.values)
+    if node.state.takes_any_parameter:
+        return False
     return is_given and machine.world.when is When.START and not machine.world.in_callback
 
 
