@@ -109,6 +109,12 @@ def cancelled(future: Value, call: Call) -> Answer:
     return Answer(Unknown(_ASKED, call.place), call.text or '', told)
 
 
+def known_if_true(fact: tuple[Value, Word], call: Call) -> Answer:
+    """A truth that nobody waits for, and what it tells."""
+    told = Told(knows=frozenset({fact}))
+    return Answer(Unknown('a transform at run time', call.place), call.text or '', told)
+
+
 def running(future: Value, call: Call) -> Answer:
     """Whether ``future`` is worked at just now."""
     told = Told(breaks=frozenset({(future, Word.SET)}))
