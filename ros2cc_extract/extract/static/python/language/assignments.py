@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
+from ros2cc_extract.extract.static.python.branching import narrowed_types
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -42,6 +43,8 @@ class Assignments(Machine):
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Store ``value`` in a name, attribute, item or pattern of them."""
         self.world.reading.stored = value
+        if frame.narrowed:
+            narrowed_types.forget(self, target, frame)
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):

@@ -6,7 +6,7 @@ import ast
 from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
-from ros2cc_extract.extract.static.python.branching import open_tests
+from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -41,7 +41,10 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
-    return machine.call(function, call)
+    result = machine.call(function, call)
+    if isinstance(function, Native) and function.name == 'builtins.isinstance':
+        return narrowed_types.told(machine, node, function, call, result, frame)
+    return result
 
 
 def _called(machine: Machine, node: ast.expr, frame: Frame) -> Value:

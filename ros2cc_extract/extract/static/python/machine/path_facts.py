@@ -37,6 +37,8 @@ class Word(Enum):
     ARRIVE = 'arrive'
     END = 'end'
     WRITE = 'write'
+    OTHER = 'other'
+    """Of what an expression does not stand for."""
 
 
 Facts = frozenset[tuple[Value, Word]]
