@@ -36,9 +36,7 @@ rclpy.spin_once(node)
 node.run()
 """
 START = 'self.worker.start()\n        '
-TRY = (
-    'try:\n            self.speed = float(input())\n        finally:\n            self.going = False'
-)
+TRY = 'try:\n            self.speed = 2.0\n        finally:\n            self.going = False'
 
 
 def enders(does: str) -> list[str]:

@@ -123,8 +123,8 @@ class EntityState(Doer, LibraryState):
     :param ran: how many of its functions were followed; -1 before any is.
     :param maker: the callback or activity that makes it, if any does.
     :param part_of: the subscription whose event it handles.
-    :param called_under: the lock that a library holds while it calls one of the functions, ``None``
-        where it depends on the caller.
+    :param called_under: the lock that a library holds while it calls one of the functions;
+        ``None`` where it depends on the caller.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
     """
