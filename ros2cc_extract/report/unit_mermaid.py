@@ -133,7 +133,9 @@ def _group_title(group: CallbackGroup) -> str:
 
 def _callback_title(callback: Callback) -> str:
     kind = callback.entity.value.replace('_', ' ') if callback.entity else callback.type.value
-    return f'{callback.display_name}<br/>{kind}{_subject(callback)}'
+    name = callback.display_name
+    # A client is called by its service, and has no more to say.
+    return name if name.startswith(f'{kind} ') else f'{name}<br/>{kind}{_subject(callback)}'
 
 
 def _subject(callback: Callback) -> str:

@@ -16,6 +16,7 @@ from enum import Enum
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Access, Act, Blocking, Waker
+from ros2cc_extract.spec.function_names import name_in_module
 
 
 class CallbackType(Enum):
@@ -148,6 +149,9 @@ class Measured:
     duration: Distribution | None = None
 
 
+_CLIENT_WORDS = {EntityKind.CLIENT: 'client', EntityKind.ACTION_CLIENT: 'action client'}
+
+
 @dataclass(frozen=True, kw_only=True)
 class Callback:
     """
@@ -211,17 +215,18 @@ class Callback:
     @property
     def display_name(self) -> str:
         """
-        How the callback is called in text for people: its function, else its name.
+        How the callback is called in text for people: ``Arm.on_goal``, ``client 'plan'``.
 
         An action server has up to three functions, of which ``function`` is the first.
         """
-        function = self.function_name
-        if function is None or self.entity is EntityKind.ACTION_SERVER:
-            return self.name
+        function = name_in_module(self.function, self.defined)
         if function == '<lambda>':
             at = self.defined or self.source
             return f'lambda at line {at.line}' if at else self.name
-        return function
+        if function is not None and self.entity is not EntityKind.ACTION_SERVER:
+            return function
+        words = _CLIENT_WORDS.get(self.entity) if self.entity else None
+        return f'{words} {self.key!r}' if words and isinstance(self.key, str) else self.name
 
     @property
     def function_name(self) -> str | None:
@@ -290,7 +295,7 @@ class Activity:
     @property
     def display_name(self) -> str:
         """How it is called in text for people: its function, else its name."""
-        function = self.function.rpartition('.')[2] if self.function else None
+        function = name_in_module(self.function, self.defined)
         return self.name if function is None or function == '<lambda>' else function
 
 
@@ -317,6 +322,13 @@ class CallbackGroup:
     unresolved: Unknown | None = None
     assumed: str | None = None
     source: Place | None = None
+
+    @property
+    def display_name(self) -> str:
+        """How it is called in text for people, as ``the default group of 'arm'``."""
+        if self.default and self.node:
+            return f'the default group of {self.node!r}'
+        return 'the default group' if self.default else f'group {self.name!r}'
 
 
 NO_EXECUTOR = 'no executor or spin found for this node'

@@ -30,7 +30,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_linter_fails_at_the_line_that_hangs(package: Path) -> None:
     rc, errors = main_with_errors([])
     assert rc == 1
-    assert [error.partition(' drive')[0] for error in errors] == [f'{NODE}:44:9: CC101']
+    assert [error.partition(' Navigator.drive')[0] for error in errors] == [f'{NODE}:44:9: CC101']
 
 
 def test_linter_passes_the_mended_package(package: Path) -> None:

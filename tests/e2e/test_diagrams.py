@@ -43,8 +43,8 @@ flowchart LR
     subgraph side_0["before"]
         s0u0_executor(["MultiThreadedExecutor, 2 threads (before.py:16), spin"])
         subgraph s0u0_grip_default["grip_default: mutually exclusive"]
-            s0u0_ask["ask<br/>timer every 0.1 s"]
-            s0u0_safe_client["safe_client<br/>client safe"]
+            s0u0_ask["Grip.ask<br/>timer every 0.1 s"]
+            s0u0_safe_client["client 'safe'"]
         end
         s0u0_executor --> s0u0_grip_default
         s0u0_ask -. "client.call" .-> s0u0_safe_client
@@ -52,11 +52,11 @@ flowchart LR
     subgraph side_1["after"]
         s1u0_executor(["MultiThreadedExecutor, 2 threads (after.py:16), spin"])
         subgraph s1u0_safe_client_group["safe_client_group: reentrant"]
-            s1u0_safe_client["safe_client<br/>client safe"]
+            s1u0_safe_client["client 'safe'"]
         end
         s1u0_executor --> s1u0_safe_client_group
         subgraph s1u0_grip_default["grip_default: mutually exclusive"]
-            s1u0_ask["ask<br/>timer every 0.1 s"]
+            s1u0_ask["Grip.ask<br/>timer every 0.1 s"]
         end
         s1u0_executor --> s1u0_grip_default
         s1u0_ask -. "client.call" .-> s1u0_safe_client

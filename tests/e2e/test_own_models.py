@@ -66,7 +66,7 @@ def test_a_specification_is_asked_other_queries_on_its_plain_text(run: Run) -> N
     outcome = run('verify', CASE_2, '--query', 'A[] not (cb_running(0) and thread_running[1])')
     assert (outcome.status, verdicts(outcome.out)) == (0, ['no'])
     assert 'paper plain model' in outcome.out
-    assert 'on_timer_a starts on thread_1; group group closes' in outcome.out
+    assert "PaperCase2.on_timer_a starts on thread_1; group 'group' closes" in outcome.out
 
 
 def test_a_query_that_is_none_is_refused_by_its_place(run: Run) -> None:
@@ -83,7 +83,10 @@ def test_a_run_that_uppaal_saved_is_told(run: Run, tmp_path: Path, form: str) ->
     lines = told.out.splitlines()
     assert told.status == 0
     assert 'and then forever:' in told.out
-    assert ' '.join(lines[0].split()) == '1 executor polls and sees on_msg_d ready node.py:49'
+    assert (
+        ' '.join(lines[0].split())
+        == '1 executor polls and sees PaperCase2.on_msg_d ready node.py:49'
+    )
     assert all(line.strip() in written.out for line in lines)
 
 

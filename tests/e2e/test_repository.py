@@ -174,7 +174,9 @@ def test_action_annotates_the_line_that_hangs(repository: Path, tmp_path: Path) 
     (repository / NODE).write_text(DEADLOCK)
     done, output = check_step(repository, tmp_path)
     assert done.returncode == 1
-    assert done.stdout.startswith(f'::error file={NODE},line=44,col=9,title=CC101::drive waits')
+    assert done.stdout.startswith(
+        f'::error file={NODE},line=44,col=9,title=CC101::Navigator.drive waits'
+    )
     assert output.read_text() == 'status=1\n'
     assert '| CC101 | `arm/node.py:44` |' in (tmp_path / 'summary.md').read_text()
 
@@ -261,7 +263,9 @@ def test_action_takes_paths_of_several_lines(repository: Path, tmp_path: Path) -
 def test_action_reads_windows_line_ends(repository: Path, tmp_path: Path) -> None:
     (repository / NODE).write_bytes(DEADLOCK.replace('\n', '\r\n').encode())
     done, _ = check_step(repository, tmp_path)
-    assert done.stdout.startswith(f'::error file={NODE},line=44,col=9,title=CC101::drive waits')
+    assert done.stdout.startswith(
+        f'::error file={NODE},line=44,col=9,title=CC101::Navigator.drive waits'
+    )
     assert '\r' not in done.stdout
 
 
@@ -378,7 +382,7 @@ def test_doctor_tells_what_hangs_in_the_package_one_stands_in(
     monkeypatch.chdir(repository)
     check = entry('ros2doctor.checks', 'CallbackCheck')()  # type: ignore[operator]
     assert (check.category(), check.check()) == ('callbacks', Counts(error=1))
-    assert [text.partition(' drive')[0] for text in doctor] == [f'{NODE}:44:9: CC101']
+    assert [text.partition(' Navigator.drive')[0] for text in doctor] == [f'{NODE}:44:9: CC101']
 
 
 def test_doctor_has_no_opinion_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

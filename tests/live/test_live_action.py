@@ -50,6 +50,6 @@ def test_action_is_the_same_with_the_hook_and_without(
         if callback.entity is not EntityKind.DONE_CALLBACK
     } == {
         (EntityKind.ACTION_SERVER, 'count', 'count_action_server'),
-        (EntityKind.ACTION_CLIENT, 'count', 'count_action_client'),
-        (EntityKind.ACTION_EXECUTE, 'count', 'execute'),
+        (EntityKind.ACTION_CLIENT, 'count', "action client 'count'"),
+        (EntityKind.ACTION_EXECUTE, 'count', 'Server.execute'),
     }

@@ -81,7 +81,7 @@ def test_action_server_without_a_name_is_unknown_and_has_its_execute_callback(
     spec = attach(child, tmp_path)
     server, execute = (c for c in spec.callbacks if (c.key is not None and not c.builtin))
     assert server.key == Unknown('rclpy does not keep the name of an action server')
-    assert (execute.display_name, execute.groupless) == ('execute', True)
+    assert (execute.function_name, execute.groupless) == ('execute', True)
 
 
 def test_process_that_is_not_there_is_told(tmp_path: Path) -> None:

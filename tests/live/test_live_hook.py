@@ -95,7 +95,7 @@ def test_events_executor_is_seen(run: RunProgram) -> None:
     (unit,) = recorded.units.values()
     assert recorded.text == 'ticks 3\n'
     assert (unit.executor.kind, len(unit.executor.threads)) == ('EventsExecutor', 1)
-    assert {c.display_name for c in written(unit)} == {'tick', 'work'}
+    assert {c.function_name for c in written(unit)} == {'tick', 'work'}
     measured = named(unit, 'tick').measured
     assert measured is not None
     assert (measured.count, measured.running, measured.threads) == (3, 0, 1)
@@ -131,7 +131,7 @@ def test_specification_with_measurements_is_read_as_it_was_written(run: RunProgr
 
 def test_hidden_entities_and_groupless_work_are_recorded(run: RunProgram) -> None:
     (unit,) = run('everything_hidden.py').units.values()
-    assert {(c.entity, c.display_name, c.key, c.when) for c in written(unit)} == {
+    assert {(c.entity, c.function_name or c.name, c.key, c.when) for c in written(unit)} == {
         (EntityKind.TIMER, 'blink', None, When.CONFIGURE),
         (EntityKind.TIMER, 'rate_timer', None, When.START),
         (EntityKind.SERVICE, 'on_press', 'press', When.START),
@@ -162,7 +162,7 @@ def test_each_process_has_a_file_of_its_own(run: RunProgram) -> None:
 
 def test_entities_made_again_and_again_are_one_entry_with_a_count(run: RunProgram) -> None:
     unit = run('churning.py').units['churning']
-    idle = [c for c in written(unit) if c.display_name == 'idle' and c.node == 'churning']
+    idle = [c for c in written(unit) if c.function_name == 'idle' and c.node == 'churning']
     assert sum(c.count for c in idle if isinstance(c.count, int)) == 40
 
 

@@ -107,7 +107,7 @@ def kinds_in(folder: Path) -> Kinds:
     (recording,) = read_directory(folder, io.StringIO())
     (spec,) = specs_of(recording)
     return {
-        callback.display_name: load_of(spec, callback).kind
+        str(callback.function_name): load_of(spec, callback).kind
         for callback in spec.callbacks
         if callback.type is CallbackType.SUB and not callback.builtin
     }

@@ -46,7 +46,7 @@ def test_exception_of_a_callback_ends_the_program_as_before(
     assert RAISED in without.lines
     (recording,) = recordings_in(tmp_path)
     (unit,) = specs_of(recording)
-    assert [callback.display_name for callback in written(unit)] == ['tick']
+    assert [callback.function_name for callback in written(unit)] == ['tick']
 
 
 def test_ctrl_c_that_nobody_handles_ends_the_program(start: Start, tmp_path: Path) -> None:

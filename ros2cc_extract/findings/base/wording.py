@@ -9,13 +9,6 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, CallbackGroup, Executor
 
 
-def group_words(group: CallbackGroup) -> str:
-    """Say which group: ``the default group of 'arm'`` or ``group 'arm_group'``."""
-    if group.default and group.node:
-        return f'the default group of {group.node!r}'
-    return 'the default group' if group.default else f'group {group.name!r}'
-
-
 def listing(names: Iterable[str], limit: int = 6) -> str:
     """Join names in their order; many are cut with their number."""
     distinct = list(dict.fromkeys(names))
@@ -33,8 +26,10 @@ def called(doer: Callback | Activity) -> str:
     """A callback by its function; a thread by its name, and its function where that differs."""
     if isinstance(doer, Callback) or doer.kind is ActivityKind.MAIN:
         return doer.display_name
-    words = f'{_THREADS.get(doer.kind, "thread")} {doer.name}'
-    return words if doer.display_name == doer.name else f'{words} ({doer.display_name})'
+    kind, function = _THREADS.get(doer.kind, 'thread'), doer.display_name
+    if function.rpartition('.')[2] == doer.name:
+        return f'{kind} {function}'
+    return f'{kind} {doer.name} ({function})'
 
 
 _THREADS = {ActivityKind.TIMER: 'timer thread', ActivityKind.POOL: 'pool thread'}
@@ -65,7 +60,7 @@ def served_at(executor: Executor, place: Place) -> Iterator[Remark]:
 
 def _made_words(owner: Callback | CallbackGroup) -> str:
     if isinstance(owner, CallbackGroup):
-        return group_words(owner)
+        return owner.display_name
     kind = owner.entity.value.replace('_', ' ') if owner.entity else owner.type.value
     name = f' {owner.key!r}' if isinstance(owner.key, str) else ''
     owned = '' if owner.display_name == kind else f' of {owner.display_name}'

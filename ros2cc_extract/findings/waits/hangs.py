@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
@@ -24,37 +25,69 @@ class Standstill:
     """
     A wait that has not ended at the end of a run.
 
+    :param event: its begin.
     :param since: index of the moment in which it began.
-    :param needed: who ends it, in words; ``enders`` are their names.
-    :param thread: that it holds; ``None`` for an ``await``, and where no executor has it.
-    :param spins: true where it serves others on that thread meanwhile.
-    :param is_for_lock: ``needed`` holds the lock that is waited for.
-    :param wait: which of the waits of ``who`` in the model.
     """
 
-    who: str
-    needed: str
-    thread: str | None
+    event: Event
     since: int
-    spins: bool = False
-    is_for_lock: bool = False
-    enders: tuple[str, ...] = ()
-    wait: int | None = None
-    is_await: bool = False
 
     @property
-    def words(self) -> str:
-        """Say who waits for what."""
-        if self.is_await:
-            return f'{self.who} awaits {self.needed}'
+    def who(self) -> str:
+        """Name of the callback that waits."""
+        return self.event.who or ''
+
+    @property
+    def needed(self) -> str:
+        """Who or what ends it, in words; ``enders`` are their names."""
+        return self.event.awaited or ''
+
+    @property
+    def thread(self) -> str | None:
+        """That it holds; ``None`` for an ``await``, and where no executor has it."""
+        return None if self._is_await else self.event.thread
+
+    @property
+    def spins(self) -> bool:
+        """True where it serves others on that thread meanwhile."""
+        return self.event.is_spin
+
+    @property
+    def is_for_lock(self) -> bool:
+        """True where ``needed`` holds the lock that is waited for."""
+        return self.event.is_for_lock
+
+    @property
+    def enders(self) -> tuple[str, ...]:
+        """Names of those that can end it."""
+        return self.event.enders
+
+    @property
+    def wait(self) -> int | None:
+        """Which of the waits of ``who`` in the model."""
+        return self.event.wait
+
+    @property
+    def _is_await(self) -> bool:
+        return self.event.kind == _AWAIT
+
+    def said(self, names: Mapping[str, str]) -> str:
+        """Say who waits for what, with words for names of the model."""
+        who, needed = names.get(self.who, self.who), self.event.awaited_in(names)
+        if self._is_await:
+            return f'{who} awaits {needed}'
         verb = 'spins' if self.spins else 'waits'
         on_thread = f' on {self.thread}' if self.thread is not None else ''
-        what = f'the lock of {self.needed}' if self.is_for_lock else self.needed
-        return f'{self.who} {verb}{on_thread} for {what}'
+        what = f'the lock of {needed}' if self.is_for_lock else needed
+        return f'{who} {verb}{on_thread} for {what}'
 
 
 def show_hang(
-    run: Evidence, about: Collection[str], groups: Mapping[str, str], threads: Collection[str]
+    run: Evidence,
+    about: Collection[str],
+    groups: Mapping[str, str],
+    threads: Collection[str],
+    names: Mapping[str, str] = MappingProxyType({}),
 ) -> Evidence:
     """
     Leave out of a run what has no part in the waits of ``about``, and say what it ends in.
@@ -62,6 +95,7 @@ def show_hang(
     :param about: names of the callbacks that wait, and of those they wait for.
     :param groups: the mutually exclusive group of each callback that is in one.
     :param threads: all that the executor has.
+    :param names: words for names of the model.
     :return: the run as it was where it does not end in such a wait.
     """
     standing = open_waits(run.moments)
@@ -77,7 +111,7 @@ def show_hang(
         run,
         moments=tuple(_renumbered(run.moments, told)),
         left_out=len(run.moments) - len(told),
-        closing=_closing(waits, groups, is_full=is_full),
+        closing=_closing(waits, groups, names, is_full=is_full),
     )
 
 
@@ -86,28 +120,11 @@ def open_waits(moments: Sequence[Moment]) -> list[Standstill]:
     waits: list[Standstill] = []
     for index, event in _events(moments):
         if event.is_wait and event.who is not None and event.awaited is not None:
-            waits.append(_standstill(event, index))
+            waits.append(Standstill(event, index))
         elif event.kind == _GO_ON:
             over = next((wait for wait in waits if wait.who == event.who), None)
             waits = [wait for wait in waits if wait is not over]
     return waits
-
-
-def _standstill(event: Event, since: int) -> Standstill:
-    assert event.who is not None and event.awaited is not None, 'a wait of one for another'
-    is_await = event.kind == _AWAIT
-    thread = None if is_await else event.thread
-    return Standstill(
-        event.who,
-        event.awaited,
-        thread,
-        since,
-        event.is_spin,
-        event.is_for_lock,
-        event.enders,
-        event.wait,
-        is_await,
-    )
 
 
 def _concerned(
@@ -165,18 +182,25 @@ def _renumbered(moments: Sequence[Moment], told: Sequence[int]) -> Iterator[Mome
             changes = {}
 
 
-def _closing(waits: Sequence[Standstill], groups: Mapping[str, str], *, is_full: bool) -> str:
-    parts = list(dict.fromkeys(_state_of(wait, groups) for wait in waits))
+def _closing(
+    waits: Sequence[Standstill],
+    groups: Mapping[str, str],
+    names: Mapping[str, str],
+    *,
+    is_full: bool,
+) -> str:
+    parts = list(dict.fromkeys(_state_of(wait, groups, names) for wait in waits))
     if is_full:
         parts.append('no thread is left')
     return f'nothing moves any more: {"; ".join(parts)}'
 
 
-def _state_of(wait: Standstill, groups: Mapping[str, str]) -> str:
+def _state_of(wait: Standstill, groups: Mapping[str, str], names: Mapping[str, str]) -> str:
     group = groups.get(wait.who)
+    words = wait.said(names)
     if group is None or group not in map(groups.get, wait.enders):
-        return wait.words
-    return f'{wait.words}, and keeps group {group} closed'
+        return words
+    return f'{words}, and keeps {names.get(group, f"group {group}")} closed'
 
 
 def _events(moments: Sequence[Moment]) -> Iterator[tuple[int, Event]]:

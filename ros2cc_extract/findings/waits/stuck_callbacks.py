@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.wording import called, group_words, listing, plural
+from ros2cc_extract.findings.base.wording import called, listing, plural
 from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
 from ros2cc_extract.findings.waits.verdicts import PROGRESS, is_of_repeated, refuting_run
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
@@ -25,13 +25,15 @@ class Stuck:
 
     :param wait: as the source has it.
     :param enders: names of those that could end it, and of the service that answers a client.
-    :param holder: who has the lock that is waited for, as the source calls it.
+    :param holder: who has the lock that is waited for, in words.
+    :param awaited: any other thing that is waited for, in words; empty where it has no name.
     """
 
     wait: AnyWait
     standstill: Standstill
     enders: tuple[str, ...]
     holder: str = ''
+    awaited: str = ''
 
     @property
     def doer(self) -> Doer:
@@ -43,8 +45,7 @@ class Stuck:
         """What is waited for, in words; empty where the wait says it all."""
         if self.standstill.is_for_lock:
             return f'the lock of {self.holder}'
-        block = self.wait.block
-        return block.resource or (block.on if isinstance(block.on, str) else '')
+        return self.awaited
 
 
 def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
@@ -55,9 +56,10 @@ def stuck_in(run: Evidence, context: Context) -> list[Stuck]:
         block = _block(doer, standstill, context) if doer is not None else None
         if doer is not None and block is not None:
             enders = tuple(_with_servers(standstill.enders, context))
-            holder = context.by_name.get(standstill.needed)
-            name = holder.display_name if holder is not None else standstill.needed
-            found.append(Stuck(AnyWait(doer, block, kind_of(block)), standstill, enders, name))
+            holder = _words_for(standstill.needed, context)
+            on = block.resource or (block.on if isinstance(block.on, str) else '')
+            wait = AnyWait(doer, block, kind_of(block))
+            found.append(Stuck(wait, standstill, enders, holder, _words_for(on, context)))
     return found
 
 
@@ -92,6 +94,11 @@ def _with_servers(names: Iterable[str], context: Context) -> Iterator[str]:
         server = server_of(ender, context.unit.callbacks) if ender is not None else None
         if server is not None:
             yield server.name
+
+
+def _words_for(name: str, context: Context) -> str:
+    callback = context.by_name.get(name)
+    return name if callback is None else callback.display_name
 
 
 def _block(doer: Doer, standstill: Standstill, context: Context) -> Blocking | None:
@@ -159,7 +166,7 @@ def _why_nobody(stuck: Stuck, context: Context) -> str:
         client = context.by_name[stuck.doer.name]
         return (
             f'{_names(late)}, which ends it, comes with an answer that the same client takes, and '
-            f'{group_words(context.group_of(client))} is closed meanwhile'
+            f'{context.group_of(client).display_name} is closed meanwhile'
         )
     return 'nothing ends that wait'
 
@@ -184,7 +191,7 @@ def _shut_out(ender: Callback, others: Sequence[Stuck], context: Context) -> str
     keeper = _keeper(ender, others, context)
     assert keeper is not None, 'asked of those that are shut out'
     return (
-        f'{ender.display_name} is in {group_words(context.group_of(ender))}, which is closed '
+        f'{ender.display_name} is in {context.group_of(ender).display_name}, which is closed '
         f'while {keeper.display_name} waits'
     )
 

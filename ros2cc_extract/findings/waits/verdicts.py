@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.hangs import show_hang
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait
+from ros2cc_extract.spec.display_names import display_names
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult, Verdict
 
@@ -56,7 +57,8 @@ def shown_hang(callback: Doer, about: Collection[str], context: Context) -> Evid
     run = refuting_run(PROGRESS, context, callback)
     if run is None:
         return None
-    return show_hang(run, about, _exclusive(context), context.unit.executor.threads)
+    unit = context.unit
+    return show_hang(run, about, _exclusive(context), unit.executor.threads, display_names(unit))
 
 
 def rests_on_absent_service(run: Evidence) -> bool:

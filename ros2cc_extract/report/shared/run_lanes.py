@@ -63,7 +63,8 @@ def stays_of(run: Evidence, process: str, callbacks: set[str]) -> Iterator[Stay]
 def _callback_of(moment: Moment, process: str, callbacks: set[str]) -> str | None:
     """The callback named together with the process, or by it."""
     for sentence in moment.sentences:
-        words = re.findall(r'\w+', sentence.text)
+        event = sentence.event
+        words = event.mentions if event is not None else re.findall(r'\w+', sentence.text)
         if process in words or sentence.lane == process:
             named = [word for word in words if word in callbacks and word != process]
             if named:

@@ -8,7 +8,7 @@ else. What classifies a run reads the fields.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 #: Words of each kind and form; what stands in brackets is said where all its fields are known.
@@ -20,8 +20,8 @@ WORDS = {
     'done outside': 'a thread outside {executor} completes what {who} awaits',
     'done unseen': 'a thread outside {executor} completes what {who} awaits, which wakes no '
     'thread',
-    'close': 'group {group} closes',
-    'open': 'group {group} opens',
+    'close': '{group} closes',
+    'open': '{group} opens',
     'ready': '{who} becomes ready',
     'ready unseen': '{who} becomes ready and unready again, unseen',
     'unready': '{who} is no longer ready',
@@ -69,6 +69,8 @@ WORDS = {
     'pass closed': '{executor} passes over {who}: its group is closed',
 }
 _OPTIONAL = re.compile(r'\[([^\[\]]*)\]')
+#: Fields that are names of callbacks, activities and groups.
+_NAMES = ('who', 'by', 'group', 'needed', 'inside')
 _FIELD = re.compile(r'\{(\w+)\}')
 
 
@@ -124,7 +126,7 @@ class Event:
     @property
     def awaited(self) -> str | None:
         """For whom or what a wait is, in words."""
-        return ' or '.join(self.wakers) or self.resource or self.needed
+        return self.awaited_in({})
 
     @property
     def enders(self) -> tuple[str, ...]:
@@ -133,8 +135,21 @@ class Event:
 
     @property
     def words(self) -> str:
-        """Say it in a sentence."""
-        return _FIELD.sub(lambda match: self._field(match[1]), self._pattern)
+        """Say it in a sentence, with the names of the model."""
+        return self.said({})
+
+    def said(self, names: Mapping[str, str]) -> str:
+        """
+        Say it in a sentence.
+
+        :param names: words for names of the model; a name without stays as it is.
+        """
+        return _FIELD.sub(lambda match: self._said(match[1], names), self._pattern)
+
+    def awaited_in(self, names: Mapping[str, str]) -> str | None:
+        """``awaited``, with words for names."""
+        wakers = ' or '.join(names.get(waker, waker) for waker in self.wakers)
+        return wakers or self.resource or (self.needed and names.get(self.needed, self.needed))
 
     @property
     def mentions(self) -> tuple[str, ...]:
@@ -154,6 +169,13 @@ class Event:
 
     def _known(self, part: str) -> Iterator[bool]:
         return (getattr(self, name) is not None for name in _FIELD.findall(part))
+
+    def _said(self, name: str, names: Mapping[str, str]) -> str:
+        if name == 'awaited':
+            return str(self.awaited_in(names))
+        value = self._field(name)
+        unnamed = f'group {value}' if name == 'group' else value
+        return names.get(value, unnamed) if name in _NAMES else value
 
     def _field(self, name: str) -> str:
         return str(getattr(self, name))

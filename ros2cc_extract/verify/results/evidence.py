@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.events import Event
@@ -27,9 +28,9 @@ class Sentence:
     event: Event | None = None
 
     @staticmethod
-    def of(lane: str, event: Event) -> Sentence:
-        """Say an event."""
-        return Sentence(lane, event.words, event)
+    def of(lane: str, event: Event, names: Mapping[str, str] = MappingProxyType({})) -> Sentence:
+        """Say an event, with words for names of the model."""
+        return Sentence(lane, event.said(names), event)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -56,8 +56,8 @@ def main():
 main()
 """
 SINGLE, POOL = 'SingleThreadedExecutor()', 'MultiThreadedExecutor(num_threads=4)'
-MANY = '3 runs can wait at the same time (open) on 2 threads'
-ITSELF = 'open may overlap itself in a wait'
+MANY = '3 runs can wait at the same time (Gate.open) on 2 threads'
+ITSELF = 'Gate.open may overlap itself in a wait'
 SEND, WAIT = 'call_async', 'call'
 THREE = ('a', 'b', 'c')
 

@@ -78,12 +78,12 @@ def test_who_sleeps_with_a_lock_keeps_others_waiting(
 def test_messages(tmp_path: Path) -> None:
     endless = only(scanned(f'with self.lock: {LOOP}', tmp_path), 'CC201')
     assert endless.message == (
-        'drive sleeps 0.4 s in each round of a loop and holds lock meanwhile: on_stop, which also '
-        'takes it, waits until that is over'
+        'Lanes.drive sleeps 0.4 s in each round of a loop and holds lock meanwhile: '
+        'Lanes.on_stop, which also takes it, waits until that is over'
     )
-    assert [remark.text for remark in endless.related] == ['on_stop takes lock here']
+    assert [remark.text for remark in endless.related] == ['Lanes.on_stop takes lock here']
     known = only(scanned('with self.lock: time.sleep(1.5)', tmp_path), 'CC201')
     assert known.message == (
-        'drive sleeps 1.5 s and holds lock meanwhile: on_stop, which also takes it, waits that '
-        'long'
+        'Lanes.drive sleeps 1.5 s and holds lock meanwhile: Lanes.on_stop, which also takes it, '
+        'waits that long'
     )

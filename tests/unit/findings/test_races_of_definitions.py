@@ -89,4 +89,4 @@ executor.spin()
 def test_only_who_sets_it_to_none_is_said_to() -> None:
     found = findings_of(scan_text(CLEARS).units, [], [None])
     (cleared,) = [each for each in found if each.code == 'CC305']
-    assert 'and on_lost may set it to None' in cleared.message
+    assert 'and Grasp.on_lost may set it to None' in cleared.message

@@ -81,7 +81,7 @@ def test_who_waits_for_a_child_reads_its_pipe(
 def test_message(tmp_path: Path) -> None:
     finding = only(scanned(WAIT, PIPED, tmp_path), 'CC109')
     assert finding.message == (
-        'tick waits in Popen.wait for a child process while nothing reads the pipe of its '
+        'Dumps.tick waits in Popen.wait for a child process while nothing reads the pipe of its '
         'stdout: once the pipe is full, the child waits for a reader, and it waits forever'
     )
     assert [remark.text for remark in finding.related] == []

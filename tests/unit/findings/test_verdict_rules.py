@@ -124,8 +124,8 @@ def test_callbacks_that_wait_for_each_other_are_found_by_the_model() -> None:
     assert found(circle()) == []
     finding = only(circle(), 'CC109', judged(circle()))
     assert finding.message == (
-        'on_left waits in client.call for to_right, but on_right, which ends it, itself waits '
-        'for to_left: it waits forever'
+        "on_left waits in client.call for client 'right', but on_right, which ends it, itself "
+        "waits for client 'left': it waits forever"
     )
     assert finding.subjects == ('on_left', 'on_right', 'to_right')
     assert finding.run is not None

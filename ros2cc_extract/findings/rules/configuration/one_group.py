@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import group_words, made_at, plural
+from ros2cc_extract.findings.base.wording import made_at, plural
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 
 
@@ -21,7 +21,7 @@ def find(context: Context) -> Iterator[Hit]:
     executor = context.unit.executor
     yield Hit(
         place=context.home(),
-        message=f'all {plural(len(callbacks), "callback")} are in {group_words(group)}, so the '
+        message=f'all {plural(len(callbacks), "callback")} are in {group.display_name}, so the '
         f'{executor.kind or "executor"} never runs two of them at the same time',
         help='give callbacks that may run at the same time groups of their own, or use a '
         'SingleThreadedExecutor',

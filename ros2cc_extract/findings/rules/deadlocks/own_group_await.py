@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import group_words, made_at
+from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_for, waits_of
@@ -33,7 +33,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     where = ' on every executor but the EventsExecutor' if is_open else ''
     return Hit(
         place=wait.place,
-        message=f'{caller} awaits {waits_for(wait)} while it keeps {group_words(group)} closed, '
+        message=f'{caller} awaits {waits_for(wait)} while it keeps {group.display_name} closed, '
         f'and {shut_out.display_name} is in that group: it never resumes{where}, and no '
         'other member of the group runs again',
         help=f'give {shut_out.display_name} a callback group of its own or a reentrant one',

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import group_words, listing, made_at
+from ros2cc_extract.findings.base.wording import listing, made_at
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import (
     Wait,
@@ -70,7 +70,7 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{who_waits(waits)} in {waits_in(wait)} for {all_wait_for(waits)}, but '
-        f'{_blocked(shut_out, wait)} in {group_words(group)}, which is closed while {caller} '
+        f'{_blocked(shut_out, wait)} in {group.display_name}, which is closed while {caller} '
         f'runs: {how_it_ends(waits)}',
         help=f'{_apart(shut_out)}{_instead(wait)}',
         severity=Severity.WARNING if wait.has_timeout else None,

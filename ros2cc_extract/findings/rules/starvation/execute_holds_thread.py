@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import group_words, made_at, served_at
+from ros2cc_extract.findings.base.wording import made_at, served_at
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import is_one_thread
 from ros2cc_extract.spec.effects import ABORTS, TURN
@@ -68,7 +68,7 @@ def _tells_it_to_stop(wait: Wait, execute: Callback) -> bool:
 
 def _hit_of_server(wait: Wait, execute: Callback, context: Context) -> Hit:
     group = context.exclusive_group(wait.caller)
-    held = group_words(group) if group is not None else 'its group'
+    held = group.display_name if group is not None else 'its group'
     return Hit(
         place=wait.place,
         message=f'{wait.caller.display_name} waits in {wait.block.call} until '

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import group_words, made_at, shown
+from ros2cc_extract.findings.base.wording import made_at, shown
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import MULTI
 from ros2cc_extract.source_locations import Place
@@ -51,7 +51,7 @@ def _hit(
     it = 'it' if len(busy) == 1 else 'one of them'
     return Hit(
         place=_place(busy[-1]),
-        message=f'{shown(busy)} in {group_words(group)} {_asks(busy, load, unit)}: whenever the '
+        message=f'{shown(busy)} in {group.display_name} {_asks(busy, load, unit)}: whenever the '
         f'group opens {it} is due, so {shown(victims)}, served after '
         f'{"it" if len(busy) == 1 else "them"}, may never run',
         help='give what keeps the group busy a group of its own, or a period longer than its '

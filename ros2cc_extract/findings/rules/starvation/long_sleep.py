@@ -12,7 +12,6 @@ from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import (
     called,
-    group_words,
     made_at,
     plural,
     served_at,
@@ -148,7 +147,7 @@ def _held_up(caller: Callback, context: Context) -> tuple[str, tuple[Callback, .
     if group is None or not group.default or not honours_groups(executor):
         return None
     others = tuple(c for c in context.written if c.group == group.name and c != caller)
-    return group_words(group), others
+    return group.display_name, others
 
 
 def _long_for_timers_s(caller: Callback, context: Context) -> float:
