@@ -102,13 +102,16 @@ class Effects(Waits):
         """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
         world = self.world
         cls = owner.cls if isinstance(owner, Instance) else owner
-        is_late = world.after_spin or world.is_beside_others
-        if not isinstance(cls, Class) or not (world.when is When.LATER or is_late):
+        is_late = world.when is When.LATER or world.after_spin
+        if not isinstance(cls, Class) or not (is_late or world.is_beside_others):
             return
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
         shown = f'{collection_aliases.object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
-        world.other_writes.setdefault(shown, (by, place))
+        if is_late:
+            world.other_writes.setdefault(shown, (by, place))
+        else:
+            world.writes_beside.setdefault(shown, place)
 
     def _note_access(
         self, name: str, kind: AccessKind, place: Place, attribute: str | None = None

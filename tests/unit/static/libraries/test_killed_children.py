@@ -43,7 +43,7 @@ def waits(does: str) -> list[str]:
     'does',
     [
         'self.child.kill()\nself.child.wait()',
-        f'{KILL_ALL}\nself.child.communicate()',
+        f'{KILL_ALL}\nself.child.wait()',
         f'{TRY}self.child.wait()',
         f'{NUMBER}fcntl.fcntl(number, fcntl.F_SETFL, os.O_NONBLOCK)\nself.child.stdout.read()',
         'os.set_blocking(self.child.stdout.fileno(), False)\nself.child.stdout.read()',
@@ -60,6 +60,7 @@ def test_what_ends_or_does_not_block_is_no_wait(does: str) -> None:
         ('os.kill(self.child.pid, signal.SIGTERM)\nself.child.wait()', ['Popen.wait']),
         ('if msg is None:\n    self.child.kill()\nself.child.wait()', ['Popen.wait']),
         ('self.child.wait()\nself.child.kill()', ['Popen.wait']),
+        ('self.child.kill()\nself.child.communicate()', ['Popen.communicate']),
         ('self.child.stdout.read()', ['BufferedReader.read']),
     ],
 )

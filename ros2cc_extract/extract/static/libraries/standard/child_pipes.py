@@ -53,7 +53,8 @@ def lines_after_kill(function: ast.AST) -> frozenset[int]:
     """
     The lines of statements behind one of the same block that sends ``SIGKILL``.
 
-    No process outlives that signal (``signal(7)``); ``SIGTERM`` may be ignored.
+    No process outlives that signal (``signal(7)``); ``SIGTERM`` may be ignored, and a pipe that a
+    child of the child has as well is open still.
     """
     found: set[int] = set()
     for part in walk(function):

@@ -104,7 +104,7 @@ def _streams(slots: Mapping[str, object]) -> list[str]:
 def _is_killed(machine: ConcurrentMachine, name: str, place: Place) -> bool:
     """Whether the end of a child is waited for that was killed just before."""
     asking = machine.stack[-1].node if machine.stack else None
-    if name not in (child_pipes.WAIT, _COMMUNICATE) or asking is None:
+    if name != child_pipes.WAIT or asking is None:
         return False
     return place.line in noted_on(asking, 'after_kill', child_pipes.lines_after_kill)
 
