@@ -280,7 +280,7 @@ def _progress_beside(activity: UnitActivity) -> Query:
     return Query(
         family=Family.PROGRESS,
         formula=f'A[] not (deadlock and {activity.name}.blocked)',
-        words=f'{activity.name}, which runs beside the executor, never waits for ever',
+        words=f'{activity.name}, which runs beside the executor, never waits forever',
         callbacks=(activity.name,),
     )
 
@@ -299,7 +299,7 @@ def _pool_exhaustion(unit: Unit) -> Iterator[Query]:
     yield Query(
         family=Family.POOL_EXHAUSTION,
         formula=f'A[] not (deadlock and {blocked})',
-        words='the threads are never all taken by callbacks that wait for ever',
+        words='the threads are never all taken by callbacks that wait forever',
         callbacks=tuple(callback.name for callback in waiting),
     )
 

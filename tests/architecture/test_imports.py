@@ -36,6 +36,7 @@ ALLOWED = {
     '__main__': {'*'},
     'ros': {'*'},
     'cli': {
+        'confirm',
         'pipeline',
         'packages',
         'report',
@@ -62,6 +63,8 @@ ALLOWED = {
         'extract.static',
         'extract.live',
     },
+    # Only here is started what was scanned.
+    'confirm': {'findings', 'verify', 'spec', 'extract', 'extract.live'},
     'packages': set(),
     'report': {'findings', 'verify', 'spec', 'compare'},
     'findings': {'verify', 'spec'},

@@ -296,7 +296,7 @@ class Arms(Node):
     def on_right(self, request, response):
         return response
 """,
-    mend='Let whoever ends the wait run beside it: on a thread and in a group of its own. Break a '
+    mend='Let what ends the wait run beside it: on a thread and in a group of its own. Break a '
     'circle of waits: let one of them send by `call_async` and go on in a done-callback. Give a '
     'wait that nobody may end a time-out.',
     find=find,

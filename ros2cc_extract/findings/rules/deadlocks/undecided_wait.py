@@ -272,7 +272,7 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
         return 'call wake() of the executor after that, or let a callback end it'
     if wait.block.call == ENDLESS_LOOP:
         return 'let a timer do the work of the loop'
-    return 'give it a time-out, or see to it that whoever ends it can be followed'
+    return 'give it a time-out, or end it in code that the scanner can follow'
 
 
 def _others(wait: AnyWait) -> str:
