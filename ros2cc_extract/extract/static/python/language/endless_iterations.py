@@ -18,6 +18,8 @@ def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> as
     items = node.iter
     if not isinstance(items, ast.Call) or not isinstance(node.target, ast.Name):
         return None
+    if not isinstance(node, ast.For):
+        return None
     if not isinstance(items.func, (ast.Name, ast.Attribute)) or items.keywords:
         return None
     name = items.func.id if isinstance(items.func, ast.Name) else items.func.attr
