@@ -222,7 +222,13 @@ def _node(node: Any) -> dict[str, Any]:
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)
     )
     for kind in _KINDS:
-        for entity in list(getattr(node, kind, ())):
+        try:
+            entities = list(getattr(node, kind, ()))
+        except AttributeError as error:
+            # Its constructor has not come that far (`node.py`: the properties are generators).
+            row['unread'] = f'a node that is being made: {error!r}'[:200]
+            continue
+        for entity in entities:
             try:
                 row['entities'].append(_entity(entity, kind, node))
             except Exception as error:
