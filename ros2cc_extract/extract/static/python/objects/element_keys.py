@@ -15,7 +15,8 @@ from ros2cc_extract.extract.static.python.machine.dependences import computed_fr
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
-from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
+from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Scope, Value
+from ros2cc_extract.spec.effects import BEGINS
 
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
@@ -23,7 +24,7 @@ _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame) -> None:
     """``container[key]`` is asked for or stored."""
     if machine.world.effects is not None:
-        item, sources = constant_key(key), computed_from(key, frame.sources)
+        item, sources = constant_key(key) or _beginning(key), computed_from(key, frame.sources)
         if item is None and not sources:
             item = _given(machine, key, frame)
         machine.world.reading.note_item(container, item, frame.place(container))
@@ -34,10 +35,20 @@ def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
     """The text of what a parameter was given, if that is one value in every run."""
     if not isinstance(key, ast.Name) or not _is_one_by_one(machine.world.current):
         return None
-    held = _held(key.id, frame)
-    if not isinstance(held, Const) or type(held.value) not in (str, int):
+    held, item = _held(key.id, frame), None
+    if isinstance(held, Const) and type(held.value) in (str, int):
+        item = repr(held.value)
+    elif isinstance(held, Mystery):
+        item = _beginning(held.node)
+    return item if item and _is_parameter(key, machine.world.trees) else None
+
+
+def _beginning(key: ast.expr | None) -> str | None:
+    """How a formatted text begins, if with letters of its own: ``f'left_{number}'``."""
+    first = key.values[0] if isinstance(key, ast.JoinedStr) and key.values else None
+    if not isinstance(first, ast.Constant) or not first.value:
         return None
-    return repr(held.value) if _is_parameter(key, machine.world.trees) else None
+    return f'{first.value!r}{BEGINS}'
 
 
 def _is_one_by_one(doer: object) -> bool:
