@@ -8,6 +8,7 @@ item, or called with it, means that one in all its rounds.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
@@ -18,6 +19,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Scope, Value
 from ros2cc_extract.spec.effects import BEGINS
 
+_FORMATTED = re.compile(r"""f['"]([^'"{}\\…]+)""")
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
@@ -39,7 +41,7 @@ def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
     if isinstance(held, Const) and type(held.value) in (str, int):
         item = repr(held.value)
     elif isinstance(held, Mystery):
-        item = _beginning(held.node)
+        item = _beginning(held.node) or _beginning_in(held.text)
     return item if item and _is_parameter(key, machine.world.trees) else None
 
 
@@ -49,6 +51,12 @@ def _beginning(key: ast.expr | None) -> str | None:
     if not isinstance(first, ast.Constant) or not first.value:
         return None
     return f'{first.value!r}{BEGINS}'
+
+
+def _beginning_in(text: str) -> str | None:
+    """The same of the source of an expression, which may be shortened."""
+    found = _FORMATTED.match(text)
+    return f'{found[1]!r}{BEGINS}' if found else None
 
 
 def _is_one_by_one(doer: object) -> bool:
