@@ -30,6 +30,9 @@ class A(Node):
     def count(self, name):
         self.counts[name] += 1
 
+    def shift(self):
+        self.count(f'left_{self.target}')
+
     def move(self, name):
         name = self.target or name
         self.counts[name] += 1
@@ -88,6 +91,12 @@ def test_a_done_callback_stands_for_all_that_were_made_at_its_place() -> None:
     )
     codes = [finding.code for finding in findings_of(scan_text(text).units, [], [None])]
     assert 'CC303' in codes
+
+
+def test_how_a_key_begins_does_not_depend_on_what_is_read() -> None:
+    text = NODE.replace('for side in SIDES', 'for job in (self.shift, partial(self.count, "x"))')
+    found = findings_of(scan_text(text.replace('MADE', 'job') + SPUN).units, [], [None])
+    assert [finding.code for finding in found if finding.code.startswith('CC3')] == []
 
 
 @pytest.mark.parametrize(

@@ -27,8 +27,9 @@ def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame
     """``container[key]`` is asked for or stored."""
     if machine.world.effects is not None:
         item, sources = constant_key(key) or _beginning(key), computed_from(key, frame.sources)
-        if item is None and not sources:
-            item = _given(machine, key, frame)
+        given = _given(machine, key, frame) if item is None else None
+        if given is not None and (given.endswith(BEGINS) or not sources):
+            item = given
         machine.world.reading.note_item(container, item, frame.place(container))
         machine.world.reading.note_choice(container, sources, frame.place(container))
 
