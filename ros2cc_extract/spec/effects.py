@@ -128,6 +128,9 @@ class Blocking:
 
 RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'
+BEGINS = '…'
+"""Behind the beginning of a key."""
+
 FLAG = ' (flag)'
 ADDS, TAKES = 'adds', 'takes'
 CANCELS = 'cancel'
@@ -156,7 +159,8 @@ class Access:
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
         takes an item out.
     :param iterates: class of the collection, where a loop goes over it.
-    :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``.
+    :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``;
+        or how its key begins, where that is a text: ``'a'…``.
     :param chosen: true for a change of the item that a look at the collection has led to, or
         of one whose new value was computed from what was read of the collection.
     :param rests: true for a write that rests on what was read of it before, by its value or by a

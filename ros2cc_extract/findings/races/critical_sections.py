@@ -6,14 +6,30 @@ from collections.abc import Mapping, Sequence
 
 from ros2cc_extract.identity_memo import known_of, once
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import SHARED, Access, Act
+from ros2cc_extract.spec.effects import BEGINS, SHARED, Access, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 
 
 def is_other_item(one: Access, other: Access) -> bool:
-    """True for two items of one container, whose constant keys differ."""
-    return one.item is not None and other.item is not None and one.item != other.item
+    """True for two items of one container, whose constant keys differ, or begin differently."""
+    if one.item is None or other.item is None:
+        return False
+    if not (one.item.endswith(BEGINS) or other.item.endswith(BEGINS)):
+        return one.item != other.item
+    whole, part = sorted((one.item, other.item), key=lambda item: item.endswith(BEGINS))
+    letters, beginning = _letters(whole), _letters(part)
+    if letters is None or beginning is None:
+        return False
+    shared = min(len(letters), len(beginning)) if whole.endswith(BEGINS) else len(beginning)
+    return letters[:shared] != beginning[:shared]
+
+
+def _letters(item: str) -> str | None:
+    """What stands between the quotes of a text, whose escapes are the same in each."""
+    quoted = item.removesuffix(BEGINS)
+    is_text = len(quoted) > 1 and quoted[0] == quoted[-1] == "'"
+    return quoted[1:-1] if is_text else None
 
 
 def kept_between(first: Access, last: Access, callback: Callback | Activity) -> tuple[str, ...]:

@@ -30,6 +30,9 @@ class A(Node):
     def count(self, name):
         self.counts[name] += 1
 
+    def shift(self):
+        self.count(f'left_{self.target}')
+
     def move(self, name):
         name = self.target or name
         self.counts[name] += 1
@@ -88,3 +91,27 @@ def test_a_done_callback_stands_for_all_that_were_made_at_its_place() -> None:
     )
     codes = [finding.code for finding in findings_of(scan_text(text).units, [], [None])]
     assert 'CC303' in codes
+
+
+def test_how_a_key_begins_does_not_depend_on_what_is_read() -> None:
+    text = NODE.replace('for side in SIDES', 'for job in (self.shift, partial(self.count, "x"))')
+    found = findings_of(scan_text(text.replace('MADE', 'job') + SPUN).units, [], [None])
+    assert [finding.code for finding in found if finding.code.startswith('CC3')] == []
+
+
+@pytest.mark.parametrize(
+    ('one', 'other', 'told'),
+    [
+        ('"left"', 'f"right_{self.target}"', []),
+        ('f"left_{self.target}"', 'f"right_{self.target}"', []),
+        ('"left"', '"right"', []),
+        ('"right_1"', 'f"right_{self.target}"', [TOLD]),
+        ('f"right_{self.target}"', 'f"right_{self.target}_1"', [TOLD]),
+        ('f"{self.target}"', '"right"', [TOLD]),
+    ],
+)
+def test_keys_that_begin_differently_are_two_items(one: str, other: str, told: list[str]) -> None:
+    calls = f'(partial(self.count, {one}), partial(self.count, {other}))'
+    text = NODE.replace('for side in SIDES', f'for job in {calls}').replace('MADE', 'job')
+    findings = findings_of(scan_text(text.replace('BODY', 'pass') + SPUN).units, [], [None])
+    assert [finding.code for finding in findings if finding.code.startswith('CC3')] == told

@@ -8,6 +8,7 @@ item, or called with it, means that one in all its rounds.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
@@ -15,17 +16,20 @@ from ros2cc_extract.extract.static.python.machine.dependences import computed_fr
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
-from ros2cc_extract.extract.static.python.values.values import Const, Scope, Value
+from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Scope, Value
+from ros2cc_extract.spec.effects import BEGINS
 
+_FORMATTED = re.compile(r"""f['"]([^'"{}\\…]+)""")
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame) -> None:
     """``container[key]`` is asked for or stored."""
     if machine.world.effects is not None:
-        item, sources = constant_key(key), computed_from(key, frame.sources)
-        if item is None and not sources:
-            item = _given(machine, key, frame)
+        item, sources = constant_key(key) or _beginning(key), computed_from(key, frame.sources)
+        given = _given(machine, key, frame) if item is None else None
+        if given is not None and (given.endswith(BEGINS) or not sources):
+            item = given
         machine.world.reading.note_item(container, item, frame.place(container))
         machine.world.reading.note_choice(container, sources, frame.place(container))
 
@@ -34,10 +38,26 @@ def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
     """The text of what a parameter was given, if that is one value in every run."""
     if not isinstance(key, ast.Name) or not _is_one_by_one(machine.world.current):
         return None
-    held = _held(key.id, frame)
-    if not isinstance(held, Const) or type(held.value) not in (str, int):
+    held, item = _held(key.id, frame), None
+    if isinstance(held, Const) and type(held.value) in (str, int):
+        item = repr(held.value)
+    elif isinstance(held, Mystery):
+        item = _beginning(held.node) or _beginning_in(held.text)
+    return item if item and _is_parameter(key, machine.world.trees) else None
+
+
+def _beginning(key: ast.expr | None) -> str | None:
+    """How a formatted text begins, if with letters of its own: ``f'left_{number}'``."""
+    first = key.values[0] if isinstance(key, ast.JoinedStr) and key.values else None
+    if not isinstance(first, ast.Constant) or not first.value:
         return None
-    return repr(held.value) if _is_parameter(key, machine.world.trees) else None
+    return f'{first.value!r}{BEGINS}'
+
+
+def _beginning_in(text: str) -> str | None:
+    """The same of the source of an expression, which may be shortened."""
+    found = _FORMATTED.match(text)
+    return f'{found[1]!r}{BEGINS}' if found else None
 
 
 def _is_one_by_one(doer: object) -> bool:
