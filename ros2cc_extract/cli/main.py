@@ -31,6 +31,7 @@ COMMANDS = {
     'check': 'find what can go wrong (the default: `ros2cc-extract my_node.py`)',
     'fleet': 'check many repositories, with one result each',
     'spec': 'print the YAML specification of a node',
+    'system': 'write the specification of the system that launch files start',
     'model': 'write the UPPAAL model and its queries',
     'verify': 'print the verdict table of a specification or a model',
     'explain': 'explain what a rule means and how to fix what it finds',
@@ -47,7 +48,7 @@ COMMANDS = {
     'merge': 'merge a specification from source with one from a live run',
 }
 OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why', 'confirm')
-WRITES_DATA = ('spec', 'merge')
+WRITES_DATA = ('spec', 'system', 'merge')
 HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
 """Requests to end: they tell what is known by then, or hand them on to what they have begun."""
 LONGEST_MESSAGE = 300

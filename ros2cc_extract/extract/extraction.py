@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.node_graph import NodeGraph
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,7 @@ class Extraction:
     :param diagnostics: sorted by place.
     :param files_seen: every file that was read, as shown to the user.
     :param joined: units of one program that wait for each other, as one.
+    :param nodes: what the nodes of each entry have in the graph.
     :param cut: why not all was followed to its end; empty where it was.
     :param interrupted: somebody has ended it.
     """
@@ -26,5 +28,6 @@ class Extraction:
     diagnostics: tuple[Diagnostic, ...]
     files_seen: tuple[str, ...]
     joined: tuple[Joined, ...] = ()
+    nodes: tuple[NodeGraph, ...] = ()
     cut: str = ''
     interrupted: bool = False

@@ -14,6 +14,7 @@ from enum import Enum
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
@@ -120,8 +121,15 @@ class _Unit:
         stuck = sorted({f.code for f in self.own if _breaks(f, Promise.WAITS)})
         if promise in _ON_WAITS and stuck and any(self._refuted(promise)):
             return Judgement(promise, Mark.BROKEN, ', '.join(stuck))
+        if promise is Promise.DEADLOCK and any(map(self._is_of_several, self.own)):
+            return Judgement(promise, Mark.BROKEN, NEVER_ENDS.code)
         reason = next(self._doubts(promise), '')
         return Judgement(promise, Mark.OPEN if reason else Mark.KEPT, reason)
+
+    def _is_of_several(self, finding: Finding) -> bool:
+        """Whether several units together stand still, as only their common model shows."""
+        is_together = finding.unit is not None and finding.unit != self.unit.name
+        return is_together and finding.code == NEVER_ENDS.code
 
     def _doubts(self, promise: Promise) -> Iterator[str]:
         """Give what keeps a promise from being proven, what concerns all promises first."""
@@ -227,11 +235,18 @@ def about(
             sharing = [each for each in units if finding.place.file in each.sources]
             if any(each is unit for each in sharing):
                 (own if len(sharing) == 1 else near).append(finding)
+            elif finding.unit is not None and _leads_to(finding, unit):
+                near.append(finding)
         elif finding.unit == unit.name:
             own.append(finding)
         elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit):
             near.append(finding)
     return own, near
+
+
+def _leads_to(finding: Finding, unit: Spec) -> bool:
+    """Whether what several units do together involves code of this one."""
+    return any(remark.place.file in unit.sources for remark in finding.related)
 
 
 def _names(finding: Finding, unit: Spec) -> bool:

@@ -19,7 +19,6 @@ from ros2cc_extract.spec.joined_executors import Joined, enders_of
 from ros2cc_extract.verify.results.results import Verification
 
 _OPEN = (UNDECIDED.code, OUTSIDE_WAIT.code)
-_BETWEEN = '; they are on executors that run at the same time'
 
 
 def findings_of_joined(joined: Joined, verification: Verification | None) -> tuple[Finding, ...]:
@@ -28,14 +27,17 @@ def findings_of_joined(joined: Joined, verification: Verification | None) -> tup
 
     def concerns(together: Sequence[Stuck]) -> bool:
         doers = [each.doer for each in together]
+        names = [each.name for each in doers]
+        if joined.is_of_processes:  # who answers may be kept from it by others of its process
+            names += [name for each in together for name in each.enders]
         # The threads of a joined unit are no number of the program's.
         is_by_crowd = any(is_of_repeated(doer, context) for doer in doers)
-        return joined.executors_of(each.name for each in doers) > 1 and not is_by_crowd
+        return joined.executors_of(names) > 1 and not is_by_crowd
 
     def several(hits: Iterable[Hit]) -> Iterator[Hit]:
         for hit in hits:
             if joined.executors_of(hit.subjects) > 1:
-                yield replace(hit, message=hit.message + _BETWEEN)
+                yield replace(hit, message=hit.message + joined.between)
 
     rules = (
         (never_ends.RULE, tuple(several(never_ends.hits_of(context, concerns)))),

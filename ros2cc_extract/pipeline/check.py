@@ -23,12 +23,13 @@ from ros2cc_extract.findings.promises import Judgement, about, judge, weakest
 from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
+from ros2cc_extract.findings.system_findings import findings_of_system
 from ros2cc_extract.findings.waits_across_executors import without_what_is_told
 from ros2cc_extract.jobs.pools import Pool
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.shards import Shard
-from ros2cc_extract.pipeline.sources import scan_sources
+from ros2cc_extract.pipeline.system_sources import scan_paths
 from ros2cc_extract.pipeline.unit_jobs import examine_all
 from ros2cc_extract.pipeline.unit_task import Examined, Task, joined_task, judging_options
 from ros2cc_extract.source_locations import Place
@@ -36,6 +37,7 @@ from ros2cc_extract.spec.assumptions import Assumptions, assume
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close, waited_for
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verdict, Verification
 from ros2cc_extract.verify.search.options import Options
@@ -49,6 +51,7 @@ class Job:
     """
     What to check, and how.
 
+    :param arguments: what launch files among the paths are told, by name.
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
     :param shows_verdicts: the verdicts of the profile in ``options`` are wanted too, and not only
@@ -68,6 +71,7 @@ class Job:
     options: Options
     assumptions: Assumptions
     root: Path
+    arguments: Mapping[str, str] = field(default_factory=dict)
     known: frozenset[str] = frozenset()
     cached: bool = True
     shows_verdicts: bool = False
@@ -96,6 +100,7 @@ class Outcome:
     :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
+    :param system: what launch files among the paths start.
     :param interrupted: somebody has ended it before all units were verified.
     :param answers: of a shard, what is known of its units, by ``Task.key``.
     """
@@ -110,6 +115,7 @@ class Outcome:
     sources: Mapping[str, str]
     promises: tuple[tuple[Judgement, ...], ...] = ()
     interrupted: bool = False
+    system: System | None = None
     answers: Mapping[str, Examined] = field(default_factory=dict)
 
     @property
@@ -164,8 +170,9 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     """Do the whole job; progress goes to ``stderr`` when it is a terminal."""
     left_s = None if job.max_seconds is None else max(0.0, job.max_seconds - job.spent_s)
     deadline = None if left_s is None else deadline_in(left_s, job.max_seconds or left_s)
-    extraction = scan_sources(
+    extraction, system = scan_paths(
         job.paths,
+        job.arguments,
         stderr,
         cached=job.cached,
         lists_builtin=job.policy.builtin,
@@ -188,7 +195,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
     defects = tuple(_defects(units, examined))
     noticed = (*job.noticed, *extraction.diagnostics, *defects)
     extraction = replace(extraction, diagnostics=noticed)
-    findings = _findings(job, extraction, units, examined, together)
+    findings = _findings(job, extraction, units, examined, together, system)
     root = job.root.as_posix()
     selected = select(findings, job.config.selection, root)
     sources = _sources(job.files, {*extraction.files_seen, *_files_shown(selected)})
@@ -205,6 +212,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         sources=sources,
         promises=tuple(_promises(tasks, examined, findings)),
         interrupted=examination.interrupted,
+        system=system,
         answers={} if job.sees_all else _answers([*tasks, *more], examination.found),
     )
 
@@ -240,6 +248,7 @@ def _findings(
     units: Sequence[Spec],
     examined: Sequence[Examined],
     together: Sequence[Examined],
+    system: System | None,
 ) -> tuple[Finding, ...]:
     """All findings: of the scan, of each unit, of several units, and of what is demanded."""
     own = [each.findings for each in examined]
@@ -247,10 +256,11 @@ def _findings(
         (finding for each in together for finding in each.findings),
         (finding for found in own for finding in found),
     )
+    of_system = findings_of_system(system) if system is not None and job.sees_all else ()
     demands = job.config.requirements if job.sees_all else ()
     return (
         *all_findings(
-            [*own, findings_across(units), across],
+            [*own, findings_across(units), across, of_system],
             extraction.diagnostics,
             {unit.rclpy for unit in units},
         ),

@@ -12,6 +12,7 @@ from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.diagnostics import BARRED, UNREAD, Diagnostic, Severity
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.files import DISK, Files, read_named, read_stream, real_path
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.source_locations import Place, shown_name
@@ -45,6 +46,7 @@ def scan_sources(
     *,
     cached: bool = True,
     lists_builtin: bool = False,
+    parameters: GivenParameters = NONE_GIVEN,
     files: Files = DISK,
     patience: Patience = PATIENT,
 ) -> Extraction:
@@ -53,6 +55,7 @@ def scan_sources(
 
     :param cached: take an earlier result when no file has changed since.
     :param lists_builtin: also list what rclpy makes by itself for every node.
+    :param parameters: what a launch sets for the nodes.
     :param files: those of the disk, or of another revision.
 
     Nodes without any callback, such as those that only publish, are told and left out: neither
@@ -69,6 +72,7 @@ def scan_sources(
             progress=meter.step,
             cache=folder,
             lists_builtin=lists_builtin,
+            parameters=parameters,
             files=files,
             patience=patience,
         )

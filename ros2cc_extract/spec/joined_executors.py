@@ -27,6 +27,7 @@ MOST_THREADS = 32
 """What has more that may wait at a time takes longer to judge than it is worth."""
 _ONE_THREAD, _POOL = 'SingleThreadedExecutor', 'MultiThreadedExecutor'
 KINDS = (_ONE_THREAD, _POOL)
+BETWEEN_EXECUTORS = '; they are on executors that run at the same time'
 _Part = int | str
 """The number of an executor, or the name of a thread of the program's own."""
 
@@ -37,11 +38,18 @@ class Joined:
     Several units as one.
 
     :param spec: without the callbacks that neither wait nor are waited for.
-    :param parts: names of the callbacks of each executor.
+    :param parts: names of the callbacks of each executor, or of each process.
+    :param between: what a message says of the parts.
     """
 
     spec: Spec
     parts: tuple[tuple[str, ...], ...]
+    between: str = BETWEEN_EXECUTORS
+
+    @property
+    def is_of_processes(self) -> bool:
+        """Whether its parts are processes of a system."""
+        return self.between != BETWEEN_EXECUTORS
 
     def executors_of(self, names: Iterable[str]) -> int:
         """How many executors have some of the callbacks of these names."""
@@ -55,14 +63,8 @@ def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
 
     :param whole: all nodes of ``units``, in their order, with the names that they have together.
     """
-    owners = [number for number, unit in enumerate(units) for _ in unit.nodes]
-    if len(owners) != len(whole.nodes):
-        return None
-    by_node = dict(zip(whole.nodes, owners, strict=True))
-    if not all(isinstance(c.node, str) and c.node in by_node for c in whole.callbacks):
-        return None
-    part_of: dict[str, _Part] = {c.name: by_node[str(c.node)] for c in whole.callbacks}
-    if _spins(whole.callbacks) or not _wait_for_each_other(whole, part_of):
+    part_of = _parts(whole, units)
+    if isinstance(part_of, str) or not _wait_for_each_other(whole, part_of):
         return None
     spec = _as_one(_without_idle(whole), units, part_of)
     if spec is None:
@@ -72,6 +74,29 @@ def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
         for number in range(len(units))
     )
     return Joined(spec=spec, parts=tuple(parts))
+
+
+def why_not_joined(whole: Spec, units: Sequence[Spec]) -> str:
+    """Why ``joined`` gives nothing; empty where they do not wait for each other."""
+    part_of = _parts(whole, units)
+    if isinstance(part_of, str):
+        return part_of
+    if not _wait_for_each_other(whole, part_of):
+        return ''
+    return f'more than {MOST_THREADS} of their callbacks may wait at a time'
+
+
+def _parts(whole: Spec, units: Sequence[Spec]) -> dict[str, _Part] | str:
+    """Which executor has which callback, or why that is not known."""
+    owners = [number for number, unit in enumerate(units) for _ in unit.nodes]
+    if len(owners) != len(whole.nodes):
+        return 'not all of their nodes are known'
+    by_node = dict(zip(whole.nodes, owners, strict=True))
+    if not all(isinstance(c.node, str) and c.node in by_node for c in whole.callbacks):
+        return 'it is not known which node a callback belongs to'
+    if _spins(whole.callbacks):
+        return 'a callback spins an executor while it waits'
+    return {c.name: by_node[str(c.node)] for c in whole.callbacks}
 
 
 def _spins(callbacks: Iterable[Callback]) -> bool:
@@ -162,7 +187,7 @@ def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> 
     callbacks = list(spec.callbacks)
     for number, unit in enumerate(units):
         mine = [each for each in callbacks if part_of[each.name] == number]
-        if unit.executor.kind != _ONE_THREAD or _awaits(mine):
+        if len(unit.executor.threads) > 1 or _awaits(mine):
             continue
         name = _free(f'only_thread_of_{unit.executor.name}', taken)
         groups[name] = CallbackGroup(

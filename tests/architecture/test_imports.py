@@ -50,7 +50,9 @@ ALLOWED = {
         'extract',
         'extract.static',
         'extract.live',
+        'hang_proof',
     },
+    'hang_proof': {'extract.live', 'verify', 'generator', 'checker', 'spec'},
     'pipeline': {
         'extract.static.program',
         'findings',
@@ -62,6 +64,7 @@ ALLOWED = {
         'extract',
         'extract.static',
         'extract.live',
+        'extract.launch',
     },
     # Only here is started what was scanned.
     'confirm': {'findings', 'verify', 'spec', 'extract', 'extract.live'},
@@ -105,6 +108,8 @@ ALLOWED = {
         'spec',
     },
     'extract.live': {'spec', 'extract'},
+    # Launch files are Python that the interpreter follows, with a table of their own.
+    'extract.launch': {'extract.static.program', 'extract.static.python', 'spec'},
     'live': {'extract.live'},
 }
 STATIC = f'{PACKAGE}.extract.static'
@@ -157,7 +162,7 @@ def room(module: str) -> str:
         return ''
     if parts[:2] == ['extract', 'static'] and len(parts) + is_package(module) > 3:
         return '.'.join(parts[:3])
-    if parts[:2] in (['extract', 'static'], ['extract', 'live']):
+    if parts[:2] in (['extract', 'static'], ['extract', 'live'], ['extract', 'launch']):
         return '.'.join(parts[:2])
     return parts[0]
 

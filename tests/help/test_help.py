@@ -24,6 +24,12 @@ NO_PROGRAM = {
     'CC601': 'a requirement, which is not in the program',
     'CC602': 'a requirement, which is not in the program',
     'CC603': 'a requirement, which is not in the program',
+    'CC701': 'a system of several programs: tests/systems',
+    'CC702': 'a system of several programs: tests/systems',
+    'CC703': 'a system of several programs: tests/systems',
+    'CC704': 'a system of several programs: tests/systems',
+    'CC706': 'a system of several programs: tests/systems',
+    'CC705': 'a system of several programs: tests/systems',
 }
 PAIRS = [
     pytest.param(case, mended, id=f'{case.name}-{at}')

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import (
     add_dask_argument,
+    add_launch_paths,
     add_node_arguments,
-    add_paths,
     add_search_arguments,
     add_unit_arguments,
     number_of_seconds,
@@ -38,12 +38,11 @@ if TYPE_CHECKING:
 
 DEFAULT_SECONDS = 20.0
 DEFAULT_MAX_SECONDS = 120.0
-LAUNCH_SUFFIXES = ('.launch.py', '_launch.py')
 FORMATS = ['text', 'json', 'sarif', 'junit', 'github', 'html', 'mermaid']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_paths(parser)
+    add_launch_paths(parser)
     parser.add_argument(
         '-o',
         '--output',
@@ -147,8 +146,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     _refuse_to_judge_parts(args)
     release = _release_to_confirm_on(args)
+    args.paths, arguments = _divided(args.paths)
     config = load_config(min(args.paths, key=Path.absolute))
-    job = _job(args, config)
+    job = replace(_job(args, config), arguments=arguments)
     termination, begun = Termination(), time.monotonic()
     try:
         with termination_as_interrupt(termination):
@@ -177,7 +177,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         print('interrupted: what was not verified yet is undecided', file=stderr)
         return termination.status
     if not outcome.units and job.sees_all and not has_unread(outcome.extraction.diagnostics):
-        _tell_nothing_judged(outcome.extraction.files_seen, stderr)
+        return _tell_nothing_judged(args, outcome, stderr)
     return _status(args, outcome)
 
 
@@ -315,12 +315,31 @@ def _print_text(
     print_check(checked, console_for(stdout), how)
 
 
-def _tell_nothing_judged(files: Sequence[str], stderr: TextIO) -> None:
-    """Zero problems of nothing may read as safe."""
-    told = 'nothing to check: no rclpy node with a callback found'
-    if any(file.endswith(LAUNCH_SUFFIXES) for file in files):
-        told += '; launch files are not followed: name the Python files of their nodes'
+def _tell_nothing_judged(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> int:
+    """Zero problems of nothing may read as safe; of a system that is undecided."""
+    status = _status(args, outcome)
+    if outcome.system is None:
+        print('nothing to check: no rclpy node with a callback found', file=stderr)
+        return status
+    number = len(outcome.system.processes)
+    told = f'nothing to check: of {number} processes none has a callback in sight'
     print(told, file=stderr)
+    return EXIT_UNDECIDED if status == EXIT_CLEAN else status
+
+
+def _divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
+    """
+    Paths, and arguments of launch files among them.
+
+    :raises InputError: when there is no path.
+    """
+    from ros2cc_extract.errors import InputError
+    from ros2cc_extract.pipeline.system import divided
+
+    paths, arguments = divided(words)
+    if not paths:
+        raise InputError('no path given', None, 'name a Python file, a launch file or a directory')
+    return paths, arguments
 
 
 def _append_step_summary(checked: Checked) -> None:

@@ -20,6 +20,17 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
     add_cache_argument(parser)
 
 
+def add_launch_paths(parser: argparse.ArgumentParser) -> None:
+    """Add the files and directories to scan, and arguments of launch files among them."""
+    parser.add_argument(
+        'paths',
+        nargs='+',
+        metavar='PATH',
+        help='a Python file, a launch file or a directory; NAME:=VALUE for launch files',
+    )
+    add_cache_argument(parser)
+
+
 def add_cache_argument(parser: argparse.ArgumentParser) -> None:
     """Add the choice to scan afresh."""
     parser.add_argument(

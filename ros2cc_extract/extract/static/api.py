@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.runtime_limits import scanning_limits
 from ros2cc_extract.files import DISK, Files
@@ -25,6 +26,7 @@ def scan(
     cache: Path | None = None,
     processes: int | None = None,
     lists_builtin: bool = False,
+    parameters: GivenParameters = NONE_GIVEN,
     files: Files = DISK,
     patience: Patience = PATIENT,
 ) -> Extraction:
@@ -36,6 +38,7 @@ def scan(
     :param cache: folder of earlier results, see ``cache_file.default_cache_folder``.
     :param processes: at most so many share the work; by default one for each core.
     :param lists_builtin: also list what rclpy makes by itself for every node; never cached.
+    :param parameters: what a launch sets for the nodes.
     :param files: those of the disk, or of another revision.
     :param patience: when to end before all is followed.
     :raises InputError: for a missing path, or a directory without any Python file.
@@ -44,6 +47,7 @@ def scan(
         project = Project.of_paths(paths, root, files)
         project.lists_builtin = lists_builtin
         project.deadline = patience.deadline
+        project.parameters = parameters
         if cache is None or lists_builtin:
             return _scanned(project, usable_cores(processes), progress, patience)[0]
         return _scan_cached(project, progress, cache, usable_cores(processes), patience)

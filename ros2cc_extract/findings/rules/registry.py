@@ -46,6 +46,14 @@ from ros2cc_extract.findings.rules.starvation import (
     timeout_harvest,
     transform_wait,
 )
+from ros2cc_extract.findings.rules.systems import (
+    near_names,
+    qos,
+    same_node_name,
+    sim_time,
+    two_types,
+    unused_settings,
+)
 
 RULES: tuple[Rule, ...] = (
     own_group_call.RULE,
@@ -94,6 +102,12 @@ RULES: tuple[Rule, ...] = (
     requirements.VIOLATED,
     requirements.UNKNOWN_NAME,
     requirements.UNDECIDED,
+    near_names.RULE,
+    two_types.RULE,
+    qos.RULE,
+    sim_time.RULE,
+    same_node_name.RULE,
+    unused_settings.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

@@ -230,12 +230,16 @@ def load_specs(path: Path) -> tuple[Spec, ...]:
 
 def write_specs(specs: Iterable[Spec]) -> str:
     """Write one YAML document per unit."""
-    documents = [SPEC.encode(spec) for spec in specs]
+    return _COMMENT + written([SPEC.encode(spec) for spec in specs])
+
+
+def written(documents: list[Any]) -> str:
+    """Write plain data as YAML, one document each."""
     text = _dumped(documents, allow_unicode=True)
     if not text.replace('\n', '').isprintable():
         # YAML takes for letters what turns their order round, and a terminal obeys.
         text = _dumped(documents, allow_unicode=False)
-    return _COMMENT + text
+    return text
 
 
 def _dumped(documents: list[Any], *, allow_unicode: bool) -> str:

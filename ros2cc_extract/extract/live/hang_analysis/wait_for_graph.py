@@ -60,12 +60,20 @@ class Standing:
         return bool(self.activity.entities)
 
 
+NOT_PROVEN = 'from the wait-for graph, not proven by the model'
+
+
 @dataclass(frozen=True)
 class Explanation:
+    """
+    :param proof: what the verdict rests on, in words.
+    """
+
     process: int
     verdict: Verdict
     standings: tuple[Standing, ...]
     look: Look
+    proof: str = NOT_PROVEN
 
 
 Looks = tuple[Look, Look]

@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     spinning_helpers,
     spins,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.values import parameters, qos
 from ros2cc_extract.extract.static.libraries.standard import (
     asyncio_loops,
     futures,
@@ -99,6 +100,7 @@ def model() -> LibraryModel:
             groups.TABLE,
             clocks.TABLE,
             nodes.TABLE,
+            parameters.TABLE,
             executors.TABLE,
             spins.TABLE,
             clients.TABLE,
@@ -109,6 +111,7 @@ def model() -> LibraryModel:
             called_by_services.TABLE,
             shutdown.TABLE,
             async_nodes.TABLE,
+            qos.TABLE,
         ],
         harmless=_HARMLESS,
         making=MAKING,

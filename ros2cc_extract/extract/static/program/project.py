@@ -10,6 +10,7 @@ from pathlib import Path
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.diagnostics import Diagnostic, unreadable_folder
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN
 from ros2cc_extract.extract.static.program.source import SourceFile
 from ros2cc_extract.extract.static.program.workspace import home_of
 from ros2cc_extract.files import DISK, Files, OnError
@@ -34,6 +35,7 @@ class Project:
     :param given: the files that the user asked for, by path; others are only followed, and
         found by where they stand alone, so that nothing depends on what was read before.
     :param lists_builtin: whether what rclpy makes for every node is wanted too.
+    :ivar parameters: what a launch sets for the nodes.
     :ivar deadline: when to end before all is followed.
     :ivar disk: where files are looked for.
     :ivar barred: folders that could not be looked into.
@@ -51,6 +53,7 @@ class Project:
         self._roots: dict[tuple[Path, str], Path | None] = {}
         self.given: list[SourceFile] = []
         self.lists_builtin = False
+        self.parameters = NONE_GIVEN
         self.deadline: Deadline | None = None
 
     @staticmethod

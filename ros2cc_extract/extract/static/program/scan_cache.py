@@ -45,6 +45,7 @@ def _key(project: Project) -> str:
         digest.update(_bytes(f'{source.shown}\0{source.path}\0{source.digest}\n'))
     for path, data in script_files(project.disk, project.script_folders()):
         digest.update(_bytes(f'{path}\0{digest_of(data)}\n'))
+    digest.update(_bytes(project.parameters.key))
     for told in project.barred:
         digest.update(_bytes(f'{told.place} {told.message}\n'))
     return digest.hexdigest()

@@ -15,4 +15,5 @@ class RosInterpreter(RosNotes, Interpreter):
     world: RosWorld
 
     def __init__(self, project: Project) -> None:
-        super().__init__(project, model(), RosWorld(lists_builtin=project.lists_builtin))
+        world = RosWorld(lists_builtin=project.lists_builtin, parameters=project.parameters)
+        super().__init__(project, model(), world)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
@@ -19,9 +20,10 @@ from ros2cc_extract.extract.static.program.call_order import (
     leading_to_entities,
 )
 from ros2cc_extract.extract.static.program.entry_points import Entry
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN
 from ros2cc_extract.extract.static.program.project import Project
 from ros2cc_extract.extract.static.program.relevance import creates_entities
-from ros2cc_extract.extract.static.program.text_queries import is_test
+from ros2cc_extract.extract.static.program.text_queries import is_test, walk
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -175,6 +177,22 @@ def _lacks_caller(world: RosWorld, method: _Method, instance: Instance) -> bool:
     return number not in world.called or (is_other and not is_private)
 
 
+def _is_left_out(world: RosWorld, method: _Method, instance: Instance) -> bool:
+    """
+    Whether its class hands it on where the parameters of the launch do not lead.
+
+    Without a launch all branches are followed, and what is handed on has a caller.
+    """
+    if world.parameters == NONE_GIVEN:
+        return False
+    texts = (cls.node for cls in instance.mro if isinstance(cls, Class))
+    return any(
+        isinstance(part, ast.Attribute) and part.attr == method.name
+        for text in texts
+        for part in walk(text)
+    )
+
+
 def _methods_without_caller(machine: RosInterpreter, instance: Instance) -> list[_Method]:
     """
     Methods not followed yet that lead to entities, callers before what they call.
@@ -185,6 +203,7 @@ def _methods_without_caller(machine: RosInterpreter, instance: Instance) -> list
         method
         for method in _methods_of(machine, instance)
         if _lacks_caller(machine.world, method, instance)
+        and not _is_left_out(machine.world, method, instance)
     ]
     modules = {id(method.text.module): method.text.module for method in left}
     makers = frozenset(

@@ -29,10 +29,12 @@ from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
 from ros2cc_extract.extract.static.units.entity_aliases import each_once
 from ros2cc_extract.extract.static.units.units import joined_of, specs_of
+from ros2cc_extract.extract.static.units.whole_program.node_graphs import graphs_of
 from ros2cc_extract.jobs.process_pool import ProcessPool
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.node_graph import NodeGraph
 
 Progress = Callable[[int, int], None]
 Numbers = tuple[int, ...]
@@ -66,6 +68,7 @@ class Found:
     What following one file gave.
 
     :param joined: units that wait for each other, as one.
+    :param nodes: what its nodes have in the graph.
     :param perhaps: the same of functions that only spin, which may be starts: where they stand.
     :param cut: why it was not followed to its end; empty where it was.
     """
@@ -75,6 +78,7 @@ class Found:
     covered: frozenset[Place] = frozenset()
     perhaps: tuple[tuple[Place, Found], ...] = ()
     joined: tuple[Joined, ...] = ()
+    nodes: tuple[NodeGraph, ...] = ()
     cut: str = ''
 
 
@@ -242,6 +246,7 @@ class _Scan:
             joined=tuple(
                 dict.fromkeys(each for pair in every for found in pair for each in found.joined)
             ),
+            nodes=tuple(each for pair in every for found in pair for each in found.nodes),
             diagnostics=_sorted([*noticed, *unread]),
             files_seen=tuple(source.shown for source in self._project.given),
             cut=next(filter(None, cut), ''),
@@ -359,7 +364,8 @@ def _failed(source: SourceFile, slug: str, message: str, mend: str = '') -> Foun
 def _found(world: RosWorld, label: str | None) -> Found:
     units = tuple(specs_of(world, label))
     joined = tuple(joined_of(world, label, units))
-    return Found(units, tuple(world.diagnostics), _covered(world), joined=joined)
+    nodes = tuple(graphs_of(world, label))
+    return Found(units, tuple(world.diagnostics), _covered(world), joined=joined, nodes=nodes)
 
 
 def _joined(parts: Iterable[Found]) -> Found:
@@ -369,6 +375,7 @@ def _joined(parts: Iterable[Found]) -> Found:
         tuple(diagnostic for part in found for diagnostic in part.noticed),
         frozenset(place for part in found for place in part.covered),
         joined=tuple(each for part in found for each in part.joined),
+        nodes=tuple(each for part in found for each in part.nodes),
     )
 
 

@@ -41,12 +41,19 @@ class Imports(Machine):
         module = Module(source.module_name, source.shown, source.package)
         self.modules[source.shown] = module
         module.slots['__name__'] = Const(run_name)
+        file = self.file_of(source)
+        if file is not None:
+            module.slots['__file__'] = file
         tree = source.tree
         if tree is not None:
             self.world.trees.append(tree)
             self.world.files.append((tree, source.shown))
             self._run_top_level(tree, module)
         return module
+
+    def file_of(self, source: SourceFile) -> Value | None:
+        """What ``__file__`` is in a module; ``None`` where that is known at run time alone."""
+        return None
 
     def _run_top_level(self, tree: ast.Module, module: Module) -> None:
         """Module code runs outside of what the importing code is in the middle of."""

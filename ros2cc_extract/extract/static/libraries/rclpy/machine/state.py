@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     Over,
     TimedJoin,
 )
+from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of
@@ -48,7 +49,10 @@ class NodeState(LibraryState):
     A ROS node.
 
     :param name: value of the name argument; ``None`` when none was seen.
+    :param namespace: value of that argument.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
+    :param takes_any_parameter: its code may ask for parameters whose names are not in sight.
+    :param has_own_arguments: it is made with arguments that stand for those of its process.
     :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
     :param more: why it may have entities that we do not see.
     :param begun: the call of ``Node.__init__``.
@@ -62,11 +66,14 @@ class NodeState(LibraryState):
 
     default_group: Instance
     name: Value | None = None
+    namespace: Value | None = None
     ghost: Unknown | None = None
     lifecycle: bool = False
     on_asyncio: bool = False
     rate_group: Instance | None = None
     has_parameter_services: bool = True
+    takes_any_parameter: bool = False
+    has_own_arguments: bool = False
     parameter_callbacks: dict[str, list[Value]] = field(default_factory=dict)
     more: list[tuple[str, Place | None]] = field(default_factory=list)
     spun: bool = False
@@ -118,6 +125,7 @@ class EntityState(Doer, LibraryState):
     """
     A ROS entity or a piece of group-less work; one record for each that is made.
 
+    :param type: its class of messages, services or actions; ``qos`` as it was given.
     :param assumed: the rule by which it is assumed to be there.
     :param held: flags that its maker has handed over to it, see ``flag_locks.py``.
     :param ran: how many of its functions were followed; -1 before any is.
@@ -135,6 +143,8 @@ class EntityState(Doer, LibraryState):
     place: Place
     callback: Value | None = None
     key: Value | None = None
+    type: Value | None = None
+    qos: Value | None = None
     period: Value | None = None
     path: Path = ()
     count: int | Unknown = 1
@@ -186,6 +196,18 @@ class EntityState(Doer, LibraryState):
     def owner_of(self, thing: Instance) -> Instance | None:
         """Its node."""
         return self.node
+
+
+@dataclass(frozen=True, eq=False)
+class PublisherState:
+    """A publisher as it was made: its arguments, and the branches that led there."""
+
+    node: Instance
+    topic: Value | None
+    type: Value | None
+    qos: Value | None
+    place: Place
+    path: Path
 
 
 @dataclass(eq=False)
@@ -288,6 +310,8 @@ class RosWorld(ConcurrentWorld):
     :param admitted: flags that hold for an accepted goal, by node and place of the action server.
     :param open_to: those that were down when a goal was accepted, by the same.
     :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
+    :param publishers: by node, place and topic.
+    :param parameters: what a launch sets for the nodes.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     """
 
@@ -296,6 +320,7 @@ class RosWorld(ConcurrentWorld):
     open_to: dict[tuple[Instance, Place], frozenset[str]] = field(default_factory=dict)
     nodes: list[Instance] = field(default_factory=list)
     entities: list[EntityState] = field(default_factory=list)
+    publishers: dict[object, PublisherState] = field(default_factory=dict)
     spins: dict[object, Spin] = field(default_factory=dict)
     inside_spins: list[InsideSpin] = field(default_factory=list)
     message_waits: list[MessageWait] = field(default_factory=list)
@@ -308,6 +333,7 @@ class RosWorld(ConcurrentWorld):
     followed: int = 0
     by_node: dict[int, list[EntityState]] = field(default_factory=dict)
     lists_builtin: bool = False
+    parameters: GivenParameters = NONE_GIVEN
     builtins: list[EntityState] = field(default_factory=list)
     global_executor: Instance | None = None
     groupless: Instance | None = None

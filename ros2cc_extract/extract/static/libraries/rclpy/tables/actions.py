@@ -48,6 +48,7 @@ def _init_server(machine: RosMachine, receiver: Value, call: Call) -> Value:
         return NONE
     server = add_entity(machine, node, EntityKind.ACTION_SERVER, group, place)
     server.key, server.goal_callback = key, call.argument(None, 'goal_callback')
+    server.type = call.argument(1, 'action_type')
     found = (call.argument(None, name) for name in _SERVER_CALLBACKS)
     server.extra_callbacks = tuple(value for value in found if value is not None)
     server.defers = call.argument(None, _SERVER_CALLBACKS[-1]) is not None
@@ -70,6 +71,7 @@ def _init_client(machine: RosMachine, receiver: Value, call: Call) -> Value:
         return NONE
     client = add_entity(machine, node, EntityKind.ACTION_CLIENT, group, call.place)
     client.key = key
+    client.type = call.argument(1, 'action_type')
     receiver.state = client
     remember_entity(machine, receiver)
     return NONE

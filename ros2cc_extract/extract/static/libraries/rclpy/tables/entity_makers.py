@@ -92,6 +92,7 @@ def _subscribe(machine: RosMachine, receiver: Value, call: Call) -> Value:
     group = group_of(machine, node, call.argument(None, 'callback_group'), call.place)
     entity = add_entity(machine, node, EntityKind.SUBSCRIPTION, group, call.place)
     entity.key, entity.library = call.argument(2, 'topic'), _FILTERS
+    entity.type, entity.qos = call.argument(1, 'msg_type'), call.argument(None, 'qos_profile')
     entity.label = 'filter_input'
     receiver.state = entity
     return NONE

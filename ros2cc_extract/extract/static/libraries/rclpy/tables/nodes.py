@@ -30,6 +30,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     GroupState,
     NodeState,
+    PublisherState,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.builtin_entities import (
     add_builtins_of_node,
@@ -44,6 +45,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import (
     new_group,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.shutdown import context_of_node
+from ros2cc_extract.extract.static.libraries.rclpy.values.parameters import PARAMETER_METHODS
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import PAIR_STEPS, THING_STEPS
@@ -52,7 +54,6 @@ from ros2cc_extract.extract.static.python.objects.allocation_sites import (
     remember,
 )
 from ros2cc_extract.extract.static.python.values.assumed_defaults import default_of
-from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -68,6 +69,14 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 
 NODE = 'rclpy.node.Node'
+_OWN_ARGUMENTS = ('use_global_arguments', 'cli_args', 'context')
+_UNDECLARED = (
+    'allow_undeclared_parameters',
+    'automatically_declare_parameters_from_overrides',
+    'parameter_overrides',
+    *_OWN_ARGUMENTS,
+)
+
 _BEGUN = '__begun__'
 LIFECYCLE_NODE = 'rclpy.lifecycle.node.LifecycleNode'
 
@@ -81,12 +90,19 @@ class CreateCall:
     key: tuple[int, str] | None = None
     callback: tuple[int, str] | None = None
     period: tuple[int, str] | None = None
+    type: tuple[int, str] | None = None
+    qos: tuple[int | None, str] | None = None
     group_position: int | None = None
 
 
 CREATE_CALLS = {
     'create_subscription': CreateCall(
-        EntityKind.SUBSCRIPTION, 'rclpy.subscription.Subscription', (1, 'topic'), (2, 'callback')
+        EntityKind.SUBSCRIPTION,
+        'rclpy.subscription.Subscription',
+        (1, 'topic'),
+        (2, 'callback'),
+        type=(0, 'msg_type'),
+        qos=(3, 'qos_profile'),
     ),
     'create_timer': CreateCall(
         EntityKind.TIMER,
@@ -96,9 +112,20 @@ CREATE_CALLS = {
         group_position=2,
     ),
     'create_service': CreateCall(
-        EntityKind.SERVICE, 'rclpy.service.Service', (1, 'srv_name'), (2, 'callback')
+        EntityKind.SERVICE,
+        'rclpy.service.Service',
+        (1, 'srv_name'),
+        (2, 'callback'),
+        type=(0, 'srv_type'),
+        qos=(None, 'qos_profile'),
     ),
-    'create_client': CreateCall(EntityKind.CLIENT, 'rclpy.client.Client', (1, 'srv_name')),
+    'create_client': CreateCall(
+        EntityKind.CLIENT,
+        'rclpy.client.Client',
+        (1, 'srv_name'),
+        type=(0, 'srv_type'),
+        qos=(None, 'qos_profile'),
+    ),
     'create_guard_condition': CreateCall(
         EntityKind.GUARD_CONDITION,
         'rclpy.guard_condition.GuardCondition',
@@ -161,12 +188,20 @@ def init_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
         _note_begun_again(machine, receiver, call)
         state = receiver.state
         state.name = call.argument(0, 'node_name') or NONE
+        _note_arguments(state, call)
         state.has_parameter_services = option_of_node(
             machine, 'start_parameter_services', call, default=True
         )
         machine.store.remove(receiver, DEFAULT_GROUP)
         add_builtins_of_node(machine, receiver, call)
     return NONE
+
+
+def _note_arguments(state: NodeState, call: Call) -> None:
+    """Its namespace, and what keeps the arguments of its process from it."""
+    state.namespace = call.argument(None, 'namespace')
+    state.has_own_arguments = any(map(call.keywords.__contains__, _OWN_ARGUMENTS))
+    state.takes_any_parameter = any(map(call.keywords.__contains__, _UNDECLARED))
 
 
 def _note_begun_again(machine: RosMachine, node: Instance, call: Call) -> None:
@@ -199,6 +234,8 @@ def _creator(row: CreateCall) -> Handler:
         entity.key = key
         entity.callback = callback
         entity.period = call.argument(*row.period) if row.period else None
+        entity.type = call.argument(*row.type) if row.type else None
+        entity.qos = call.argument(*row.qos) if row.qos else None
         if call.argument(None, 'autostart') == Const(False):
             entity.dormant = call.place
         made = Instance(Name(row.cls), call.place)
@@ -237,9 +274,24 @@ def _create_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value
         given = call.argument(None, 'callback_group')
         group = group_of(machine, receiver, given, call.place)
         add_events_of(machine, receiver, group, call.place, None)
+        _note_publisher(machine, receiver, call)
     made = Instance(Name('rclpy.publisher.Publisher'), call.place)
     made.state = PlainState('publisher', call.argument(1, 'topic'), receiver, call.place)
     return made
+
+
+def _note_publisher(machine: RosMachine, node: Instance, call: Call) -> None:
+    topic = call.argument(1, 'topic')
+    text = topic.value if isinstance(topic, Const) else None
+    publisher = PublisherState(
+        node,
+        topic,
+        call.argument(0, 'msg_type'),
+        call.argument(2, 'qos_profile'),
+        call.place,
+        machine.world.path,
+    )
+    machine.world.publishers.setdefault((id(node), call.place, text), publisher)
 
 
 def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
@@ -252,6 +304,7 @@ def _create_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node.state = make_node(machine, node)
     remember(machine, node, call)
     node.state.name = call.argument(0, 'node_name')
+    _note_arguments(node.state, call)
     add_builtins_of_node(machine, node, call)
     machine.world.instances.append(node)
     return node
@@ -292,96 +345,6 @@ def mark_destroyed(machine: RosMachine, entity: EntityState, place: Place) -> No
         entity.destroyed = True
 
 
-def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    name = call.argument(0, 'name')
-    default = call.argument(1, 'value')
-    text = f'parameter {name.value!r}' if isinstance(name, Const) else 'a parameter'
-    assert isinstance(receiver, Instance)
-    known = _declared(receiver)
-    if isinstance(name, Const):
-        if default is not None:
-            known[name.value] = default
-        default = known.get(name.value)
-    default = _usable(default_of(default))
-    if isinstance(default, Const):
-        text = f'{text} (default {default.value!r})'
-    made = Instance(Name('rclpy.parameter.Parameter'), call.place)
-    value = Mystery(Unknown(f'value of {text}', call.place), text, default)
-    made.state = PlainState('parameter', value)
-    return made
-
-
-def _declared(node: Instance) -> dict[object, Value]:
-    """The parameters that a node has declared, with their defaults."""
-    known: dict[object, Value] = node.slots.setdefault('__parameters__', {})
-    return known
-
-
-def _usable(default: Value | None) -> Value | None:
-    """A default that says something: a type alone, ``None`` and an empty list do not."""
-    if isinstance(default, Sequence):
-        return default if default.items and default.rest is None else None
-    return default if default != NONE else None
-
-
-def _declare_all(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """``declare_parameters(namespace, [(name, default, …), …])``."""
-    space, rows = call.argument(0, 'namespace'), call.argument(1, 'parameters')
-    items, rest = machine.items_of(rows or NONE, call.place)
-    made = []
-    for row in items:
-        parts = list(row.items) if isinstance(row, Sequence) else []
-        name = parts[0] if parts else NONE
-        if isinstance(space, Const) and isinstance(name, Const) and space.value:
-            parts[0] = Const(f'{space.value}.{name.value}')
-        made.append(_parameter(machine, receiver, Call(call.place, parts[:2])))
-    return Sequence(tuple(made), 'list', rest)
-
-
-def _get_all(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    items, rest = machine.items_of(call.argument(0, 'names') or NONE, call.place)
-    made = [_parameter(machine, receiver, Call(call.place, [name])) for name in items]
-    return Sequence(tuple(made), 'list', rest)
-
-
-def _keep_parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """``Parameter(name, type, value)``."""
-    assert isinstance(receiver, Instance)
-    value = call.argument(2, 'value') or machine.mystery('value of a parameter', call.place)
-    receiver.state = PlainState('parameter', value, call.argument(0, 'name'), call.place)
-    return NONE
-
-
-def _parameter_or(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """``get_parameter_or(name, alternative)``; the alternative is a parameter itself."""
-    other = call.argument(1, 'alternative_value')
-    state = other.state if isinstance(other, Instance) else None
-    default = state.key if isinstance(state, PlainState) else None
-    args = [arg for arg in (call.argument(0, 'name'), default) if arg is not None]
-    return _parameter(machine, receiver, Call(call.place, args))
-
-
-def _parameter_value(machine: RosMachine, receiver: Instance, place: Place) -> Value:
-    state = receiver.state
-    value = state.key if isinstance(state, PlainState) else None
-    return value or machine.mystery('value of a parameter', place)
-
-
-def _message(machine: RosMachine, receiver: Instance, place: Place) -> Value:
-    made = Instance(Name('rclpy.parameter.ParameterValue'), place)
-    made.state = receiver.state
-    return made
-
-
-class _ValueMethods(dict[str, Handler]):
-    """``get_parameter_value()`` and its fields all stand for the value."""
-
-
-def _get_parameter_value(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    assert isinstance(receiver, Instance)
-    return _message(machine, receiver, call.place)
-
-
 def _default_group(machine: RosMachine, receiver: Instance, place: Place) -> Value:
     return default_group_of(receiver)
 
@@ -400,18 +363,6 @@ def _name_of(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return Mystery(Unknown(AT_RUN_TIME, call.place), AT_RUN_TIME, default_of(name))
 
 
-_VALUE_FIELDS = [
-    'bool_value',
-    'integer_value',
-    'double_value',
-    'string_value',
-    'byte_array_value',
-    'bool_array_value',
-    'integer_array_value',
-    'double_array_value',
-    'string_array_value',
-]
-
 NODE_METHODS: dict[str, Handler] = {
     **{name: _creator(row) for name, row in CREATE_CALLS.items()},
     'create_rate': _create_rate,
@@ -424,11 +375,7 @@ NODE_METHODS: dict[str, Handler] = {
     'destroy_service': _destroy,
     'destroy_client': _destroy,
     'destroy_guard_condition': _destroy,
-    'declare_parameter': _parameter,
-    'declare_parameters': _declare_all,
-    'get_parameter': _parameter,
-    'get_parameters': _get_all,
-    'get_parameter_or': _parameter_or,
+    **PARAMETER_METHODS,
     'get_clock': clock_of,
     'get_name': _name_of,
     'get_logger': _unfollowed('the logger'),
@@ -447,14 +394,6 @@ TABLE = Library(
                 DEFAULT_GROUP: _default_group,
                 'context': context_of_node,
             },
-        ),
-        'rclpy.parameter.Parameter': LibraryClass(
-            init=_keep_parameter,
-            properties={'value': _parameter_value},
-            methods={'get_parameter_value': _get_parameter_value},
-        ),
-        'rclpy.parameter.ParameterValue': LibraryClass(
-            properties=dict.fromkeys(_VALUE_FIELDS, _parameter_value)
         ),
         'rclpy.publisher.Publisher': LibraryClass(),
     },

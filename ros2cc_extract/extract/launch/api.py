@@ -1,0 +1,70 @@
+"""The door to launch files: which there are, and what they start; nothing of them is ever run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.extract.launch.execution import Execution, shown_path
+from ros2cc_extract.extract.launch.language.actions import Action
+from ros2cc_extract.extract.launch.language.context import Context
+from ros2cc_extract.extract.launch.markup.files import XML, YAML, read_frontend
+from ros2cc_extract.extract.launch.python.files import read_python
+from ros2cc_extract.extract.launch.workspace.packages import Packages
+from ros2cc_extract.files import Files
+from ros2cc_extract.spec.system.launched import Launched
+
+SUFFIXES = ('.launch.py', '_launch.py', '.launch.xml', '_launch.xml', '.launch.yaml')
+_MORE_SUFFIXES = ('_launch.yaml', '.launch.yml', '_launch.yml', '.launch')
+_MARKS = (b'generate_launch_description', b'<launch', b'launch:')
+
+
+@dataclass(frozen=True)
+class Launch:
+    """
+    What a launch file starts.
+
+    :param files: that were read, as they are shown.
+    :param packages: around the first of them.
+    """
+
+    processes: tuple[Launched, ...]
+    noticed: tuple[Diagnostic, ...]
+    files: tuple[str, ...]
+    packages: Packages
+
+
+def is_launch_file(path: Path, files: Files) -> bool:
+    """Whether a path is a launch file, by its name or, below a folder ``launch``, by its text."""
+    if path.name.endswith((*SUFFIXES, *_MORE_SUFFIXES)):
+        return files.is_file(path)
+    is_likely = path.suffix in ('.py', XML, *YAML) and path.parent.name == 'launch'
+    if not is_likely or not files.is_file(path):
+        return False
+    try:
+        data = files.read(path, 1_000_000)
+    except OSError:
+        return False
+    return any(mark in data for mark in _MARKS)
+
+
+def launch(path: Path, arguments: Mapping[str, str], *, root: Path, files: Files) -> Launch:
+    """
+    Follow a launch file.
+
+    :param arguments: ``name:=value`` of the command line.
+    :param root: places are shown relative to it.
+    """
+    packages = Packages(files, path)
+
+    def load(file: Path, context: Context) -> Sequence[Action]:
+        if file.suffix in (XML, *YAML, '.launch'):
+            return read_frontend(file, shown_path(file, root), files)
+        return read_python(file, root, files, packages, context)
+
+    execution = Execution(Context(dict(arguments)), packages, load)
+    execution.include(path.absolute())
+    shown = dict.fromkeys(shown_path(file, root) for file in execution.files)
+    return Launch(tuple(execution.found), tuple(execution.noticed), tuple(shown), packages)

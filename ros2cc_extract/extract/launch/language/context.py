@@ -1,0 +1,77 @@
+"""
+What is set while a launch file is followed: configurations, namespace, remaps, parameters.
+
+Source: launch (Jazzy) ``launch_context.py``: a group that is scoped restores all of it at its end;
+an include is not scoped (``actions/include_launch_description.py``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+
+from ros2cc_extract.extract.launch.language.actions import ParameterSource
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.system.names import Remap
+
+Value = str | Unknown
+
+
+@dataclass(frozen=True)
+class Scope:
+    """
+    What holds at one point.
+
+    :param namespace: ``None`` before any is pushed.
+    """
+
+    configurations: dict[str, Value] = field(default_factory=dict)
+    namespace: Value | None = None
+    remaps: tuple[Remap, ...] = ()
+    parameters: tuple[ParameterSource, ...] = ()
+
+
+class Context:
+    """
+    The state of one launch.
+
+    :ivar unset: arguments without a value that something asked for, by name, with the place.
+    """
+
+    def __init__(self, arguments: dict[str, str]) -> None:
+        self.scope = Scope(configurations=dict(arguments))
+        self.file = ''
+        self.unset: dict[str, Place | None] = {}
+
+    def set(self, name: str, value: Value) -> None:
+        """Set a configuration for what follows in this scope."""
+        known = {**self.scope.configurations, name: value}
+        self.scope = replace(self.scope, configurations=known)
+
+    def unset_configuration(self, name: str) -> None:
+        """Take a configuration away."""
+        known = {n: v for n, v in self.scope.configurations.items() if n != name}
+        self.scope = replace(self.scope, configurations=known)
+
+    def only(self, configurations: dict[str, Value]) -> None:
+        """Keep no configuration but these."""
+        self.scope = replace(self.scope, configurations=dict(configurations))
+
+    @contextmanager
+    def group(self) -> Iterator[None]:
+        """What is set inside does not hold behind."""
+        before = self.scope
+        try:
+            yield
+        finally:
+            self.scope = before
+
+    @contextmanager
+    def within(self, file: str) -> Iterator[None]:
+        """Follow another file."""
+        before, self.file = self.file, file
+        try:
+            yield
+        finally:
+            self.file = before

@@ -1,0 +1,170 @@
+"""What one action starts, as values: names, remaps and parameters, or why they are not known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+from ros2cc_extract.extract.launch.language.actions import (
+    Constant,
+    FromFile,
+    ParameterSource,
+    StartNode,
+    StartProcess,
+)
+from ros2cc_extract.extract.launch.language.context import Context, Value
+from ros2cc_extract.extract.launch.language.evaluation import Evaluator
+from ros2cc_extract.extract.launch.language.substitutions import Expression
+from ros2cc_extract.extract.launch.parameter_files import parameters_in, read_value
+from ros2cc_extract.extract.launch.workspace.packages import Packages
+from ros2cc_extract.source_locations import Place, Unknown, shown_name
+from ros2cc_extract.spec.system.launched import Launched, SetParameter
+from ros2cc_extract.spec.system.names import Remap, joined_namespace, read_remap
+
+_ROS_ARGUMENTS = '--ros-args'
+_REMAP, _PARAMETER, _FILE = ('-r', '--remap'), ('-p', '--param'), ('--params-file',)
+Open = list[tuple[str, Unknown]]
+
+
+class ProcessFacts:
+    """Tells what is started in the scope of the moment."""
+
+    def __init__(self, context: Context, evaluator: Evaluator, packages: Packages) -> None:
+        self._context = context
+        self._evaluator = evaluator
+        self._packages = packages
+
+    def of_node(self, action: StartNode) -> Launched:
+        """What ``Node`` and the like start."""
+        open_facts: Open = list(action.open_facts)
+        arguments, remaps = self._arguments(action.arguments, action.place, open_facts)
+        remaps += self._context.scope.remaps
+        remaps += self._remaps(action, open_facts)
+        sources = (*self._context.scope.parameters, *action.parameters)
+        parameters = (*arguments, *self._parameters(sources, open_facts))
+        return Launched(
+            kind=action.kind,
+            source=action.place,
+            package=self._optional(action.package),
+            executable=self._optional(action.executable),
+            name=self._optional(action.name) or None,
+            namespace=self._namespace(action.namespace),
+            remaps=tuple(remaps),
+            parameters=tuple(parameters),
+            open=tuple(open_facts),
+        )
+
+    def of_process(self, action: StartProcess) -> Launched:
+        """What ``ExecuteProcess`` starts."""
+        open_facts: Open = []
+        if action.open_words is not None:
+            open_facts.append(('command', action.open_words))
+        words: list[str] = []
+        for expression in action.command:
+            value = self._evaluator.value(expression)
+            if isinstance(value, Unknown):
+                open_facts.append(('command', value))
+                words.append('…')
+            else:
+                # A command in one text is divided at blanks, as XML and YAML files have it.
+                words.extend(value.split() if len(action.command) == 1 else [value])
+        given: tuple[SetParameter, ...] = ()
+        remaps: list[Remap] = []
+        if _ROS_ARGUMENTS in words:
+            given, remaps = self._ros_arguments(words, action.place, open_facts)
+        return Launched(
+            kind='process',
+            source=action.place,
+            command=tuple(words),
+            remaps=tuple(remaps),
+            parameters=given,
+            open=tuple(open_facts),
+        )
+
+    def _optional(self, expression: Expression | None) -> Value | None:
+        return None if expression is None else self._evaluator.value(expression)
+
+    def _namespace(self, expression: Expression | None) -> Value | None:
+        own, base = self._optional(expression), self._context.scope.namespace
+        if own is None or isinstance(own, Unknown):
+            return own or base
+        if isinstance(base, Unknown):
+            return joined_namespace('', own) if own.startswith('/') else base
+        return joined_namespace(base or '', own) if own else base
+
+    def _remaps(self, action: StartNode, open_facts: Open) -> Iterator[Remap]:
+        for old, new in action.remaps:
+            left, right = self._evaluator.value(old), self._evaluator.value(new)
+            why = next((each for each in (left, right) if isinstance(each, Unknown)), None)
+            if why is not None:
+                open_facts.append(('remappings', why))
+                continue
+            remap = read_remap(f'{left}:={right}', action.place)
+            if remap is not None:
+                yield remap
+
+    def _parameters(
+        self, sources: Sequence[ParameterSource], open_facts: Open
+    ) -> Iterator[SetParameter]:
+        for source in sources:
+            if isinstance(source, FromFile):
+                path = self._evaluator.value(source.path)
+                yield from self._from_file(path, open_facts)
+                continue
+            name = self._evaluator.value(source.name)
+            if isinstance(name, Unknown):
+                open_facts.append(('parameters', name))
+                continue
+            value: object
+            if isinstance(source.value, Constant):
+                value = source.value.value
+            else:
+                text = self._evaluator.value(source.value)
+                value = text if isinstance(text, Unknown) else read_value(text)
+            yield SetParameter(name=name, value=value, source=source.place)
+
+    def _from_file(self, path: Value, open_facts: Open) -> Iterator[SetParameter]:
+        if isinstance(path, Unknown):
+            open_facts.append(('parameters', Unknown(f'parameter file: {path.reason}', path.at)))
+            return
+        if not self._packages.has(Path(path)):
+            open_facts.append(('parameters', Unknown(f'parameter file {path} is not there')))
+            return
+        found = parameters_in(self._packages.text(Path(path)), shown_name(path))
+        if isinstance(found, Unknown):
+            open_facts.append(('parameters', found))
+        else:
+            yield from found
+
+    def _arguments(
+        self, arguments: Sequence[Expression], place: Place, open_facts: Open
+    ) -> tuple[tuple[SetParameter, ...], list[Remap]]:
+        words: list[str] = []
+        for expression in arguments:
+            value = self._evaluator.value(expression)
+            if isinstance(value, Unknown):
+                open_facts.append(('arguments', value))
+            else:
+                words.extend(value.split())
+        return self._ros_arguments(words, place, open_facts)
+
+    def _ros_arguments(
+        self, words: Sequence[str], place: Place, open_facts: Open
+    ) -> tuple[tuple[SetParameter, ...], list[Remap]]:
+        """``--ros-args -r old:=new -p name:=value --params-file FILE``."""
+        parameters: list[SetParameter] = []
+        remaps: list[Remap] = []
+        for flag, word in pairwise(words):
+            if flag in _REMAP:
+                remap = read_remap(word, place)
+                remaps += [remap] if remap is not None else []
+            elif flag in _PARAMETER:
+                name, assigns, value = word.partition(':=')
+                if assigns:
+                    parameters.append(
+                        SetParameter(name=name, value=read_value(value), source=place)
+                    )
+            elif flag in _FILE:
+                parameters.extend(self._from_file(word, open_facts))
+        return tuple(parameters), remaps

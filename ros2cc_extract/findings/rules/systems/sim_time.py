@@ -1,0 +1,59 @@
+"""CC704: simulated time that nobody provides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.rule import Hit, Rule
+from ros2cc_extract.spec.node_graph import EndpointKind
+from ros2cc_extract.spec.system.model import Process, System
+
+PARAMETER = 'use_sim_time'
+_CLOCK = '/clock'
+
+
+def find(system: System) -> Iterator[Hit]:
+    """Not told where something that is not in sight may provide the time."""
+    if not system.is_whole or any(_gives_time(end.endpoint) for end in system.ends):
+        return
+    waiting = [process for process in system.processes if _is_simulated(process)]
+    if waiting:
+        names = ', '.join(str(node.name) for process in waiting for node in process.nodes)
+        yield Hit(
+            place=waiting[0].launched.source,
+            message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
+            'their time stands still, and their timers never fire',
+            help=f'start who publishes {_CLOCK}, or leave {PARAMETER} false',
+            subjects=tuple(process.name for process in waiting),
+        )
+
+
+def _gives_time(endpoint: object) -> bool:
+    kind, name = getattr(endpoint, 'kind', None), getattr(endpoint, 'name', None)
+    return kind is EndpointKind.PUBLISHER and name == _CLOCK
+
+
+def _is_simulated(process: Process) -> bool:
+    values = [each.value for each in process.launched.parameters if each.name == PARAMETER]
+    return bool(values) and values[-1] is True
+
+
+RULE = Rule(
+    code='CC704',
+    slug='sim-time-without-clock',
+    severity=Severity.WARNING,
+    title='Simulated time that nobody provides',
+    what='The launch file sets `use_sim_time` for a node, all code of the system is in sight, and '
+    'nothing in it publishes `/clock`.',
+    why='A node with simulated time takes its time from `/clock` and starts at zero; without '
+    'messages there the time stands still, and timers, rates and `sleep_for` of the node never '
+    'wake. Source: design.ros2.org, "Clock and Time"; rclpy 7.1.6, `time_source.py`.',
+    bad="""\
+Node(package='arm', executable='driver', parameters=[{'use_sim_time': True}])   # and no simulator
+""",
+    good="""\
+Node(package='arm', executable='driver', parameters=[{'use_sim_time': False}])
+""",
+    mend='Start who publishes `/clock`, or leave `use_sim_time` false.',
+)

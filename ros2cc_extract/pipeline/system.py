@@ -1,0 +1,267 @@
+"""From launch files to a system: each process scanned by itself, under its own names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.launch.api import Launch, launch
+from ros2cc_extract.extract.launch.workspace.packages import Executable
+from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
+from ros2cc_extract.files import Files
+from ros2cc_extract.source_locations import Unknown, shown_name
+from ros2cc_extract.spec.model import Unresolved
+from ros2cc_extract.spec.node_graph import NodeGraph
+from ros2cc_extract.spec.system.launched import Launched
+from ros2cc_extract.spec.system.model import Process, System, SystemNode
+from ros2cc_extract.spec.system.nodes import system_node
+from ros2cc_extract.spec.system.parameters import parameters_for
+
+ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
+_PYTHON = re.compile(r'(?:.*/)?python3?(?:\.\d+)?')
+_NO_CODE = ('container', 'composable')
+Scan = Callable[[Sequence[Path], GivenParameters], Extraction]
+
+
+@dataclass(frozen=True)
+class Scanned:
+    """
+    A system, and all that was scanned of it as one.
+
+    :param paths: the Python files that its processes run.
+    """
+
+    system: System
+    extraction: Extraction
+    paths: tuple[Path, ...]
+
+
+def divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
+    """Paths and ``name:=value`` of a command line."""
+    paths, arguments = [], {}
+    for word in words:
+        match = ARGUMENT.fullmatch(word)
+        if match is not None:
+            arguments[match.group(1)] = match.group(2)
+        else:
+            paths.append(Path(word))
+    return paths, arguments
+
+
+def scan_system(
+    files_of_launch: Sequence[Path], arguments: Mapping[str, str], scan: Scan, files: Files
+) -> Scanned:
+    """
+    Follow launch files, and scan what they start.
+
+    :param scan: scans files under the parameters that are set for them.
+    """
+    root = Path.cwd()
+    launches = [launch(path, arguments, root=root, files=files) for path in files_of_launch]
+    builder = _Builder(scan, root)
+    processes = [p for each in launches for p in builder.processes(each)]
+    noticed = tuple(d for each in launches for d in each.noticed)
+    outside = tuple(_told(p) for p in processes if p.outside is not None)
+    sources = tuple(dict.fromkeys(file for each in launches for file in each.files))
+    system = System(
+        name=', '.join(shown_name(path.name) for path in files_of_launch),
+        processes=tuple(processes),
+        sources=sources,
+        unresolved=tuple(_unresolved(processes, noticed)),
+    )
+    return Scanned(system, builder.extraction([*noticed, *outside], sources), builder.paths)
+
+
+class _Builder:
+    """Makes processes, and keeps what was scanned for them."""
+
+    def __init__(self, scan: Scan, root: Path) -> None:
+        self._scan = scan
+        self._root = root
+        self._names: dict[str, int] = {}
+        self._scans: dict[object, Extraction] = {}
+        self._kept: dict[int, Extraction] = {}
+        self._paths: dict[Path, None] = {}
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        return tuple(self._paths)
+
+    def processes(self, started: Launch) -> Iterator[Process]:
+        for launched in started.processes:
+            executable = _executable(launched, started)
+            if isinstance(executable, Unknown):
+                yield Process(name=self._name(launched), launched=launched, outside=executable)
+            else:
+                yield self._scanned(launched, executable)
+
+    def _scanned(self, launched: Launched, executable: Executable) -> Process:
+        assert executable.file is not None
+        path = executable.file
+        shown = path.relative_to(self._root) if path.is_relative_to(self._root) else path
+        self._paths[shown] = None
+        file = shown_name(shown.as_posix())
+        found = self._scan_once(shown, _given(launched, ()))
+        entry = _entry(found, file, executable.function)
+        graphs = [each for each in found.nodes if each.entry == entry]
+        known = _given(launched, [system_node(each, launched) for each in graphs])
+        if known != _given(launched, ()):
+            found = self._scan_once(shown, known)
+            graphs = [each for each in found.nodes if each.entry == entry]
+        self._kept.setdefault(id(found), found)
+        process = Process(
+            name=self._name(launched),
+            launched=launched,
+            file=file,
+            entry=entry,
+            nodes=tuple(system_node(graph, launched) for graph in _named(graphs)),
+            units=tuple(unit for unit in found.units if unit.entry == entry and entry),
+        )
+        if entry is None:
+            return replace(process, outside=Unknown('no start of a node is in sight in its file'))
+        return process
+
+    def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
+        key = (path, parameters.key)
+        if key not in self._scans:
+            self._scans[key] = self._scan([path], parameters)
+        return self._scans[key]
+
+    def _name(self, launched: Launched) -> str:
+        file = next((w for w in reversed(launched.command) if w.endswith('.py')), '')
+        words = file or ''.join(launched.command[:1])
+        facts = (launched.name, launched.executable, words)
+        told = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
+        name = (told.rpartition('/')[2] or told).removesuffix('.py')
+        number = self._names[name] = self._names.get(name, 0) + 1
+        return name if number == 1 else f'{name}_{number}'
+
+    def extraction(self, noticed: Sequence[Diagnostic], sources: Sequence[str]) -> Extraction:
+        """All scans as one."""
+        launches = Extraction(units=(), diagnostics=tuple(noticed), files_seen=tuple(sources))
+        return as_one([launches, *self._kept.values()])
+
+
+def as_one(found: Sequence[Extraction]) -> Extraction:
+    """Several scans as one; what several of them found stands in it once."""
+    told = dict.fromkeys(d for each in found for d in each.diagnostics)
+    return Extraction(
+        units=tuple(dict.fromkeys(unit for each in found for unit in each.units)),
+        diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
+        files_seen=tuple(dict.fromkeys(file for each in found for file in each.files_seen)),
+        joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
+        nodes=tuple(each for e in found for each in e.nodes),
+        cut=next((each.cut for each in found if each.cut), ''),
+        interrupted=any(each.interrupted for each in found),
+    )
+
+
+def _given(launched: Launched, nodes: Sequence[SystemNode]) -> GivenParameters:
+    values, are_all = parameters_for(launched, nodes)
+    return GivenParameters(values, are_all)
+
+
+def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
+    """The Python file of a process, or why there is none."""
+    if launched.kind in _NO_CODE:
+        return Unknown(f'a {launched.kind} node is no Python', launched.source)
+    if launched.kind == 'process':
+        return _of_command(launched, started)
+    package, name = launched.package or '', launched.executable
+    if isinstance(package, Unknown):
+        return Unknown(package.reason, package.at or launched.source)
+    if isinstance(name, Unknown):
+        return Unknown(name.reason, name.at or launched.source)
+    if name is None:
+        return Unknown('no executable is in sight', launched.source)
+    if not package:
+        return _python_file(Path(name), launched, started)
+    if started.packages.folder(package) is None:
+        return Unknown(f'package {package} is not in sight', launched.source)
+    found = started.packages.executable(package, name)
+    if found is None:
+        why = f'executable {name} is not among what package {package} installs'
+        return Unknown(why, launched.source)
+    if found.file is None:
+        return Unknown(f'executable {name} of package {package} is no Python', launched.source)
+    return found
+
+
+def _of_command(launched: Launched, started: Launch) -> Executable | Unknown:
+    """``python3 file.py``, ``file.py``."""
+    words = [word for word in launched.command if not word.startswith('-')]
+    if words and _PYTHON.fullmatch(words[0]):
+        words = words[1:]
+    if not words or not words[0].endswith('.py'):
+        shown = ' '.join(launched.command[:3]) or 'of this process'
+        return Unknown(f'command {shown} runs no Python file', launched.source)
+    return _python_file(Path(words[0]), launched, started)
+
+
+def _python_file(path: Path, launched: Launched, started: Launch) -> Executable | Unknown:
+    if not started.packages.has(path):
+        return Unknown(f'{path} is not there', launched.source)
+    return Executable(path.absolute())
+
+
+def _entry(found: Extraction, file: str, function: str | None) -> str | None:
+    """Which of the starts of a file the process is."""
+    starts = [*(unit.entry for unit in found.units), *(node.entry for node in found.nodes)]
+    known = dict.fromkeys(entry for entry in starts if entry is not None)
+    mine = [entry for entry in known if entry.startswith(f'{file}:')]
+    wanted = f'{file}:{function or "main"}'
+    if wanted in mine:
+        return wanted
+    return mine[0] if len(mine) == 1 else None
+
+
+def _named(graphs: Sequence[NodeGraph]) -> list[NodeGraph]:
+    """The nodes of a program; one that is not known may be one of those that are."""
+    known = [each for each in graphs if isinstance(each.name, str)]
+    return known or list(graphs)
+
+
+def _told(process: Process) -> Diagnostic:
+    why = process.outside
+    assert why is not None
+    return Diagnostic(
+        severity=Severity.NOTE,
+        slug='outside-system',
+        place=process.launched.source,
+        message=f'process {process.name} is outside: {why.reason}',
+        help='what it offers and asks for is not known',
+    )
+
+
+def _unresolved(
+    processes: Sequence[Process], noticed: Sequence[Diagnostic]
+) -> Iterator[Unresolved]:
+    for diagnostic in noticed:
+        yield Unresolved(
+            subject='launch', fact='action', reason=diagnostic.message, source=diagnostic.place
+        )
+    for process in processes:
+        facts = list(process.launched.open)
+        if process.outside is not None:
+            facts.append(('code', process.outside))
+        if process.launched.conditional is not None:
+            facts.append(('condition', process.launched.conditional))
+        for fact, why in facts:
+            source = why.at or process.launched.source
+            yield Unresolved(subject=process.name, fact=fact, reason=why.reason, source=source)
+        for node in process.nodes:
+            if isinstance(node.name, Unknown):
+                yield Unresolved(
+                    subject=process.name, fact='node_name', reason=node.name.reason,
+                    source=node.name.at or node.source,
+                )  # fmt: skip
+            for endpoint in node.endpoints:
+                if isinstance(endpoint.name, Unknown):
+                    yield Unresolved(
+                        subject=str(node.own_name), fact=endpoint.kind.what,
+                        reason=endpoint.name.reason, source=endpoint.source,
+                    )  # fmt: skip

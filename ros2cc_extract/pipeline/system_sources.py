@@ -1,0 +1,107 @@
+"""Launch files among the paths of a check: what they start is scanned in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TextIO
+
+from ros2cc_extract.deadline import PATIENT, Patience
+from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.extraction import Extraction
+from ros2cc_extract.extract.launch.api import is_launch_file
+from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
+from ros2cc_extract.files import DISK, Files
+from ros2cc_extract.pipeline.sources import scan_sources
+from ros2cc_extract.pipeline.system import Scanned, as_one, scan_system
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.system.joined_processes import circles_of
+from ros2cc_extract.spec.system.model import System
+
+
+def scan_paths(
+    paths: Sequence[Path],
+    arguments: Mapping[str, str],
+    stderr: TextIO,
+    *,
+    cached: bool = True,
+    lists_builtin: bool = False,
+    files: Files = DISK,
+    patience: Patience = PATIENT,
+) -> tuple[Extraction, System | None]:
+    """
+    Scan files and folders; of launch files what they start, as one system.
+
+    :raises InputError: for an argument without a launch file that takes it.
+    """
+    launches = [path for path in paths if is_launch_file(path, files)]
+    others = [path for path in paths if path not in launches]
+    if not launches and arguments:
+        name = next(iter(arguments))
+        raise InputError(f'{name}:= is for a launch file', None, 'name the launch file too')
+    found: list[Extraction] = []
+    system: System | None = None
+    if launches:
+        scanned = scan_launch_files(
+            launches,
+            arguments,
+            stderr,
+            cached=cached,
+            lists_builtin=lists_builtin,
+            files=files,
+            patience=patience,
+        )
+        circles = circles_of(scanned.system)
+        extraction = scanned.extraction
+        together = (*extraction.joined, *circles.joined)
+        found.append(replace(extraction, joined=together))
+        system = scanned.system
+    if others or not launches:
+        found.append(
+            scan_sources(
+                others,
+                stderr,
+                cached=cached,
+                lists_builtin=lists_builtin,
+                files=files,
+                patience=patience,
+            )
+        )
+    return (found[0] if len(found) == 1 else as_one(found)), system
+
+
+def scan_launch_files(
+    paths: Sequence[Path],
+    arguments: Mapping[str, str],
+    stderr: TextIO,
+    *,
+    cached: bool = True,
+    lists_builtin: bool = False,
+    files: Files = DISK,
+    patience: Patience = PATIENT,
+) -> Scanned:
+    """
+    Scan what launch files start.
+
+    :raises InputError: for a path that is no launch file.
+    """
+    for path in paths:
+        if not files.exists(path):
+            raise InputError('no such file or directory', Place(str(path)))
+        if not is_launch_file(path, files):
+            mend = 'launch files end in .launch.py, .launch.xml or .launch.yaml'
+            raise InputError('is no launch file', Place(str(path)), mend)
+
+    def scan(names: Sequence[Path], parameters: GivenParameters) -> Extraction:
+        return scan_sources(
+            names,
+            stderr,
+            cached=cached,
+            lists_builtin=lists_builtin,
+            parameters=parameters,
+            files=files,
+            patience=patience,
+        )
+
+    return scan_system(paths, arguments, scan, files)

@@ -1,0 +1,142 @@
+"""
+A system: its processes, their units as today, their nodes with resolved names, their connections.
+
+A process whose code is not in sight is *outside*: it is known that it is there, not what it does.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.model import Spec, Unresolved
+from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind
+from ros2cc_extract.spec.system.launched import Fact, Launched
+from ros2cc_extract.spec.system.names import Naming, Remap
+
+
+@dataclass(frozen=True, kw_only=True)
+class SystemEndpoint:
+    """
+    An endpoint under the name that it has in the graph.
+
+    :param name: fully resolved.
+    :param written: what the code says.
+    :param remap: the rule that has renamed it.
+    """
+
+    kind: EndpointKind
+    name: Fact
+    written: Fact
+    type: str | None = None
+    remap: Remap | None = None
+    source: Place | None = None
+    conditional: bool = False
+    assumed: str | None = None
+    of: Endpoint = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SystemNode:
+    """
+    A node of a process.
+
+    :param name: fully qualified.
+    :param own_name: what the code calls it, as the units do.
+    :param open: why it may have more endpoints than these.
+    """
+
+    name: Fact
+    own_name: Fact
+    endpoints: tuple[SystemEndpoint, ...] = ()
+    parameters: tuple[str, ...] | None = ()
+    open: Unknown | None = None
+    source: Place | None = None
+    naming: Naming | None = field(default=None, repr=False, compare=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Process:
+    """
+    One process.
+
+    :param name: unique in the system.
+    :param launched: how the launch file starts it.
+    :param file: the Python file that it runs, as shown; ``entry`` where in it, as of its units.
+    :param outside: why its code is not in sight.
+    """
+
+    name: str
+    launched: Launched
+    file: str | None = None
+    entry: str | None = None
+    outside: Unknown | None = None
+    nodes: tuple[SystemNode, ...] = ()
+    units: tuple[Spec, ...] = ()
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of a connection, with whose it is."""
+
+    process: Process
+    node: SystemNode
+    endpoint: SystemEndpoint
+
+
+@dataclass(frozen=True)
+class Connection:
+    """All ends of one topic, service or action."""
+
+    what: str
+    name: str
+    ends: tuple[End, ...]
+
+    def of_kind(self, kind: EndpointKind) -> tuple[End, ...]:
+        """The ends of a kind."""
+        return tuple(end for end in self.ends if end.endpoint.kind is kind)
+
+
+@dataclass(frozen=True, kw_only=True)
+class System:
+    """
+    What one launch starts.
+
+    :param name: of the launch file.
+    :param sources: launch files.
+    :param unresolved: what could not be found out.
+    """
+
+    name: str
+    processes: tuple[Process, ...]
+    sources: tuple[str, ...] = ()
+    unresolved: tuple[Unresolved, ...] = ()
+
+    @property
+    def ends(self) -> Iterator[End]:
+        """Every endpoint of every node."""
+        for process in self.processes:
+            for node in process.nodes:
+                for endpoint in node.endpoints:
+                    yield End(process, node, endpoint)
+
+    @cached_property
+    def connections(self) -> tuple[Connection, ...]:
+        """The topics, services and actions whose names are known, by name."""
+        found: dict[tuple[str, str], list[End]] = defaultdict(list)
+        for end in self.ends:
+            if isinstance(end.endpoint.name, str):
+                found[end.endpoint.kind.what, end.endpoint.name].append(end)
+        return tuple(Connection(*key, tuple(ends)) for key, ends in sorted(found.items()))
+
+    @cached_property
+    def is_whole(self) -> bool:
+        """Whether all code and all names are in sight."""
+        are_known = all(
+            process.outside is None and all(node.open is None for node in process.nodes)
+            for process in self.processes
+        )
+        return are_known and all(isinstance(end.endpoint.name, str) for end in self.ends)

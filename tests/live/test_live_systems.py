@@ -1,0 +1,88 @@
+"""
+Systems of two and three processes, started for real as their launch files say.
+
+Those in which a circle of waits is found hang, and their mended twins go on. What each process is
+told comes from the system specification, so that its names, remaps and parameters hold too.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from child import Child
+from conftest import ROOT
+
+from ros2cc_extract.pipeline.system_sources import scan_launch_files
+from ros2cc_extract.spec.system.launched import Launched
+from ros2cc_extract.spec.system.model import Process, System
+from ros2cc_extract.spec.system.parameters import parameters_for
+from tests.support.domains import free_domain
+
+LAUNCH = ROOT / 'tests' / 'systems' / 'launch'
+BAD = ('calls_back_bad.launch.py', 'lock_over_call_bad.launch.py', 'relays_bad.launch.xml')
+GOOD = ('calls_back_good.launch.py', 'lock_over_call_good.launch.py', 'relays_good.launch.yaml')
+ASKS_BACK, GOES_ON = 'asks back\n', 'goes on\n'
+ROUNDS = 3
+HANGS_FOR_S = 1.0
+
+
+def arguments(launched: Launched, process: Process) -> Iterator[str]:
+    """What ``ros2 launch`` puts on the command line of a process."""
+    yield '--ros-args'
+    if isinstance(launched.name, str):
+        yield from ('-r', f'__node:={launched.name}')
+    if isinstance(launched.namespace, str):
+        yield from ('-r', f'__ns:={launched.namespace}')
+    values, _ = parameters_for(launched, process.nodes)
+    for name, value in values.items():
+        yield from ('-p', f'{name}:={str(value).lower()}')
+    for remap in launched.remaps:
+        yield from ('-r', str(remap))
+
+
+def system_of(name: str) -> System:
+    return scan_launch_files([LAUNCH / name], {}, io.StringIO(), cached=False).system
+
+
+@pytest.fixture(scope='module')
+def running(rclpy_python: str) -> Iterator[dict[str, dict[str, Child]]]:
+    """All systems at once, each in a domain of its own: its processes by name."""
+    with ExitStack() as stack:
+        started: dict[str, dict[str, Child]] = {}
+        for name in (*BAD, *GOOD):
+            env = {
+                **os.environ,
+                'ROS_DOMAIN_ID': str(stack.enter_context(free_domain())),
+                'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            }
+            children: dict[str, Child] = {}
+            for process in system_of(name).processes:
+                assert process.file is not None
+                command = [rclpy_python, str(Path(process.file).absolute())]
+                child = Child([*command, *arguments(process.launched, process)], env)
+                stack.callback(child.close)
+                children[process.name] = child
+            started[name] = children
+        yield started
+
+
+@pytest.mark.parametrize('name', GOOD)
+def test_a_mended_system_goes_on(name: str, running: dict[str, dict[str, Child]]) -> None:
+    first, *_ = running[name].values()
+    first.read_until(lambda lines: lines.count(GOES_ON) >= ROUNDS)
+
+
+@pytest.mark.parametrize('name', BAD)
+def test_a_system_with_a_circle_hangs(name: str, running: dict[str, dict[str, Child]]) -> None:
+    first, second = running[name].values()
+    second.read_until(lambda lines: ASKS_BACK in lines)
+    first.sleep(HANGS_FOR_S)
+    first.process.kill()
+    first.end()
+    assert 'asks\n' in first.lines
+    assert GOES_ON not in first.lines

@@ -1,0 +1,38 @@
+"""Answers ``request`` once ``next`` has answered; whom that is, the launch file says."""
+
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Relay(Node):
+    def __init__(self):
+        super().__init__('relay')
+        answers = MutuallyExclusiveCallbackGroup()
+        self.next = self.create_client(Trigger, 'next', callback_group=answers)
+        self.create_service(Trigger, 'request', self.on_request)
+        if self.declare_parameter('begins', False).value:
+            self.create_timer(0.2, self.tick)
+
+    def tick(self):
+        print('asks', flush=True)
+        self.next.call(Trigger.Request())
+        print('goes on', flush=True)
+
+    def on_request(self, request, response):
+        print('asks back', flush=True)
+        self.next.call(Trigger.Request())
+        return response
+
+
+def main():
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(Relay())
+    executor.spin()
+
+
+if __name__ == '__main__':
+    main()

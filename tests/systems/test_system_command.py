@@ -1,0 +1,106 @@
+"""The command ``system``: the specification, its schema, pictures, and what it refuses."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+
+from ros2cc_extract.cli.main import main
+
+LAUNCH = Path(__file__).parent / 'launch'
+RELAYS = LAUNCH / 'relays_bad.launch.xml'
+
+
+def told(*words: str) -> tuple[int, str, str]:
+    out, err = io.StringIO(), io.StringIO()
+    return main(['system', '--no-cache', *words], out, err), out.getvalue(), err.getvalue()
+
+
+def system_of(path: Path) -> dict[str, Any]:
+    found: dict[str, Any] = yaml.safe_load(told(str(path))[1])
+    return found
+
+
+@pytest.mark.parametrize('path', sorted(LAUNCH.iterdir()), ids=lambda path: path.name)
+def test_what_is_written_is_of_the_schema(path: Path) -> None:
+    found = system_of(path)
+    jsonschema.validate(found, json.loads(told('--schema')[1]))
+    out = io.StringIO()
+    main(['spec', '--schema'], out, io.StringIO())
+    for process in found['system']['processes']:
+        for unit in process['units']:
+            jsonschema.validate(unit, json.loads(out.getvalue()))
+    assert json.loads(told(str(path), '--output-format', 'json')[1]) == found
+
+
+def test_names_are_resolved_and_parameters_decide() -> None:
+    system = system_of(RELAYS)['system']
+    first, second = system['processes']
+    assert [node['name'] for node in (*first['nodes'], *second['nodes'])] == [
+        '/chain/first',
+        '/chain/second',
+    ]
+    timers = [
+        [
+            each['name']
+            for each in process['units'][0]['node']['callbacks']
+            if each['type'] == 'TMR'
+        ]
+        for process in (first, second)
+    ]
+    assert timers == [['tick'], []]
+    ends = {
+        connection['service']: [(end['kind'], end['process']) for end in connection['ends']]
+        for connection in system['connections']
+    }
+    assert ends == {
+        '/chain/first/request': [('service', 'first'), ('client', 'second')],
+        '/chain/second/request': [('client', 'first'), ('service', 'second')],
+    }
+
+
+def test_an_argument_names_the_namespace() -> None:
+    found = yaml.safe_load(told(str(RELAYS), 'space:=other')[1])
+    names = [node['name'] for p in found['system']['processes'] for node in p['nodes']]
+    assert names == ['/other/first', '/other/second']
+
+
+def test_a_circle_is_red_and_what_is_in_none_is_not() -> None:
+    assert 'linkStyle 0,1,2,3 stroke:#c62828' in told(str(RELAYS), '--output-format', 'mermaid')[1]
+    assert told(str(RELAYS), '--output-format', 'dot')[1].count('color="#c62828"') == 4
+    good = str(LAUNCH / 'relays_good.launch.yaml')
+    assert 'linkStyle' not in told(good, '--output-format', 'mermaid')[1]
+
+
+def test_what_is_no_launch_file_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / 'node.py'
+    path.write_text('')
+    assert told(str(path)) == (
+        2,
+        '',
+        f'ros2cc-extract: error: {path}: is no launch file; launch files end in .launch.py, '
+        '.launch.xml or .launch.yaml\n',
+    )
+
+
+def test_nothing_in_sight_is_undecided(tmp_path: Path) -> None:
+    path = tmp_path / 'a.launch.xml'
+    path.write_text('<launch><node pkg="elsewhere" exec="e"/></launch>')
+    out, err = io.StringIO(), io.StringIO()
+    assert main(['check', '-q', '--no-cache', str(path)], out, err) == 3
+    assert err.getvalue() == 'nothing to check: of 1 processes none has a callback in sight\n'
+    assert 'process e is outside: package elsewhere is not in sight' in out.getvalue()
+
+
+def test_an_argument_needs_a_launch_file(tmp_path: Path) -> None:
+    path = tmp_path / 'node.py'
+    path.write_text('')
+    err = io.StringIO()
+    assert main(['check', str(path), 'a:=b'], io.StringIO(), err) == 2
+    assert 'a:= is for a launch file; name the launch file too' in err.getvalue()

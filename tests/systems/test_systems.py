@@ -1,0 +1,57 @@
+"""
+Each system says in its last lines what is found in it: code, file, and text of the line.
+
+``tests/live/test_live_systems.py`` starts those with a circle of waits and their mended twins.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.cli.main import main
+
+HERE = Path(__file__).parent
+LAUNCH = HERE / 'launch'
+FOUND = re.compile(r'^(\S+?):(\d+):\d+: (?:error|warning) (CC\d+): ', re.MULTILINE)
+MARK = re.compile(r'^(?:#|<!--)\s*(.*?)(?:\s*-->)?$')
+NOTHING = 'nothing'
+
+
+def expected(path: Path) -> list[tuple[str, str, str]]:
+    """Code, file and text of the line of each finding that the last lines of a file name."""
+    lines = path.read_text(encoding='utf-8').splitlines()
+    marked: list[str] = []
+    while lines and (match := MARK.match(lines.pop())):
+        marked.append(match.group(1))
+    found = []
+    for mark in reversed([mark for mark in marked if mark != NOTHING]):
+        code, file, text = mark.split(maxsplit=2)
+        found.append((code, file.removesuffix(':'), text))
+    return found
+
+
+def found_in(path: Path, *arguments: str) -> list[tuple[str, str, str]]:
+    out = io.StringIO()
+    main(['check', '--no-cache', '-q', str(path), *arguments], out, io.StringIO())
+    found = []
+    for file, line, code in FOUND.findall(out.getvalue()):
+        text = Path(file).read_text(encoding='utf-8').splitlines()[int(line) - 1]
+        found.append((code, Path(file).resolve().relative_to(HERE).as_posix(), text))
+    return found
+
+
+@pytest.mark.parametrize('path', sorted(LAUNCH.iterdir()), ids=lambda path: path.name)
+def test_a_system_has_the_findings_that_it_names(path: Path) -> None:
+    found, wanted = found_in(path), expected(path)
+    assert [each[:2] for each in found] == [each[:2] for each in wanted]
+    assert all(want in has for (_, _, has), (_, _, want) in zip(found, wanted, strict=True))
+
+
+def test_an_argument_of_the_launch_file_decides() -> None:
+    path = LAUNCH / 'calls_back_good.launch.py'
+    codes = [code for code, _, _ in found_in(path, 'beside:=false')]
+    assert codes == ['CC109']

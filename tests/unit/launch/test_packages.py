@@ -1,0 +1,70 @@
+"""Which file an executable of a package runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.extract.launch.workspace.packages import Executable, Packages
+from ros2cc_extract.files import DISK
+from tests.unit.launch.following import package
+
+
+def packages(home: Path) -> Packages:
+    return Packages(DISK, home / 'launch' / 'a.launch.py')
+
+
+@pytest.mark.parametrize(
+    ('file', 'text'),
+    [
+        ('setup.py', "setup(entry_points={'console_scripts': ['talk = robot.talker:main']})"),
+        ('setup.cfg', '[options.entry_points]\nconsole_scripts =\n    talk = robot.talker:main\n'),
+        ('pyproject.toml', '[project.scripts]\ntalk = "robot.talker:main"\n'),
+    ],
+)
+def test_a_console_script_is_a_function(file: str, text: str, tmp_path: Path) -> None:
+    home = package(tmp_path)
+    (home / file).write_text(text)
+    (home / 'robot').mkdir()
+    talker = home / 'robot' / 'talker.py'
+    talker.write_text('def main(): ...')
+    assert packages(home).executable('robot', 'talk') == Executable(talker, 'main')
+    assert packages(home).executable('robot', 'other') is None
+    assert packages(home).executable('elsewhere', 'talk') is None
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'install(PROGRAMS scripts/talk.py DESTINATION lib/${PROJECT_NAME})',
+        'install(PROGRAMS # both\n scripts/talk.py DESTINATION lib/robot)',
+        'set(ALL scripts/talk.py)\ninstall(PROGRAMS ${ALL} DESTINATION lib/${PROJECT_NAME})',
+        'install(DIRECTORY scripts/ DESTINATION lib/${PROJECT_NAME})',
+    ],
+)
+def test_an_installed_program_is_a_script(text: str, tmp_path: Path) -> None:
+    home = package(tmp_path)
+    (home / 'CMakeLists.txt').write_text(text)
+    (home / 'scripts').mkdir()
+    script = home / 'scripts' / 'talk.py'
+    script.write_text('')
+    assert packages(home).executable('robot', 'talk.py') == Executable(script)
+
+
+def test_a_program_may_be_renamed_and_a_built_one_is_no_python(tmp_path: Path) -> None:
+    home = package(tmp_path)
+    (home / 'CMakeLists.txt').write_text(
+        'install(PROGRAMS talk.py RENAME talk DESTINATION lib/robot)\nadd_executable(fast f.cpp)'
+    )
+    (home / 'talk.py').write_text('')
+    assert packages(home).executable('robot', 'talk') == Executable(home / 'talk.py')
+    assert packages(home).executable('robot', 'fast') == Executable(None)
+
+
+def test_an_installed_package_has_its_programs_in_lib(tmp_path: Path) -> None:
+    home = package(tmp_path / 'share')
+    program = tmp_path / 'lib' / 'robot' / 'talk'
+    program.parent.mkdir(parents=True)
+    program.write_text('#!/usr/bin/python3\n')
+    assert packages(home).executable('robot', 'talk') == Executable(program)
