@@ -58,6 +58,7 @@ def stands(
         number=1,
         file=file,
         function=function,
+        called=function,
         module='program',
         line=1,
         at=1,

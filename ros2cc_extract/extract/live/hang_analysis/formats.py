@@ -56,10 +56,7 @@ def _lines(standing: Standing, look: Look) -> Iterator[str]:
         return
     code = f'{standing.code} ' if standing.code else ''
     place = activity.place
-    yield (
-        f'{place.file}:{place.line}: {code}{place.function} ({activity.name}) '
-        f'{does(standing, look)}'
-    )
+    yield (f'{place.at_line}: {code}{place.called} ({activity.name}) {does(standing, look)}')
     yield from (f'  {each}' for each in standing.reasons)
     if standing.code:
         yield f'  help: ros2cc-extract explain {standing.code}'
@@ -212,7 +209,7 @@ def _drawn(explanation: Explanation) -> Iterator[str]:
             continue
         number = f'{explanation.process}_{index}'
         place = each.activity.place
-        yield f'a{number}["{_plain(place.function)} line {place.line}"]'
+        yield f'a{number}["{_plain(place.called)} line {place.line}"]'
         what = resource(each.wait, explanation.look)
         yield f'a{number} -->|waits for| w{number}(["{_plain(what)}"])'
         for count, why in enumerate(() if each.can_end else each.reasons):

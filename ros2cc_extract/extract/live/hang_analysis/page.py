@@ -88,8 +88,8 @@ def _chain(standing: Standing, look: Look) -> Iterator[str]:
     line = _line(place)
     source = f'<pre>{_text(line)}</pre>' if line else ''
     yield (
-        f'<div{never}><b>{_text(code + place.function)}</b> ({_text(activity.name)})<br>'
-        f'<span class="quiet">{_text(f"{place.file}:{place.line}")}</span>{source}</div>'
+        f'<div{never}><b>{_text(code + place.called)}</b> ({_text(activity.name)})<br>'
+        f'<span class="quiet">{_text(place.at_line)}</span>{source}</div>'
     )
     if standing.asleep or standing.wait.kind in (Kind.NOTHING, Kind.SLEEP):
         yield f'<span>{_text(does(standing, look))}</span>'

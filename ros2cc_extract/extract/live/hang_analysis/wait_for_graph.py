@@ -357,7 +357,7 @@ class _Graph:
     def say(self, index: int) -> str:
         activity = self.look.activities[index]
         place = activity.place
-        return f'{place.function} ({activity.name}) at {place.file}:{place.line}'
+        return f'{place.called} ({activity.name}) at {place.at_line}'
 
 
 def _code(graph: _Graph, index: int) -> str | None:
