@@ -54,7 +54,10 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
     if schedule.forever and seen.passed.get(0):
         reason = f'the wait at line {schedule.line} ended; the model says that it never does'
         return Judgement(Outcome.CONTRADICTED, reason, _last_look(seen))
-    return Judgement(Outcome.NOT_REACHED, 'was reached, but nothing was shown', _last_look(seen))
+    reason = 'was reached, but nothing was shown'
+    if schedule.runs_inside and not seen.raised:
+        reason = 'was reached; no other callback began inside, and this release raises nothing'
+    return Judgement(Outcome.NOT_REACHED, reason, _last_look(seen))
 
 
 def _last_look(seen: Observations) -> str:

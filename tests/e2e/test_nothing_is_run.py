@@ -73,6 +73,9 @@ def test_confirm_asks_before_it_starts_a_node(
     refused = run('confirm', node, '--python', python)
     assert (refused.status, refused.out) == (2, '')
     assert 'is not started: nobody was asked, as this is no terminal; add --yes' in refused.err
+    refused = run('check', node, '--confirm', '--python', python)
+    assert refused.status == 2
+    assert 'is not started: nobody was asked' in refused.err
     assert not canary.exists()
     assert run('confirm', node, '--python', python, '--yes', '--limit', '5').status == 0
     assert canary.exists(), 'the canary would have sung'

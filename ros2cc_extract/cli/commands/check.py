@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TextIO
 from ros2cc_extract.cli.shared.arguments import (
     add_dask_argument,
     add_launch_paths,
+    add_node_arguments,
     add_search_arguments,
     add_unit_arguments,
     number_of_seconds,
@@ -81,6 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='assume a fact: threads=4, executor=MultiThreadedExecutor, group.NAME=REENTRANT',
     )
     _add_what_is_accepted(parser)
+    add_node_arguments(parser, confirms=True)
     add_unit_arguments(parser)
     add_search_arguments(parser, seconds=DEFAULT_SECONDS)
     parser.add_argument(
@@ -143,6 +145,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.pipeline.sources import has_unread
 
     _refuse_to_judge_parts(args)
+    release = _release_to_confirm_on(args)
     args.paths, arguments = _divided(args.paths)
     config = load_config(min(args.paths, key=Path.absolute))
     job = replace(_job(args, config), arguments=arguments)
@@ -157,6 +160,10 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
             raise
         print('interrupted', file=stderr)
         return termination.status
+    if args.confirm and not outcome.interrupted:
+        from ros2cc_extract.cli.shared.on_node import with_outcomes
+
+        outcome = replace(outcome, findings=with_outcomes(outcome, args, release, stderr))
     tell_releases((job.assumptions.rclpy, *(unit.rclpy for unit in outcome.units)), stderr)
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
@@ -172,6 +179,18 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if not outcome.units and job.sees_all and not has_unread(outcome.extraction.diagnostics):
         return _tell_nothing_judged(args, outcome, stderr)
     return _status(args, outcome)
+
+
+def _release_to_confirm_on(args: argparse.Namespace) -> str | None:
+    """The one that is there; what is judged is how nodes behave on it."""
+    if not args.confirm:
+        return None
+    from ros2cc_extract.cli.shared.on_node import interpreter_of
+    from ros2cc_extract.confirm.processes import release_of
+
+    release = release_of(interpreter_of(args))
+    args.rclpy = args.rclpy or release
+    return release
 
 
 def _refuse_to_judge_parts(args: argparse.Namespace) -> None:

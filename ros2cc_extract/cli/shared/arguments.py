@@ -149,6 +149,30 @@ def add_search_arguments(
     )
 
 
+def add_node_arguments(parser: argparse.ArgumentParser, *, confirms: bool = False) -> None:
+    """Add how a program is started; with ``confirms`` also that it is to be."""
+    group = parser.add_argument_group('on the running node')
+    if confirms:
+        group.add_argument(
+            '--confirm',
+            action='store_true',
+            help='start the programs, and try to show each finding, as the command confirm does',
+        )
+    group.add_argument(
+        '--yes', action='store_true', help='start a program without asking; its code runs'
+    )
+    group.add_argument(
+        '--python',
+        metavar='PROGRAM',
+        help='the interpreter that has rclpy (default: this one, else python3)',
+    )
+    group.add_argument(
+        '--stub-missing',
+        action='store_true',
+        help='put stand-ins that do nothing in place of modules that are not installed',
+    )
+
+
 def add_dask_argument(parser: argparse.ArgumentParser, what: str) -> None:
     """Add who verifies; ``what`` names the jobs."""
     parser.add_argument(

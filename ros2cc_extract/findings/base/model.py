@@ -17,6 +17,29 @@ class Remark:
     text: str
 
 
+@dataclass(frozen=True)
+class OnNode:
+    """
+    What came of a finding on the running node.
+
+    :param outcome: ``confirmed``, ``not reached`` or ``contradicted``.
+    :param release: of rclpy, where it is known.
+    :param reason: what was seen, or what is missing.
+    :param evidence: several lines that show it; may be empty.
+    """
+
+    outcome: str
+    release: str | None
+    reason: str
+    evidence: str = ''
+
+    @property
+    def words(self) -> str:
+        """Say it in a line."""
+        on = f'rclpy {self.release}' if self.release else 'rclpy'
+        return f'{self.outcome} on {on}: {self.reason}'
+
+
 @dataclass(frozen=True, kw_only=True)
 class Finding:
     """
@@ -31,6 +54,7 @@ class Finding:
     :param related: other places to look at, such as where a group was made.
     :param run: a run of the model that shows it.
     :param help: how to mend it, in one clause.
+    :param on_node: what came of it on the running node, where that was tried.
     :param cause: what is behind it, where one cause may show in several units; told once.
     """
 
@@ -45,3 +69,4 @@ class Finding:
     related: tuple[Remark, ...] = ()
     run: Evidence | None = None
     cause: str = ''
+    on_node: OnNode | None = None

@@ -71,6 +71,7 @@ def _card(number: int, finding: Finding, excerpts: Excerpts, run: str) -> str:
         _remarks('How it gets there', finding.chain, excerpts),
         _remarks('Look also at', finding.related, excerpts),
         run,
+        tag('p', escape(finding.on_node.words)) if finding.on_node else '',
         tag('p', tag('b', 'help: '), escape(finding.help), class_='help') if finding.help else '',
         tag('p', tag('a', escape(about), href=f'#rule-{rule.code}'), class_='about'),
         class_=f'finding {kind}',

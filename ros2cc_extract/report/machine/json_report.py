@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from ros2cc_extract.compare.merge import Difference
@@ -176,6 +177,7 @@ def _finding_data(finding: Finding) -> Data:
         'unit': finding.unit,
         'subjects': list(finding.subjects),
         'evidence': _finding_evidence(finding),
+        **({'on_node': asdict(finding.on_node)} if finding.on_node else {}),
     }
 
 

@@ -9,6 +9,7 @@ Source: OASIS "Static Analysis Results Interchange Format (SARIF) Version 2.1.0"
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import Any
 from urllib.parse import quote
 
@@ -95,7 +96,12 @@ def _results(findings: Sequence[Finding], root: str) -> Iterator[Data]:
             'partialFingerprints': {FINGERPRINT: fingerprint},
             **_flows(finding, root),
             **_related(finding, root),
+            **_on_node(finding),
         }
+
+
+def _on_node(finding: Finding) -> Data:
+    return {'properties': {'onNode': asdict(finding.on_node)}} if finding.on_node else {}
 
 
 def _message(finding: Finding) -> str:

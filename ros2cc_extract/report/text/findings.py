@@ -88,6 +88,8 @@ def _print_body(finding: Finding, paths: Paths, console: Console, detail: Detail
         is_whole = detail is Detail.VERBOSE
         console.print('  it can happen like this:')
         print_run(finding.run if is_whole else shortened(finding.run, MOST_STEPS), console)
+    if finding.on_node is not None:
+        console.print(f'  {one_line(finding.on_node.words)}', soft_wrap=True)
     if finding.help:
         console.print(f'  help: {one_line(finding.help)}', soft_wrap=True)
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import shutil
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ros2cc_extract.cli.shared.arguments import add_cache_argument, number_of_seconds
+from ros2cc_extract.cli.shared.arguments import (
+    add_cache_argument,
+    add_node_arguments,
+    number_of_seconds,
+)
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS
 
 if TYPE_CHECKING:
@@ -47,24 +49,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='only findings of this rule, or of this line (default: all that can be shown)',
     )
     parser.add_argument(
-        '--yes', action='store_true', help='start the program without asking; its code runs'
-    )
-    parser.add_argument(
         '--limit',
         type=number_of_seconds,
         default=DEFAULT_SECONDS,
         metavar='S',
         help='give up after S seconds for each finding (default %(default)g)',
-    )
-    parser.add_argument(
-        '--python',
-        metavar='PROGRAM',
-        help='the interpreter that has rclpy (default: this one, else python3)',
-    )
-    parser.add_argument(
-        '--stub-missing',
-        action='store_true',
-        help='put stand-ins that do nothing in place of modules that are not installed',
     )
     parser.add_argument(
         '--keep', type=Path, metavar='FILE', help='write the schedule of what was confirmed first'
@@ -73,10 +62,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--replay', type=Path, metavar='FILE', help='repeat a schedule that --keep has written'
     )
     parser.add_argument('--output-format', choices=('text', 'json'), default='text')
+    add_node_arguments(parser)
     add_cache_argument(parser)
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
+    from ros2cc_extract.cli.shared.on_node import interpreter_of
     from ros2cc_extract.confirm.confirming import confirm
     from ros2cc_extract.confirm.consent import ask_to_start
     from ros2cc_extract.confirm.outcomes import Outcome
@@ -86,7 +77,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     if (args.path is None) == (args.replay is None):
         raise InputError('one path, or --replay', None, 'as in: confirm my_node.py')
-    python = args.python or _interpreter()
+    python = interpreter_of(args)
     release = release_of(python)
     schedules = _schedules(args, release, stderr)
     for entry in dict.fromkeys(each.entry for each in schedules):
@@ -103,13 +94,6 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     shown = [each for each in found if each.judgement.outcome is Outcome.CONFIRMED]
     _keep(args.keep, shown, stderr)
     return EXIT_FINDINGS if shown else EXIT_CLEAN
-
-
-def _interpreter() -> str:
-    import importlib.util
-
-    own = importlib.util.find_spec('rclpy') is not None
-    return sys.executable if own else shutil.which('python3') or sys.executable
 
 
 def _schedules(

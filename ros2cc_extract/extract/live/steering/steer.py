@@ -8,6 +8,7 @@ neighbours.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 import time
@@ -44,6 +45,7 @@ class Steering:
     def __init__(self, director: Director, report: Report) -> None:
         self._director = director
         self._report = report
+        self._parent = os.getppid()
         Lines(director, report).start()
         self._excepthook, sys.excepthook = sys.excepthook, self._uncaught
         self._thread_hook, threading.excepthook = threading.excepthook, self._uncaught_in_thread
@@ -68,6 +70,9 @@ class Steering:
     def _look(self) -> None:
         while True:
             time.sleep(LOOKS_EVERY_S)
+            if os.getppid() != self._parent:
+                # Whoever watches has been killed: nobody else would end this process.
+                os.kill(os.getpid(), signal.SIGKILL)
             self._director.look_at_the_clock()
             if self._director.is_open:
                 try:

@@ -16,6 +16,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import json
+import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -63,10 +64,11 @@ class Stimulus:
         self._actions: dict[str, Any] = {}
 
     def run(self) -> None:
-        """Go on until killed."""
+        """Go on until killed, or until whoever has started it is gone."""
         executor = importlib.import_module('rclpy.executors').SingleThreadedExecutor()
         executor.add_node(self._node)
-        while self._rclpy.ok():
+        parent = os.getppid()
+        while self._rclpy.ok() and os.getppid() == parent:
             for name, namespace in self._others():
                 for act in (
                     self._publish,
