@@ -55,3 +55,28 @@ def test_an_argument_of_the_launch_file_decides() -> None:
     path = LAUNCH / 'calls_back_good.launch.py'
     codes = [code for code, _, _ in found_in(path, 'beside:=false')]
     assert codes == ['CC109']
+
+
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        (
+            'rests_on_stuck_bad.launch.xml',
+            'Relay.tick waits for service /first/request of stuck, of which that is not proven',
+        ),
+        (
+            'rests_on_nobody_bad.launch.xml',
+            'Relay.tick waits for service /first/request, which nobody offers',
+        ),
+    ],
+)
+def test_a_promise_rests_on_those_of_the_neighbours(name: str, reason: str) -> None:
+    out = io.StringIO()
+    main(['check', '--no-cache', str(LAUNCH / name)], out, io.StringIO())
+    assert f'  ? every wait ends: {reason}\n' in out.getvalue()
+
+
+def test_neighbours_that_keep_theirs_let_it_be_kept() -> None:
+    out = io.StringIO()
+    main(['check', '--no-cache', str(LAUNCH / 'calls_back_good.launch.py')], out, io.StringIO())
+    assert out.getvalue().count('\u2713 no deadlock  \u2713 every wait ends') == 2

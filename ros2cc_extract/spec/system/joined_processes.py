@@ -33,6 +33,7 @@ _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
 _NOBODY = (OUTSIDE, TIME)
+_SERVING = {'service': EntityKind.SERVICE, 'action': EntityKind.ACTION_SERVER}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +112,7 @@ class ServiceWait:
     doer: Callback | Activity
     block: Blocking
     what: str
-    name: str
+    name: str | Unknown
 
 
 def service_waits(process: Process) -> Iterator[ServiceWait]:
@@ -124,15 +125,28 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
             for block in doer.blocking:
                 client = clients.get(block.on) if isinstance(block.on, str) else None
                 key = names.key(client) if client is not None else None
-                if client is not None and block.seconds is None and isinstance(key, str):
+                if client is not None and block.seconds is None and key is not None:
                     what = 'service' if client.entity is EntityKind.CLIENT else 'action'
                     yield ServiceWait(unit, doer, block, what, key)
+
+
+def server_units(system: System, what: str, name: str) -> list[Spec]:
+    """The units that offer a service or an action."""
+    return [
+        unit
+        for process in system.processes
+        for unit in process.units
+        for names in (_Names(process, unit),)
+        for callback in unit.callbacks
+        if callback.entity is _SERVING[what] and names.key(callback) == name
+    ]
 
 
 def _needed(process: Process) -> Iterator[tuple[str, str]]:
     """Services and actions whose answer something in the process waits for."""
     for wait in service_waits(process):
-        yield wait.what, wait.name
+        if isinstance(wait.name, str):
+            yield wait.what, wait.name
 
 
 def _why_not(process: Process) -> Unknown | None:
