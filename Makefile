@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo quick test test-long texts slices shapes waits why random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
+.PHONY: demo quick test test-long texts slices shapes waits why confirm random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -87,6 +87,11 @@ why: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(BIN)/python -m tests.live.standing $(CURDIR)/$(JAZZY)/bin/python --hooked
 	$(BIN)/python -m tests.live.moments $(CURDIR)/$(JAZZY)/bin/python 200
 	$(BIN)/python -m tests.live.moments $(CURDIR)/$(KILTED)/bin/python 200
+
+# What `confirm` says of every node here that has a finding, and of its good twin; no twin is confirmed.
+confirm: $(VENV)/developed $(JAZZY)/installed
+	@mkdir -p build
+	$(BIN)/python -m tests.confirm.table --python $(CURDIR)/$(JAZZY)/bin/python --record build/confirm_jazzy.jsonl
 
 # What the table of shapes excuses, asked anew, and docs/waits.md from it.
 waits: $(VENV)/developed

@@ -36,6 +36,7 @@ ALLOWED = {
     '__main__': {'*'},
     'ros': {'*'},
     'cli': {
+        'confirm',
         'pipeline',
         'packages',
         'report',
@@ -63,6 +64,8 @@ ALLOWED = {
         'extract.live',
         'extract.launch',
     },
+    # Only here is started what was scanned.
+    'confirm': {'findings', 'verify', 'spec', 'extract', 'extract.live'},
     'packages': set(),
     'report': {'findings', 'verify', 'spec', 'compare'},
     'findings': {'verify', 'spec'},

@@ -20,6 +20,7 @@ from typing import Any
 from ..recorder.events import BEGIN, END, REFUSED
 from ..recorder.frames import is_node, trace_creation
 from ..recorder.record import Recorder
+from ..steering.steer import steer_from_environment
 from .events_executor import mark_spinning, measure_callbacks
 from .groups import reporting
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
@@ -52,6 +53,8 @@ class Hook:
         self._traced = traced
         self._wrapped: list[tuple[type, str, Any]] = []
         self._measures_events = False
+        #: Called once rclpy is loaded and wrapped.
+        self.afterwards: Callable[[], None] | None = None
 
     def install(self) -> None:
         """Wrap rclpy now if it is loaded, else as soon as it will be."""
@@ -66,6 +69,8 @@ class Hook:
     def _wrap_at_once(self, executors: Any) -> None:
         """Wrap what was loaded just now, so that nobody can have made an executor yet."""
         self.recorder.sees_every_executor = self.wrap(executors)
+        if self.afterwards is not None:
+            self.afterwards()
 
     def wrap(self, executors: Any) -> bool:
         """
@@ -286,7 +291,13 @@ def install_from_environment() -> Hook | None:
     """Install the hook if the environment asks for it."""
     directory = os.environ.get(OUTPUT_VARIABLE)
     traced = os.environ.get(TRACE_VARIABLE) == '1'
-    return install(directory, traced=traced) if directory else None
+    if not directory:
+        return None
+    hook = install(directory, traced=traced)
+    steering = steer_from_environment()
+    if steering is not None:
+        hook.afterwards = steering.wrap
+    return hook
 
 
 def _file_of_process(directory: str) -> str:

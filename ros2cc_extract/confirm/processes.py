@@ -1,0 +1,166 @@
+"""Starts the node and what it meets, in processes of their own, and ends them."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import os
+import random
+import signal
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import IO
+
+from ros2cc_extract.confirm.schedules import Schedule
+from ros2cc_extract.errors import InputError, ToolNotFoundError
+from ros2cc_extract.extract.live.environment import hooked_environment
+from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
+
+_SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
+# The ports of domains up to 101 stay below Linux' ephemeral ports.
+_DOMAINS = range(1, 102)
+READY = 'ready'
+_MOST_LOG_BYTES = 4_000_000
+_VERSION = """
+from importlib import metadata
+import rclpy
+for name in ('ros-rclpy', 'rclpy'):
+    try:
+        print(metadata.version(name))
+        break
+    except metadata.PackageNotFoundError:
+        pass
+"""
+
+
+@dataclass(frozen=True)
+class Node:
+    """
+    A node that was started.
+
+    :param report: what the steering inside it writes.
+    :param log: what it says itself.
+    """
+
+    process: subprocess.Popen[bytes]
+    report: Path
+    log: Path
+
+    @property
+    def said(self) -> str:
+        """The end of what it has said."""
+        return self.log.read_bytes()[-_MOST_LOG_BYTES:].decode(errors='replace')
+
+
+def release_of(python: str) -> str | None:
+    """
+    Give the version of rclpy that an interpreter has, `None` where it does not tell.
+
+    :raises ToolNotFoundError: when it has none, or is none.
+    """
+    mend = 'source the workspace of ROS, or name an interpreter with --python'
+    try:
+        found = subprocess.run(
+            [python, '-c', _VERSION], capture_output=True, text=True, timeout=60
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise ToolNotFoundError(f'{python} cannot be started: {error}', None, mend) from error
+    if found.returncode:
+        raise ToolNotFoundError(f'{python} cannot import rclpy', None, mend)
+    return found.stdout.strip() or None
+
+
+@contextmanager
+def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator[Node]:
+    """
+    Start the program of a schedule beside its stimulus; both are killed in the end.
+
+    They see a domain of their own, and nothing beyond this machine.
+
+    :raises InputError: when all domains are in use.
+    :raises ToolNotFoundError: when they cannot be started.
+    """
+    with tempfile.TemporaryDirectory(prefix='ros2cc-confirm-') as name, _domain() as domain:
+        folder = Path(name)
+        (folder / 'recordings').mkdir()
+        (folder / 'report').touch()
+        (folder / 'plan').write_text(_plan(schedule, folder), encoding='utf-8')
+        plain = {
+            **{key: value for key, value in os.environ.items() if key != 'ROS_LOCALHOST_ONLY'},
+            'ROS_DOMAIN_ID': str(domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'ROS_LOG_DIR': str(folder / 'log'),
+            'PYTHONUNBUFFERED': '1',
+            'PYTHONDONTWRITEBYTECODE': '1',
+        }
+        hooked = hooked_environment(plain, folder / 'recordings')
+        hooked[VARIABLE] = str(folder / 'plan')
+        hooked[STUBS_VARIABLE] = '1' if stubs else '0'
+        node = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
+        node += [schedule.function] if schedule.function else []
+        stimulus = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
+        stimulus += [json.dumps(schedule.values), str(schedule.at_once)]
+        stimulus.append('1' if schedule.defaults else '0')
+        with (
+            (folder / 'said').open('wb') as said,
+            _running(stimulus, plain, subprocess.DEVNULL),
+            _running(node, hooked, said) as process,
+        ):
+            yield Node(process, folder / 'report', folder / 'said')
+
+
+def _plan(schedule: Schedule, folder: Path) -> str:
+    row = {
+        'report': str(folder / 'report'),
+        'surroundings': str(folder / READY),
+        'points': [asdict(each) for each in schedule.points],
+        'race': None if schedule.race is None else asdict(schedule.race),
+        'held': [asdict(each) for each in schedule.held],
+    }
+    return json.dumps(row)
+
+
+@contextmanager
+def _running(
+    command: list[str], environment: Mapping[str, str], output: IO[bytes] | int
+) -> Iterator[subprocess.Popen[bytes]]:
+    try:
+        process = subprocess.Popen(
+            command,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+    except OSError as error:
+        raise ToolNotFoundError(f'{command[0]} cannot be started: {error.strerror}') from error
+    try:
+        yield process
+    finally:
+        # Its session is its own: whatever it has started ends with it.
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+@contextmanager
+def _domain() -> Iterator[int]:
+    """Hold a domain that no other run of ours on this machine has, nor the user."""
+    own = os.environ.get('ROS_DOMAIN_ID')
+    for number in random.sample(_DOMAINS, len(_DOMAINS)):
+        path = Path(tempfile.gettempdir()) / f'ros2cc-confirm-{os.getuid()}-{number}.lock'
+        with path.open('w') as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            if str(number) != own:
+                yield number
+                return
+    raise InputError('all domains of ROS are in use')

@@ -1,0 +1,214 @@
+"""
+Forces two accesses of one attribute: who has read is held before the write, until another thread
+has written.
+
+Only the functions that hold these writes are traced, instruction by instruction. Source: Python,
+`sys.settrace` (event `opcode`), `dis`.
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours.
+"""
+
+from __future__ import annotations
+
+import dis
+import os
+import threading
+from collections.abc import Callable
+from types import CodeType, FrameType
+from typing import Any
+
+from .report import Report
+
+Trace = Callable[[FrameType, str, Any], Any]
+# Long enough for a timer of a second.
+HELD_S = 1.5
+_MOST_TRIES = 16
+_LONGEST = 120
+_READ, _WRITE = 'read', 'write'
+_NOTHING = object()
+
+
+class Write:
+    """Lines of a statement that writes the attribute."""
+
+    def __init__(self, row: dict[str, Any]) -> None:
+        self.file = str(row['file'])
+        self.first = int(row['first'])
+        self.last = int(row['last'])
+
+    def contains(self, line: int | None) -> bool:
+        return line is not None and self.first <= line <= self.last
+
+
+class Race:
+    """
+    One attribute, who is held, and who writes meanwhile.
+
+    :param row: `attribute`, `own`: the write that is held; `others`: writes of other threads,
+        which may be the same statement.
+    """
+
+    def __init__(self, row: dict[str, Any], report: Report) -> None:
+        self.attribute = str(row['attribute'])
+        self.own = Write(row['own'])
+        self.others = [Write(each) for each in row['others']]
+        self._report = report
+        self._known: dict[CodeType, dict[int, str]] = {}
+        self._changed = threading.Condition(threading.Lock())
+        self._held: int | None = None
+        self._object: Any = None
+        self._other: Any = _NOTHING
+        self._tries = 0
+
+    def of(self, frame: FrameType) -> Trace | None:
+        """Give what traces a call, if it may read or write the attribute."""
+        code = frame.f_code
+        marks = self._known.get(code)
+        if marks is None:
+            marks = self._known[code] = self._marks(code)
+        if _WRITE not in marks.values():
+            return None
+        frame.f_trace_opcodes = True
+        return _Call(self, marks).trace
+
+    def _marks(self, code: CodeType) -> dict[int, str]:
+        """What each instruction does with the attribute, by its offset."""
+        writes = [self.own, *self.others]
+        file = os.path.realpath(code.co_filename)
+        if file not in {each.file for each in writes}:
+            return {}
+        lines = {
+            offset: line for first, end, line in code.co_lines() for offset in range(first, end)
+        }
+        marks = {}
+        for each in dis.get_instructions(code):
+            line = lines.get(each.offset)
+            is_there = any(w.file == file and w.contains(line) for w in writes)
+            named = each.argval == self.attribute
+            if each.opname in ('LOAD_ATTR', 'LOAD_METHOD') and named:
+                marks[each.offset] = _READ
+            elif is_there and (
+                (each.opname == 'STORE_ATTR' and named) or each.opname == 'STORE_SUBSCR'
+            ):
+                marks[each.offset] = _WRITE
+        return marks
+
+    def is_own(self, frame: FrameType, line: int) -> bool:
+        return _is_in(frame, line, self.own)
+
+    def is_other(self, frame: FrameType, line: int) -> bool:
+        return any(_is_in(frame, line, each) for each in self.others)
+
+    def hold(self, target: Any) -> tuple[Any, ...] | None:
+        """
+        Hold this thread until another one has written.
+
+        :return: what that one wrote, in a tuple; an empty one if nobody did in time; `None` if
+            this thread was not held.
+        """
+        with self._changed:
+            if self._held is not None or self._tries >= _MOST_TRIES:
+                return None
+            self._tries += 1
+            self._held, self._object, self._other = threading.get_ident(), target, _NOTHING
+            self._changed.wait_for(lambda: self._other is not _NOTHING, HELD_S)
+            self._held, self._object = None, None
+            return () if self._other is _NOTHING else (self._other,)
+
+    def wrote(self, target: Any) -> None:
+        """Another thread has written: let go who is held."""
+        with self._changed:
+            is_other = self._held not in (None, threading.get_ident())
+            if is_other and target is self._object and self._other is _NOTHING:
+                self._other = _value(self._object, self.attribute)
+                self._changed.notify_all()
+
+    def tell(self, read: Any, other: Any, own: Any) -> None:
+        if other is _NOTHING:
+            self._report.write('alone')
+        else:
+            shown = {'read': _shown(read), 'other': _shown(other), 'own': _shown(own)}
+            differs = read is not _NOTHING and shown['read'] != shown['other']
+            self._report.write(
+                'raced', **shown, stale=differs, lost=shown['own'] != shown['other']
+            )
+
+
+class _Call:
+    """One call of such a function."""
+
+    def __init__(self, race: Race, marks: dict[int, str]) -> None:
+        self._race = race
+        self._marks = marks
+        self._before = -1
+        self._line = 0
+        self._read: Any = _NOTHING
+        self._forced: Any = None
+
+    def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
+        if event in ('opcode', 'return'):
+            self._after(frame)
+        if event == 'opcode':
+            self._before, self._line = frame.f_lasti, frame.f_lineno
+            if self._marks.get(frame.f_lasti) == _WRITE and self._race.is_own(
+                frame, frame.f_lineno
+            ):
+                self._hold(frame)
+        return self.trace
+
+    def _after(self, frame: FrameType) -> None:
+        """What the instruction before has done."""
+        did, self._before = self._marks.get(self._before), -1
+        if did == _READ:
+            self._read = _copied(_value(_target(frame), self._race.attribute))
+        elif did == _WRITE:
+            if self._forced is not None:
+                other, self._forced = self._forced[0], None
+                self._race.tell(self._read, other, _value(_target(frame), self._race.attribute))
+            elif self._race.is_other(frame, self._line):
+                self._race.wrote(_target(frame))
+
+    def _hold(self, frame: FrameType) -> None:
+        forced = self._race.hold(_target(frame))
+        self._forced = forced or None
+        if forced == ():
+            self._race.tell(self._read, _NOTHING, _NOTHING)
+
+
+def _is_in(frame: FrameType, line: int, write: Write) -> bool:
+    return write.contains(line) and write.file == os.path.realpath(frame.f_code.co_filename)
+
+
+def _target(frame: FrameType) -> Any:
+    """Whose attribute it is: of the first argument."""
+    names = frame.f_code.co_varnames
+    return frame.f_locals.get(names[0], _NOTHING) if names else _NOTHING
+
+
+def _value(target: Any, name: str) -> Any:
+    """What the attribute holds, without asking a property."""
+    return getattr(target, '__dict__', {}).get(name, _NOTHING)
+
+
+def _copied(value: Any) -> Any:
+    """What changes in place is kept as it reads now."""
+    immutable = isinstance(value, (int, float, str, bytes, tuple, frozenset, type(None)))
+    return value if immutable or value is _NOTHING else _Text(_shown(value))
+
+
+class _Text:
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def __repr__(self) -> str:
+        return self._text
+
+
+def _shown(value: Any) -> str:
+    if value is _NOTHING:
+        return '?'
+    try:
+        return repr(value)[:_LONGEST]
+    except Exception:
+        return f'a {type(value).__name__}'

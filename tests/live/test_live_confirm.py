@@ -1,0 +1,67 @@
+"""``confirm`` shows findings on real rclpy: by force, again from its file, and never of a twin."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from ros2cc_extract.confirm import confirming
+from ros2cc_extract.confirm.confirming import confirm
+from ros2cc_extract.confirm.outcomes import Outcome
+from ros2cc_extract.confirm.schedules import read_schedule
+from tests.confirm.table import onto, schedules
+
+BUGS = Path(__file__).parents[1] / 'bugs'
+LIMIT_S = 120.0
+TWIN_S = 7.0
+
+
+def test_locks_in_opposite_order_are_confirmed_and_the_twin_is_not(
+    rclpy_python: str, tmp_path: Path
+) -> None:
+    """Without force the two callbacks would meet between their locks once in a blue moon."""
+    kept, node = tmp_path / 'kept.json', BUGS / 'g4_lock_order.py'
+    command = [sys.executable, '-m', 'ros2cc_extract.cli.main', 'confirm', str(node), 'CC111']
+    options = ['--yes', '--python', rclpy_python, '--keep', str(kept), '--limit', str(LIMIT_S)]
+    done = subprocess.run(
+        [*command, *options, '--output-format', 'json'], capture_output=True, text=True
+    )
+    (found,) = json.loads(done.stdout)['findings']
+    assert (done.returncode, found['outcome'], found['line']) == (1, 'confirmed', 24)
+    assert 'clear (ThreadPoolExecutor' in found['evidence']
+    twin = onto(read_schedule(kept), BUGS / 'g4_lock_order_mended.py')
+    result = confirm(replace(twin, forever=True), rclpy_python, TWIN_S)
+    assert result.judgement.outcome is not Outcome.CONFIRMED
+
+
+def test_a_lost_update_is_shown_by_its_values_and_the_twin_loses_none(
+    rclpy_python: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node, twin = BUGS / 'g2_lost_update.py', BUGS / 'g2_lost_update_mended.py'
+    (schedule,) = schedules(node, '7.1.6')
+    shown = confirm(schedule, rclpy_python, LIMIT_S).judgement
+    assert shown.outcome is Outcome.CONFIRMED
+    values = r'count was [1-9]\d* when line 21 had read it, another thread set it to 0, and .*'
+    assert re.fullmatch(values, shown.reason)
+    monkeypatch.setattr(confirming, 'MOST_TRIES', 2)
+    result = confirm(onto(schedule, twin), rclpy_python, LIMIT_S).judgement
+    assert result.outcome is Outcome.NOT_REACHED
+    assert 'nobody else wrote while line' in result.reason
+
+
+def test_a_missing_module_is_the_reason(rclpy_python: str, tmp_path: Path) -> None:
+    node = tmp_path / 'node.py'
+    text = (BUGS / 'b10_call_in_own_group.py').read_text(encoding='utf-8')
+    node.write_text(f'import no_such_driver\n{text}', encoding='utf-8')
+    command = [sys.executable, '-m', 'ros2cc_extract.cli.main', 'confirm', str(node)]
+    done = subprocess.run(
+        [*command, '--yes', '--python', rclpy_python], capture_output=True, text=True
+    )
+    assert done.returncode == 0
+    assert 'needs the module no_such_driver, which is not there; see --stub-missing' in done.stdout
