@@ -8,8 +8,10 @@ action that is waited for is offered by units that keep theirs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.promises import DEADLOCK, Judgement, Mark, Promise
@@ -17,13 +19,38 @@ from ros2cc_extract.findings.waits.verdicts import PROGRESS
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.system.joined_processes import ServiceWait, server_units, service_waits
+from ros2cc_extract.spec.system.joined_processes import ServiceWait, service_waits, units_by_offer
 from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.verify.results.results import Verdict, Verification
 
 Judgements = tuple[Judgement, ...]
 _NOT_PROVEN = 'processes wait for each other, and their common model does not prove it'
 _FAMILIES = (DEADLOCK, PROGRESS)
+
+
+@dataclass
+class _Offers:
+    """
+    Who offers what.
+
+    :param are_all: nobody else may.
+    :param names: identities of the units, in the order of the judgements.
+    """
+
+    units: Mapping[tuple[str, str], Sequence[Spec]]
+    are_all: bool
+    names: Sequence[object]
+
+    def numbers_of(self, unit: Spec) -> list[int]:
+        """Which of the judgements are about a unit."""
+        return self._by_name.get(_identity(unit), [])
+
+    @cached_property
+    def _by_name(self) -> dict[object, list[int]]:
+        found: dict[object, list[int]] = defaultdict(list)
+        for number, name in enumerate(self.names):
+            found[name].append(number)
+        return found
 
 
 def discharged(
@@ -46,15 +73,18 @@ def discharged(
                 if is_in_it and _mark(known[number]) is Mark.KEPT:
                     known[number] = _opened(known[number], _NOT_PROVEN)
     names = [_identity(unit) for unit in units]
-    waits = [(_identity(wait.unit), wait) for p in system.processes for wait in service_waits(p)]
+    waits: dict[object, list[ServiceWait]] = defaultdict(list)
+    for process in system.processes:
+        for wait in service_waits(process):
+            waits[_identity(wait.unit)].append(wait)
+    offers = _Offers(units_by_offer(system), system.is_whole, names)
     changed = True
     while changed:
         changed = False
         for number, name in enumerate(names):
             if _mark(known[number]) is not Mark.KEPT:
                 continue
-            mine = [wait for of, wait in waits if of == name]
-            why = next(_doubts(mine, system, names, known), '')
+            why = next(_doubts(waits.get(name, ()), offers, known), '')
             if why:
                 known[number] = _opened(known[number], why)
                 changed = True
@@ -67,22 +97,19 @@ def _is_proven(verification: Verification) -> bool:
 
 
 def _doubts(
-    waits: Sequence[ServiceWait],
-    system: System,
-    names: Sequence[object],
-    known: Sequence[Judgements],
+    waits: Sequence[ServiceWait], offers: _Offers, known: Sequence[Judgements]
 ) -> Iterator[str]:
     for wait in waits:
         who = f'{called(wait.doer)} waits for'
         if isinstance(wait.name, Unknown):
             yield f'{who} a {wait.what} whose name is not known ({wait.name.reason})'
             continue
-        servers = server_units(system, wait.what, wait.name)
+        servers = offers.units.get((wait.what, wait.name), [])
         if not servers:
-            where = '' if system.is_whole else ' in sight'
+            where = '' if offers.are_all else ' in sight'
             yield f'{who} {wait.what} {wait.name}, which nobody{where} offers'
         for unit in servers:
-            at = [n for n, name in enumerate(names) if name == _identity(unit)]
+            at = offers.numbers_of(unit)
             if not at or any(_mark(known[n]) is not Mark.KEPT for n in at):
                 yield f'{who} {wait.what} {wait.name} of {unit.name}, of which that is not proven'
 

@@ -9,7 +9,7 @@ one name have that of their process before it.
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -33,7 +33,7 @@ _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
 _NOBODY = (OUTSIDE, TIME)
-_SERVING = {'service': EntityKind.SERVICE, 'action': EntityKind.ACTION_SERVER}
+_OFFERS = {EntityKind.SERVICE: 'service', EntityKind.ACTION_SERVER: 'action'}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,16 +130,18 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
                     yield ServiceWait(unit, doer, block, what, key)
 
 
-def server_units(system: System, what: str, name: str) -> list[Spec]:
-    """The units that offer a service or an action."""
-    return [
-        unit
-        for process in system.processes
-        for unit in process.units
-        for names in (_Names(process, unit),)
-        for callback in unit.callbacks
-        if callback.entity is _SERVING[what] and names.key(callback) == name
-    ]
+def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
+    """The units that offer each service and action, by kind and name."""
+    found: dict[tuple[str, str], list[Spec]] = defaultdict(list)
+    for process in system.processes:
+        for unit in process.units:
+            names = _Names(process, unit)
+            for callback in unit.callbacks:
+                what = _OFFERS.get(callback.entity) if callback.entity is not None else None
+                key = names.key(callback) if what is not None else None
+                if what is not None and isinstance(key, str):
+                    found[what, key].append(unit)
+    return found
 
 
 def _needed(process: Process) -> Iterator[tuple[str, str]]:
