@@ -26,6 +26,7 @@ from ros2cc_extract.verify.results.results import Verdict, Verification
 Judgements = tuple[Judgement, ...]
 _NOT_PROVEN = 'processes wait for each other, and their common model does not prove it'
 _FAMILIES = (DEADLOCK, PROGRESS)
+_UNTIL_THERE = ('wait_for_service', 'wait_for_server')
 
 
 @dataclass
@@ -104,6 +105,11 @@ def _doubts(
         if isinstance(wait.name, Unknown):
             yield f'{who} a {wait.what} whose name is not known ({wait.name.reason})'
             continue
+        if not _was_there(wait):
+            yield (
+                f'{who} {wait.what} {wait.name} and has not waited until it is there: a request '
+                'that comes too early is lost'
+            )
         servers = offers.units.get((wait.what, wait.name), [])
         if not servers:
             where = '' if offers.are_all else ' in sight'
@@ -112,6 +118,18 @@ def _doubts(
             at = offers.numbers_of(unit)
             if not at or any(_mark(known[n]) is not Mark.KEPT for n in at):
                 yield f'{who} {wait.what} {wait.name} of {unit.name}, of which that is not proven'
+
+
+def _was_there(wait: ServiceWait) -> bool:
+    """
+    Whether the code has waited for the server to be there, in its set-up or before it asks.
+
+    A request that is sent before its server is known is lost, and nobody answers it.
+    """
+    earlier = (*wait.unit.set_up, *wait.doer.blocking)
+    return wait.block.call in _UNTIL_THERE or any(
+        each.call in _UNTIL_THERE and each.on == wait.block.on for each in earlier
+    )
 
 
 def _identity(unit: Spec) -> object:

@@ -30,7 +30,9 @@ class Boss(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=3)
-    executor.add_node(Boss())
+    node = Boss()
+    node.move.wait_for_server()
+    executor.add_node(node)
     executor.spin()
 
 

@@ -26,7 +26,9 @@ class Mover(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=3)
-    executor.add_node(Mover())
+    node = Mover()
+    node.permit.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 
