@@ -68,6 +68,11 @@ def test_an_argument_of_the_launch_file_decides() -> None:
             'rests_on_nobody_bad.launch.xml',
             'Relay.tick waits for service /first/request, which nobody offers',
         ),
+        (
+            'rests_on_luck_bad.launch.xml',
+            'Hasty.tick waits for service /sink/request and has not waited until it is there: '
+            'a request that comes too early is lost',
+        ),
     ],
 )
 def test_a_promise_rests_on_those_of_the_neighbours(name: str, reason: str) -> None:
