@@ -1,4 +1,4 @@
-"""Builds what is native: the checker, and the journal of the hook; the rest is pyproject.toml."""
+"""Builds what is native: the checker, the journal of the hook, and what enters a process."""
 
 import os
 
@@ -15,7 +15,7 @@ else:
 
 # What is native: 'required' where its absence must not pass, as in a release; 'none' leaves it
 # out. Otherwise the package also works without a compiler: the checker, or the hook, then is pure
-# Python, and what that costs is in docs/install.md.
+# Python, and a process is entered by Python 3.14 alone; what that costs is in docs/install.md.
 NATIVE = os.environ.get('ROS2CC_NATIVE_BUILD', 'optional')
 if NATIVE not in ('optional', 'required', 'none'):
     raise SystemExit(f'ROS2CC_NATIVE_BUILD is optional, required or none, and not {NATIVE}')
@@ -61,6 +61,14 @@ setup(
             'ros2cc_extract.extract.live._journal',
             sources=['ros2cc_extract/extract/live/native/journal.c'],
             extra_compile_args=['-std=c11', '-O2', '-fvisibility=hidden', '-g0'],
+            optional=IS_OPTIONAL,
+        ),
+        # No module: a running process loads it, of whatever version its Python is.
+        Extension(
+            'ros2cc_extract.extract.live._enter',
+            sources=['ros2cc_extract/extract/live/native/enter.c'],
+            extra_compile_args=['-std=c11', '-O2', '-fvisibility=hidden', '-g0', '-pthread'],
+            extra_link_args=['-pthread', '-ldl'],
             optional=IS_OPTIONAL,
         ),
     ],

@@ -150,18 +150,21 @@ def render_alone(
     profile: Profile = Profile.PAPER,
     text: Text = Text.PLAIN,
     max_cycle: int | None = 1,
+    watched: str | None = None,
 ) -> ModelAlone:
     """
     Write the model of ``closed`` for somebody who asks the queries without reading them there.
 
     :param max_cycle: as for ``render``.
+    :param watched: a formula over the global variables of the plain text. The model then has a
+        process ``watcher`` more, which may be in ``seen`` from a state on in which it holds.
     :raises ValueError: when ``max_cycle`` is below 1.
     """
     unit = _shown(_numbered(closed, max_cycle), profile)
     features = _features(unit, _least_freedom(unit), closed.spec.rclpy)
     return ModelAlone(
         name=unit.name,
-        xml=_write_xml(unit, (), profile, text, features),
+        xml=_write_xml(unit, (), profile, text, features, watched),
         queries=_queries_of(unit, profile),
     )
 
@@ -206,6 +209,7 @@ def _write_xml(
     profile: Profile,
     text: Text,
     features: Mapping[str, object],
+    watched: str | None = None,
 ) -> str:
     sources = choose_sources(profile, text, unit)
     in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
@@ -216,12 +220,13 @@ def _write_xml(
         **features,
         'callbacks_in_play': in_play if text is Text.COMPACT else None,
         'threads_in_play': THREADS_IN_PLAY,
+        'watched': watched,
     }
     return _fill(
         'shared/model.xml.j2',
         **values,
         queries=tuple(with_doubts(queries)),
-        automata=sources.automata,
+        automata=(*sources.automata, *(['shared/watcher.xml.j2'] if watched else ())),
         declarations=_fill(sources.declarations, **values),
         system=_fill(sources.system, **values),
     )

@@ -2,7 +2,7 @@
 """
 Lets auditwheel say on which systems each wheel runs, and holds its name against that.
 
-``python -m release.audit [DIR]``: also both native parts must be in each, named for its version.
+``python -m release.audit [DIR]``: also all native parts must be in each, named for its version.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 
 from release.sources import ROOT
 
-PARTS = ('checker/_core', 'extract/live/_journal')
+PARTS = ('checker/_core', 'extract/live/_journal', 'extract/live/_enter')
 
 
 def main() -> int:

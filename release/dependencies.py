@@ -28,7 +28,7 @@ else:
 WORK = ROOT / 'build' / 'dependencies'
 # What reads, writes, draws and parses by them; not what needs a compiler or ROS.
 TESTS = ('tests/unit', 'tests/golden', 'tests/e2e/test_examples.py')
-TOOLS = {'mypy', 'ruff', 'types-pyyaml', 'pre-commit', 'setuptools', 'hypno'}
+TOOLS = {'mypy', 'ruff', 'types-pyyaml', 'pre-commit', 'setuptools', 'pyinjector'}
 """Of the development's dependencies those that no test of these imports."""
 
 

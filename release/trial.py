@@ -22,6 +22,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from release.audit import PARTS
 from release.debian import aarch64_python, musl_loader
 from release.environments import QUIET, made
 from release.musl import musl_python
@@ -46,9 +47,11 @@ SEEN = """
 import io, resource, sys
 from ros2cc_extract.checker import _core
 from ros2cc_extract.extract.live import _journal
+from ros2cc_extract.extract.live.ptrace_entry import library
 from ros2cc_extract.cli.main import main
 sys.path[0:0] = [sys.argv[1]]
 from release.demonstration import EXAMPLE, differing
+assert library(), 'there is no _enter'
 stdout, stderr = io.StringIO(), io.StringIO()
 status = main(['check', EXAMPLE, '--verdicts', *sys.argv[2:]], stdout, stderr)
 differences = differing(status, stdout.getvalue(), stderr.getvalue())
@@ -136,7 +139,7 @@ def loaded(wheel: Wheel, folder: Path) -> Outcome:
         archive.extractall(folder, parts)
     missing = [name for part in parts for name in unbound([*loader, '--list', str(folder / part)])]
     told = ', '.join(missing) or f'{len(parts)} native parts bound by musl; there is no CPython'
-    return Outcome(wheel, False if missing or len(parts) != 2 else None, told)
+    return Outcome(wheel, False if missing or len(parts) != len(PARTS) else None, told)
 
 
 def unbound(command: Sequence[str]) -> list[str]:

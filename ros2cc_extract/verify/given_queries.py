@@ -38,17 +38,24 @@ def ask_unit(
     queries: Sequence[Query],
     options: Options = DEFAULTS,
     progress: OnProgress | None = None,
+    watched: str | None = None,
 ) -> Verification:
     """
     Ask other queries than its own of a unit.
 
     They are asked of the plain text, whatever the options say: the compact text keeps only what
     its own queries can see.
+
+    :param watched: what ``watcher.seen`` of the queries has seen, as of ``render_alone``.
     """
     options = replace(options, limits=options.limits.begun())
     with limited_reading(options.limits, Path(closed.spec.name)) as has_begun:
         rendered = build.render_alone(
-            closed, profile=options.profile, text=build.Text.PLAIN, max_cycle=options.max_cycle
+            closed,
+            profile=options.profile,
+            text=build.Text.PLAIN,
+            max_cycle=options.max_cycle,
+            watched=watched,
         )
         model = read_model(rendered.xml, f'{rendered.name}.xml')
         names, watch = Names.of(closed.spec), also_begun(has_begun, progress)

@@ -50,7 +50,9 @@ ALLOWED = {
         'extract',
         'extract.static',
         'extract.live',
+        'hang_proof',
     },
+    'hang_proof': {'extract.live', 'verify', 'generator', 'checker', 'spec'},
     'pipeline': {
         'extract.static.program',
         'findings',

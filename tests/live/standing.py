@@ -12,14 +12,20 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ros2cc_extract.errors import Ros2ccError
 from ros2cc_extract.extract.live.environment import hooked_environment
-from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Verdict
+from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import (
+    NOT_PROVEN,
+    Explanation,
+    Verdict,
+)
 from ros2cc_extract.extract.live.why import explain_process
+from ros2cc_extract.hang_proof.judge import judged
 from tests.support.cells import Cell, all_cells
 from tests.support.domains import free_domain
 
@@ -102,14 +108,14 @@ def told(explanation: Explanation) -> tuple[str, list[tuple[str, int, str | None
 
 
 def main(python: str, names: Sequence[str], hooked: Mapping[str, str]) -> int:
-    wrong, times = 0, []
+    wrong, times, proofs = 0, [], Counter[str]()
     for cell in all_cells():
         if names and not any(each in cell.name for each in names):
             continue
         with program(python, text_of(cell), cell.path, awaited(cell), **hooked) as process:
             begun = time.monotonic()
             try:
-                explanation = explain_process(process.pid)
+                explanation = judged(explain_process(process.pid))
             except Ros2ccError as error:
                 print(f'{cell.name}: {error}')
                 continue
@@ -120,12 +126,15 @@ def main(python: str, names: Sequence[str], hooked: Mapping[str, str]) -> int:
             hangs and explanation.verdict in (Verdict.HEALTHY, Verdict.BUSY)
         )
         wrong += is_false
-        print(f'{cell.name}: {cell.facts[0]}: {verdict} {stand}{"  WRONG" if is_false else ""}')
+        proof = f' ({explanation.proof})' if explanation.proof != NOT_PROVEN else ''
+        proofs[explanation.proof] += explanation.proof != NOT_PROVEN
+        mark = '  WRONG' if is_false else ''
+        print(f'{cell.name}: {cell.facts[0]}: {verdict}{proof} {stand}{mark}')
     if times:
         times.sort()
         print(
             f'{len(times)} programs, {wrong} wrong; median {times[len(times) // 2]:.2f} s, '
-            f'worst {times[-1]:.2f} s'
+            f'worst {times[-1]:.2f} s; deadlocks: {dict(+proofs)}'
         )
     return min(wrong, 1)
 

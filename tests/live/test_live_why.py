@@ -13,6 +13,8 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live import injection, why
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.why import explain_process
+from ros2cc_extract.hang_proof import judge
+from ros2cc_extract.hang_proof.judge import judged
 from tests.live.standing import awaited, program, text_of, told
 from tests.support.cells import all_cells
 
@@ -76,6 +78,7 @@ def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """On a busy machine an answer takes longer than a user is to wait."""
     for module in (injection, why):
         monkeypatch.setattr(module, 'PATIENCE_S', 60.0)
+    monkeypatch.setattr(judge, 'SECONDS', 60.0)
 
 
 @pytest.mark.parametrize('variable', EVERY_RELEASE)
@@ -83,8 +86,11 @@ def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_process_is_explained(name: str, variable: str) -> None:
     cell = CELLS[name]
     with program(interpreter_of(variable), text_of(cell), cell.path, awaited(cell)) as process:
-        assert told(explain_process(process.pid)) == EXPECTED[name]
+        explanation = judged(explain_process(process.pid))
+        assert told(explanation) == EXPECTED[name]
         assert process.poll() is None
+    is_proven = explanation.proof == 'proven by the model'
+    assert is_proven == (EXPECTED[name][0] == 'deadlock')
 
 
 @pytest.mark.parametrize('traced', [False, True])
@@ -103,7 +109,9 @@ def test_hooked_process_is_explained_alike(
 
 def test_locks_that_wait_for_each_other_are_a_deadlock(rclpy_python: str) -> None:
     with program(rclpy_python, LOCKS, Path('locks.py')) as process:
-        verdict, stand = told(explain_process(process.pid))
+        explanation = judged(explain_process(process.pid))
+    verdict, stand = told(explanation)
+    assert explanation.proof == 'proven by the model'
     both = {(function, code) for function, _, code in stand}
     assert (verdict, both) == ('deadlock', {('move', 'CC111'), ('stop', 'CC111')})
 

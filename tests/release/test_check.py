@@ -78,9 +78,10 @@ def test_a_part_under_the_name_of_another_version_is_no_part() -> None:
         'ros2cc_extract/checker/_core.pyi',
         'ros2cc_extract/checker/_core.cpython-310-x86_64-linux-gnu.so',
         'ros2cc_extract/extract/live/_journal.cpython-311-x86_64-linux-gnu.so',
+        'ros2cc_extract/extract/live/_enter.cpython-310-x86_64-linux-gnu.so',
     ]
     found = [audit.suffixes(part, names) for part in audit.PARTS]
-    assert found == [['cpython-310'], ['cpython-311']]
+    assert found == [['cpython-310'], ['cpython-311'], ['cpython-310']]
 
 
 def test_every_dependency_has_a_lowest_version() -> None:

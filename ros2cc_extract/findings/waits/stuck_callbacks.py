@@ -10,7 +10,7 @@ from ros2cc_extract.findings.base.wording import called, listing, plural
 from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
 from ros2cc_extract.findings.waits.verdicts import PROGRESS, is_of_repeated, refuting_run
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
-from ros2cc_extract.findings.waits.workers import is_one_thread
+from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
 from ros2cc_extract.spec.effects import Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Callback
@@ -128,8 +128,7 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     if shut:
         return listing(_shut_out(ender, others, context) for ender in shut)
     if served and _is_full(others, context):
-        threads = plural(len(context.unit.executor.threads), 'thread')
-        return f'no thread is left to run {_names(enders)}: {threads} in all, and each waits'
+        return f'no thread is left to run {_names(enders)}: {_number(context)}, and each waits'
     late = [each for each in enders if isinstance(each, Activity) and _follows(each)]
     if len(late) == len(enders):
         starters = dict.fromkeys(start.by for each in late for start in each.starts)
@@ -195,6 +194,14 @@ def _shut_out(ender: Callback, others: Sequence[Stuck], context: Context) -> str
         f'{ender.display_name} is in {context.group_of(ender).display_name}, which is closed '
         f'while {keeper.display_name} waits'
     )
+
+
+def _number(context: Context) -> str:
+    """How many threads there are, and where that depends on the machine."""
+    count, workers = len(context.unit.executor.threads), workers_of(context.unit.executor)
+    if isinstance(workers, Workers) and workers.is_default:
+        return f'{plural(count, "thread")} on a machine with {count} CPUs'
+    return f'{plural(count, "thread")} in all'
 
 
 def _is_full(others: Sequence[Stuck], context: Context) -> bool:

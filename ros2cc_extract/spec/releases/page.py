@@ -22,7 +22,8 @@ alike. `model` and a sweep have one model: what not all releases have, it takes 
 `conform` judges by the release that the trace names. `upgrade --from humble --to lyrical PATH`
 lists what changes for your nodes.
 
-A release that is not in the table is reported: *rclpy 12.3.0 is judged as 11.0.1, the newest known*.
+A release that is not in the table is reported: *rclpy 12.3.0 is judged as 11.0.1, the newest
+known*.
 """
 
 

@@ -24,7 +24,7 @@ class A(Node):
         self.create_service(Trigger, 'go', self.on_go)
         MAKES_DONE
 
-    def done(self):
+    def done(self, *_):
         self.reply.set_result('done')
 
     async def on_go(self, request, response):

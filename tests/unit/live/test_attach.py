@@ -12,7 +12,8 @@ import pytest
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.attach import attach_process
-from ros2cc_extract.extract.live.injection import Injector, inject, refuse_what_would_end
+from ros2cc_extract.extract.live.injection import Injector, inject
+from ros2cc_extract.extract.live.ptrace_entry import refuse_what_would_not_run_it
 
 SCRIPT = Path('record.py')
 
@@ -32,13 +33,13 @@ class Door:
 
 
 def test_the_next_way_is_tried_when_one_is_refused() -> None:
-    shut, opened = Door('sys.remote_exec', 'another version'), Door('hypno')
+    shut, opened = Door('sys.remote_exec', 'another version'), Door('pyinjector')
     inject(7, SCRIPT, (shut.injector, opened.injector))
     assert opened.entered == [(7, SCRIPT)]
 
 
 def test_a_process_is_entered_once() -> None:
-    first, second = Door('sys.remote_exec'), Door('hypno')
+    first, second = Door('sys.remote_exec'), Door('pyinjector')
     inject(7, SCRIPT, (first.injector, second.injector))
     assert (first.entered, second.entered) == ([(7, SCRIPT)], [])
 
@@ -46,8 +47,8 @@ def test_a_process_is_entered_once() -> None:
 @pytest.mark.parametrize(
     ('names', 'told'),
     [
-        (('sys.remote_exec', 'hypno'), 'sys.remote_exec: no; hypno: no; '),
-        (('sys.remote_exec',), 'sys.remote_exec: no; .*pip install "hypno>=1.1"'),
+        (('sys.remote_exec', 'pyinjector'), 'sys.remote_exec: no; pyinjector: no; '),
+        (('sys.remote_exec',), 'sys.remote_exec: no; .*pip install "pyinjector>=1.3"'),
     ],
 )
 def test_what_each_way_was_told_is_said_when_none_is_let_in(
@@ -63,7 +64,7 @@ def test_other_errors_are_nobodys_refusal() -> None:
         raise KeyError(pid)
 
     with pytest.raises(KeyError):
-        inject(7, SCRIPT, [Injector('hypno', break_down, (OSError,)), Door('other').injector])
+        inject(7, SCRIPT, [Injector('pyinjector', break_down, (OSError,)), Door('other').injector])
 
 
 @pytest.mark.parametrize('number', [0, -1, os.getpid])
@@ -76,12 +77,12 @@ def test_groups_of_processes_are_no_process(
 
 
 def test_python_is_let_in() -> None:
-    refuse_what_would_end(os.getpid())
+    refuse_what_would_not_run_it(os.getpid())
 
 
 def test_whole_pages_of_a_refusal_are_shortened() -> None:
     with pytest.raises(ToolNotFoundError) as raised:
-        inject(7, SCRIPT, [Door('hypno', 'no way\n' * 200).injector])
+        inject(7, SCRIPT, [Door('pyinjector', 'no way\n' * 200).injector])
     assert len(str(raised.value).splitlines()) == 1
     assert len(str(raised.value)) < 400
 

@@ -12,7 +12,7 @@ DEFAULT_OUTPUT = Path('live.spec.yaml')
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         'The process keeps running. Measurements, traces and places of creation need `run` or '
-        '`env`\nfrom the start. Needs Python 3.14 on both sides, or: pip install "hypno>=1.1"'
+        '`env`\nfrom the start. Needs Python 3.14 on both sides, or: pip install "pyinjector>=1.3"'
     )
     parser.add_argument('pid', type=int, metavar='PID', help='process id of the node')
     parser.add_argument(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, TextIO
 
@@ -21,7 +22,7 @@ examples:
 Looks twice at each process, 0.2 s apart, and leaves nothing behind. A node is searched for in all
 processes of yours on this machine that run rclpy. Exit status: 0 nothing hangs; 1 a deadlock, an
 executor that was never spun or is asleep, or a wait for another process; 3 undecided, or a process
-that could not be looked at. Needs what `attach` needs: pip install "hypno>=1.1"
+that could not be looked at. Needs what `attach` needs: pip install "pyinjector>=1.3"
 """
 
 
@@ -41,9 +42,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         '--output-format',
-        choices=('text', 'json', 'mermaid'),
+        choices=('text', 'json', 'html', 'mermaid'),
         default='text',
-        help='default text; mermaid draws what waits for what',
+        help='default text; html is one page, mermaid draws what waits for what',
     )
 
 
@@ -51,15 +52,20 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.extract.live.rclpy_processes import rclpy_processes
     from ros2cc_extract.extract.live.why import explain_all, explain_node, explain_process
+    from ros2cc_extract.hang_proof.judge import judged
 
     if args.all == (args.process is not None):
         raise InputError('one process, one node or --all', None, 'as in: why 4711')
     if args.all:
-        return _report_all(explain_all(rclpy_processes()), args.output_format, stdout, stderr)
+        explained = explain_all(rclpy_processes())
+        found = tuple(judged(each) for each in explained.found)
+        explained = dataclasses.replace(explained, found=found)
+        return _report_all(explained, args.output_format, stdout, stderr)
     if args.process.isdecimal():
         explanation = explain_process(int(args.process))
     else:
         explanation = explain_node(args.process, rclpy_processes())
+    explanation = judged(explanation)
     _write((explanation,), args.output_format, stdout)
     return _status((explanation,))
 
@@ -79,11 +85,13 @@ def _report_all(explained: Explained, output_format: str, stdout: TextIO, stderr
 
 def _write(found: tuple[Explanation, ...], output_format: str, stdout: TextIO) -> None:
     from ros2cc_extract.extract.live.hang_analysis.formats import as_json, as_mermaid, as_text
+    from ros2cc_extract.extract.live.hang_analysis.page import as_html
 
     if output_format == 'json':
         stdout.write(as_json(found[0]))
     else:
-        stdout.write((as_mermaid if output_format == 'mermaid' else as_text)(found))
+        write = {'text': as_text, 'html': as_html, 'mermaid': as_mermaid}[output_format]
+        stdout.write(write(found))
 
 
 def _status(found: Iterable[Explanation]) -> int:

@@ -10,8 +10,7 @@ from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait
 from ros2cc_extract.extract.live.hang_analysis.samples import Look
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Standing, Verdict
 
-NOT_PROVEN = 'from the wait-for graph, not proven by the model'
-_MEANS = {
+MEANS = {
     Verdict.DEADLOCK: 'nothing is left that could end a wait',
     Verdict.NEVER_SPUN: 'an executor holds nodes, but no thread has ever spun it',
     Verdict.ASLEEP: 'a coroutine could go on, but its executor sleeps until something wakes it',
@@ -29,21 +28,22 @@ _OF_SERVERS = {
 
 def as_text(explanations: Sequence[Explanation]) -> str:
     """Say for each process its verdict, then what waits, beginning with what never ends."""
-    shared = ''.join(f'{each}\n' for each in _shared_deadlocks(explanations))
+    shared = ''.join(f'{each}\n' for each in shared_deadlocks(explanations))
     return shared + '\n'.join(''.join(_of_process(each)) for each in explanations)
 
 
 def _of_process(explanation: Explanation) -> Iterator[str]:
     verdict = explanation.verdict
-    yield f'{_title(explanation)}: {verdict.value}: {_MEANS[verdict]} ({NOT_PROVEN})\n'
+    yield f'{title(explanation)}: {verdict.value}: {MEANS[verdict]} ({explanation.proof})\n'
     for each in sorted(explanation.standings, key=lambda s: (s.can_end, not s.in_callback)):
         yield from (f'  {line}\n' for line in _lines(each, explanation.look))
     for executor in explanation.look.executors:
         names = ', '.join(executor.nodes) or 'no node'
-        yield f'  {executor.cls} of {names}{_ready(explanation, executor.entities)}\n'
+        yield f'  {executor.cls} of {names}{ready(explanation, executor.entities)}\n'
 
 
-def _title(explanation: Explanation) -> str:
+def title(explanation: Explanation) -> str:
+    """Name the process and its nodes."""
     names = ', '.join(explanation.look.nodes)
     return f'process {explanation.process}' + (f' ({names})' if names else '')
 
@@ -56,16 +56,14 @@ def _lines(standing: Standing, look: Look) -> Iterator[str]:
         return
     code = f'{standing.code} ' if standing.code else ''
     place = activity.place
-    yield (
-        f'{place.file}:{place.line}: {code}{place.function} ({activity.name}) '
-        f'{_does(standing, look)}'
-    )
+    yield (f'{place.at_line}: {code}{place.called} ({activity.name}) {does(standing, look)}')
     yield from (f'  {each}' for each in standing.reasons)
     if standing.code:
         yield f'  help: ros2cc-extract explain {standing.code}'
 
 
-def _does(standing: Standing, look: Look) -> str:
+def does(standing: Standing, look: Look) -> str:
+    """Say what a thread or a coroutine does, as the end of a sentence about it."""
     wait = standing.wait
     if standing.asleep:
         return 'could go on, as what it awaits is done; nothing has woken its executor since'
@@ -75,10 +73,10 @@ def _does(standing: Standing, look: Look) -> str:
         return 'sleeps'
     forever = '' if standing.can_end else ' forever'
     limit = ' with a time-out' if wait.timed else ''
-    return f'waits{forever} for {_resource(wait, look)}{limit}'
+    return f'waits{forever} for {resource(wait, look)}{limit}'
 
 
-def _resource(wait: Wait, look: Look) -> str:
+def resource(wait: Wait, look: Look) -> str:
     """Name what is waited for, and of a service whether a server is there."""
     entity = look.entities.get(wait.resource or 0)
     if wait.kind not in _OF_SERVERS or entity is None:
@@ -87,7 +85,8 @@ def _resource(wait: Wait, look: Look) -> str:
     return f'{_OF_SERVERS[wait.kind]} {entity.key}{there}'
 
 
-def _ready(explanation: Explanation, entities: frozenset[int]) -> str:
+def ready(explanation: Explanation, entities: frozenset[int]) -> str:
+    """Name the timers that are due, behind a semicolon; empty where none is."""
     names = sorted(
         explanation.look.entities[each].function or 'a timer'
         for each in entities
@@ -96,11 +95,11 @@ def _ready(explanation: Explanation, entities: frozenset[int]) -> str:
     return f'; due and not taken: {", ".join(names)}' if names else ''
 
 
-def _shared_deadlocks(explanations: Sequence[Explanation]) -> Iterator[str]:
+def shared_deadlocks(explanations: Sequence[Explanation]) -> Iterator[str]:
     """Say of each cycle over several processes which they are, and what each waits for."""
     waits = {each.process: list(_stuck_on_others(each)) for each in explanations}
     asked = {process: {other for other, _ in found} for process, found in waits.items()}
-    titles = {each.process: _title(each) for each in explanations}
+    titles = {each.process: title(each) for each in explanations}
     left = sorted(process for process in asked if process in _reached(process, asked))
     while left:
         members = [each for each in left if left[0] in _reached(each, asked)]
@@ -140,7 +139,7 @@ def as_json(explanation: Explanation) -> str:
 def all_as_json(explanations: Sequence[Explanation], failures: Mapping[int, str]) -> str:
     """Give one object with a list of processes, and those that could not be looked at."""
     found = {
-        'deadlocks_over_processes': list(_shared_deadlocks(explanations)),
+        'deadlocks_over_processes': list(shared_deadlocks(explanations)),
         'processes': [_as_data(each) for each in explanations],
         'not_explained': [{'process': key, 'reason': failures[key]} for key in sorted(failures)],
     }
@@ -181,7 +180,7 @@ def _as_data(explanation: Explanation) -> dict[str, Any]:
         'process': explanation.process,
         'nodes': list(explanation.look.nodes),
         'verdict': explanation.verdict.value,
-        'by': NOT_PROVEN,
+        'by': explanation.proof,
         'activities': rows,
         'entities': entities,
     }
@@ -194,7 +193,7 @@ def as_mermaid(explanations: Sequence[Explanation]) -> str:
     for each in explanations:
         own = list(_drawn(each))
         if len(explanations) > 1:
-            own = [f'subgraph p{each.process}["{_plain(_title(each))}"]', *own, 'end']
+            own = [f'subgraph p{each.process}["{_plain(title(each))}"]', *own, 'end']
         lines += [f'  {line}' for line in own]
     for each in explanations:
         for index, standing in enumerate(each.standings):
@@ -210,8 +209,8 @@ def _drawn(explanation: Explanation) -> Iterator[str]:
             continue
         number = f'{explanation.process}_{index}'
         place = each.activity.place
-        yield f'a{number}["{_plain(place.function)} line {place.line}"]'
-        what = _resource(each.wait, explanation.look)
+        yield f'a{number}["{_plain(place.called)} line {place.line}"]'
+        what = resource(each.wait, explanation.look)
         yield f'a{number} -->|waits for| w{number}(["{_plain(what)}"])'
         for count, why in enumerate(() if each.can_end else each.reasons):
             yield f'w{number} -->|kept by| k{number}_{count}["{_plain(why)}"]'

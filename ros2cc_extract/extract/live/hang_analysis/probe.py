@@ -130,6 +130,8 @@ def _frame(frame: FrameType, objects: dict[int, dict[str, Any]]) -> dict[str, An
         'id': id(frame),
         'file': code.co_filename,
         'function': code.co_name,
+        # With its class, from Python 3.11 on.
+        'qualified': getattr(code, 'co_qualname', code.co_name),
         'module': str(frame.f_globals.get('__name__', '')),
         'line': frame.f_lineno,
         'at': frame.f_lasti,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,7 @@ class Frame:
     """
     One call of a stack.
 
+    :param called: the function with its class where Python tells it, as ``Navigator.drive``.
     :param objects: locks, events, clients … that the frame names, by name, as object numbers.
     :param endless: no time-out was given, as far as the frame tells.
     :param entity: whose callback it runs, for the one frame of rclpy that does.
@@ -26,6 +28,7 @@ class Frame:
     number: int
     file: str
     function: str
+    called: str
     module: str
     line: int
     at: int
@@ -37,6 +40,11 @@ class Frame:
     @property
     def of_program(self) -> bool:
         return self.module.partition('.')[0] not in _LIBRARIES | _OWN
+
+    @property
+    def at_line(self) -> str:
+        """File and line, from the current folder where the file is below it."""
+        return f'{self.file.removeprefix(_here())}:{self.line}'
 
     def is_in(self, module: str, *functions: str) -> bool:
         return self.module == module and (not functions or self.function in functions)
@@ -210,6 +218,7 @@ def _frame(row: Mapping[str, Any]) -> Frame:
         number=int(row['id']),
         file=str(row['file']),
         function=str(row['function']),
+        called=str(row['qualified']).rpartition('<locals>.')[2],
         module=str(row['module']),
         line=int(row['line'] or 0),
         at=int(row['at']),
@@ -255,3 +264,10 @@ def _executor(
         nodes=tuple(sorted(names.get(node, '?') for node in row['nodes'])),
         spun=bool(row['spun']),
     )
+
+
+def _here() -> str:
+    try:
+        return f'{os.getcwd()}{os.sep}'  # noqa: PTH109 - pathlib costs the process its import
+    except OSError:
+        return ''

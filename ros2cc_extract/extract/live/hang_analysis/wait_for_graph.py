@@ -60,12 +60,20 @@ class Standing:
         return bool(self.activity.entities)
 
 
+NOT_PROVEN = 'from the wait-for graph, not proven by the model'
+
+
 @dataclass(frozen=True)
 class Explanation:
+    """
+    :param proof: what the verdict rests on, in words.
+    """
+
     process: int
     verdict: Verdict
     standings: tuple[Standing, ...]
     look: Look
+    proof: str = NOT_PROVEN
 
 
 Looks = tuple[Look, Look]
@@ -349,7 +357,7 @@ class _Graph:
     def say(self, index: int) -> str:
         activity = self.look.activities[index]
         place = activity.place
-        return f'{place.function} ({activity.name}) at {place.file}:{place.line}'
+        return f'{place.called} ({activity.name}) at {place.at_line}'
 
 
 def _code(graph: _Graph, index: int) -> str | None:

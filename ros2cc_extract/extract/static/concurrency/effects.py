@@ -102,12 +102,16 @@ class Effects(Waits):
         """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
         world = self.world
         cls = owner.cls if isinstance(owner, Instance) else owner
-        if not isinstance(cls, Class) or not (world.when is When.LATER or world.after_spin):
+        is_late = world.when is When.LATER or world.after_spin
+        if not isinstance(cls, Class) or not (is_late or world.is_beside_others):
             return
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
         shown = f'{collection_aliases.object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
-        world.other_writes.setdefault(shown, (by, place))
+        if is_late:
+            world.other_writes.setdefault(shown, (by, place))
+        else:
+            world.writes_beside.setdefault(shown, place)
 
     def _note_access(
         self, name: str, kind: AccessKind, place: Place, attribute: str | None = None
@@ -252,7 +256,7 @@ class Effects(Waits):
                 and option.state.kind in _LOCKS
                 and not is_counter(self.world, option)
             ):
-                name = self._lock_name(option, option.state.kind)
+                name = self.lock_name(option, option.state.kind)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
                     self.world.held = (*self.world.held, name)
                     continue  # its holder takes it once more and waits for nobody
@@ -269,8 +273,8 @@ class Effects(Waits):
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
 
-    def _lock_name(self, lock: Instance, kind: str) -> str:
-        """The name it is stored under; a second lock of that name gets a number."""
+    def lock_name(self, lock: Instance, kind: str) -> str:
+        """The name that a lock is stored under; a second one of that name gets a number."""
         hint = lock.hint or kind
         known = self.world.locks.setdefault(hint, [])
         if lock not in known:
@@ -292,7 +296,7 @@ class Effects(Waits):
         """A lock is given back."""
         for option in map(lock_of, options_of(lock)):
             if isinstance(option, Instance) and isinstance(option.state, PlainState):
-                given_back = self._lock_name(option, option.state.kind)
+                given_back = self.lock_name(option, option.state.kind)
                 held = [name for name in self.world.held if name != given_back]
                 self.world.held = tuple(held)
 
@@ -300,7 +304,7 @@ class Effects(Waits):
         """``owner.acquire…`` or ``release…`` of a class of the program that holds a lock."""
         if not isinstance(owner, Instance) or not _holds_lock(owner):
             return
-        lock = self._lock_name(owner, owner.class_name)
+        lock = self.lock_name(owner, owner.class_name)
         if name.startswith(('acquire', '__enter__')):
             is_shared = 'read' in name or 'shared' in name
             self.world.held = (*self.world.held, lock + SHARED if is_shared else lock)

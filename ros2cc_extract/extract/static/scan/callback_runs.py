@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded, note_cut_run
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
+from ros2cc_extract.extract.static.scan.unfit_callbacks import is_unfit
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 
@@ -195,7 +196,8 @@ def _run_callback(
         mark = None if transition in BUILDING else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
-            call_holding(machine, entity, option, call)
+            if not is_unfit(machine, entity, option):
+                call_holding(machine, entity, option, call)
         if mark is not None:
             _end_branch(machine, mark)
 

@@ -255,7 +255,7 @@ class UnitWaits(DataWriters):
 
     def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
         """A loop that waits until somebody has written what it reads."""
-        writers = tuple(dict.fromkeys((*self._writers(on), *self._at_end(on, doer))))
+        writers = tuple(dict.fromkeys((*self._writers(on), *self._by_main(raw, on, doer))))
         signals = self._signals(on, doer)
         if signals is None:
             writers = _unsure(writers)

@@ -92,7 +92,8 @@ UNREADABLE = Rule(
     'was checked. Or the model of a unit could not be used, which is a bug in this tool: the '
     'other units were verified. As a warning: a program is too long to be followed to its end, '
     'or creates entities of an object that is not known to be a node; they are missing from the '
-    'units.',
+    'units. Or a callback does not take what rclpy passes to it: each call raises TypeError, and '
+    'what it does is not looked at.',
     why='The scanner reads source by the syntax of the Python version it runs on.',
     bad="""\
 def on_timer(self:

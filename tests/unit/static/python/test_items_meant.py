@@ -23,7 +23,7 @@ class A(Node):
             self.create_timer(1.0, MADE, callback_group=group)
 
     def make(self, name):
-        def job():
+        def job(*_):
             BODY
         return job
 

@@ -58,6 +58,10 @@ class ConcurrentMachine(Machine, ABC):
         """A lock is given back."""
 
     @abstractmethod
+    def lock_name(self, lock: Instance, kind: str) -> str:
+        """The name that a lock is stored under; a second one of that name gets a number."""
+
+    @abstractmethod
     def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
 

@@ -184,6 +184,7 @@ class ConcurrentWorld(World):
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
+    :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
     :param cleared: events that somebody clears: who and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
@@ -231,6 +232,7 @@ class ConcurrentWorld(World):
     before_loop: int = 0
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
+    writes_beside: dict[str, Place] = field(default_factory=dict)
     cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)

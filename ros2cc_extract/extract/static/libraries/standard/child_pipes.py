@@ -8,7 +8,10 @@ asks for the stream before, or elsewhere in the program, counts as its reader.
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Call, Instance, Library, Value
 from ros2cc_extract.source_locations import Place
@@ -44,6 +47,39 @@ def note_wait(world: ConcurrentWorld, child: Value, streams: list[str], place: P
         return
     if not any(effects is reader for reader in world.readers.get(child.place, ())):
         effects.unread.setdefault((place, world.chain[1:]), (child.place, streams[0]))
+
+
+def lines_after_kill(function: ast.AST) -> frozenset[int]:
+    """
+    The lines of statements behind one of the same block that sends ``SIGKILL``.
+
+    No process outlives that signal (``signal(7)``); ``SIGTERM`` may be ignored, and a pipe that a
+    child of the child has as well is open still.
+    """
+    found: set[int] = set()
+    for part in walk(function):
+        for block in (getattr(part, name, ()) for name in ('body', 'orelse', 'finalbody')):
+            statements = block if isinstance(block, list) else []
+            first = next((at for at, each in enumerate(statements) if _kills(each)), None)
+            for each in statements[first + 1 :] if first is not None else ():
+                found.update(range(each.lineno, (each.end_lineno or each.lineno) + 1))
+    return frozenset(found)
+
+
+def _kills(statement: ast.stmt) -> bool:
+    """Whether a statement sends it, or tries to."""
+    if isinstance(statement, ast.Try):
+        return any(map(_kills, statement.body))
+    return isinstance(statement, ast.Expr) and any(
+        isinstance(part, ast.Attribute)
+        and (part.attr == 'SIGKILL' or (part.attr == 'kill' and not _is_os(part.value)))
+        for part in walk(statement)
+    )
+
+
+def _is_os(owner: ast.expr) -> bool:
+    """``os.kill`` sends any signal."""
+    return isinstance(owner, ast.Name) and owner.id == 'os'
 
 
 def unread_at(world: ConcurrentWorld, block: Blocking, effects: EffectLog) -> str | None:

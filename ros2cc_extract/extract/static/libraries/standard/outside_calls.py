@@ -66,7 +66,8 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
             timeout = limit
         is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
-        if not (is_at_once and row.takes_limit) and not _is_there(machine, name):
+        is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
+        if not is_at_once and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
         if name == child_pipes.WAIT and timeout in (None, NONE):
             child_pipes.note_wait(machine.world, receiver, _streams(slots), call.place)
@@ -100,13 +101,21 @@ def _streams(slots: Mapping[str, object]) -> list[str]:
     return [name for name in ('stdout', 'stderr') if f'{_PIPED}{name}' in slots]
 
 
+def _is_killed(machine: ConcurrentMachine, name: str, place: Place) -> bool:
+    """Whether the end of a child is waited for that was killed just before."""
+    asking = machine.stack[-1].node if machine.stack else None
+    if name != child_pipes.WAIT or asking is None:
+        return False
+    return place.line in noted_on(asking, 'after_kill', child_pipes.lines_after_kill)
+
+
 def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     """
     Whether something is read of which the program has asked whether it is there.
 
     ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
-    a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` has
-    changed give what there is.
+    a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` or
+    ``fcntl`` has changed give what there is.
     """
     if not name.rpartition('.')[2].startswith(('read', 'recv')):
         return False
@@ -117,7 +126,9 @@ def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     return any(noted_on(tree, 'never_blocks', _never_blocks) for tree in trees)
 
 
-_ASKS_FIRST = frozenset({'select', 'in_waiting', 'inWaiting', 'S_ISREG'})
+_ASKS_FIRST = frozenset(
+    {'select', 'in_waiting', 'inWaiting', 'S_ISREG', 'set_blocking', 'O_NONBLOCK'}
+)
 
 
 def _asks_first(function: ast.AST) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
+from ros2cc_extract.extract.static.python.branching import narrowed_types
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -18,7 +19,6 @@ from ros2cc_extract.extract.static.python.values.assumed_defaults import items_b
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
 from ros2cc_extract.extract.static.python.values.values import (
-    ABSENT,
     NONE,
     Choice,
     Function,
@@ -42,6 +42,8 @@ class Assignments(Machine):
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Store ``value`` in a name, attribute, item or pattern of them."""
         self.world.reading.stored = value
+        if frame.narrowed:
+            narrowed_types.forget(self, target, frame)
         if isinstance(target, ast.Name):
             self.assign_name(target, value, frame)
         elif isinstance(target, ast.Attribute):
@@ -109,8 +111,7 @@ class Assignments(Machine):
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
         note_kept(self.world, value, frame.place(target))
-        direct = isinstance(target.value, (ast.Attribute, ast.Name))
-        self.world.refilling = direct and _has_key(owner, key)
+        self.world.refilling = loops.has_key(owner, key)
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
         self.world.refilling = False
         if isinstance(owner, Mapping):
@@ -160,12 +161,6 @@ def drawn_together(owner: Mapping, key: Value) -> dict[Value, Value]:
     for oldest, following in pairwise(unsure[: max(0, len(unsure) - MOST_UNSURE) + 1]):
         held[following] = choice([held.pop(oldest), held[following]])
     return held
-
-
-def _has_key(owner: Value, key: Value) -> bool:
-    """Whether ``key`` is surely in a dictionary already: storing under it changes no size."""
-    held = owner.entries.get(key) if isinstance(owner, Mapping) and loops.is_key(key) else None
-    return held is not None and not (isinstance(held, Choice) and ABSENT in held.options)
 
 
 def _hint(value: Value, name: str) -> None:

@@ -6,12 +6,12 @@ import ast
 from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
-from ros2cc_extract.extract.static.python.branching import open_tests
+from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
-from ros2cc_extract.extract.static.python.objects import unset_globals
+from ros2cc_extract.extract.static.python.objects import loops, unset_globals
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
@@ -31,7 +31,7 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     _note_heap(machine, node, frame)
     machine.world.reading.note_use(node.func, frame.place(node.func))
     _note_choice(machine, node, frame)
-    function = _called(machine, node.func, frame)
+    function = _called(machine, node, frame)
     call = arguments(machine, node, frame)
     machine.note_call(function, node, frame)
     if isinstance(function, Mystery):
@@ -41,11 +41,15 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
-    return machine.call(function, call)
+    result = machine.call(function, call)
+    if isinstance(function, Native) and function.name == 'builtins.isinstance':
+        return narrowed_types.told(machine, node, function, call, result, frame)
+    return result
 
 
-def _called(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+def _called(machine: Machine, call: ast.Call, frame: Frame) -> Value:
     """The function of a call; a method that changes its owner in place is an update of it."""
+    node = call.func
     if (
         machine.world.effects is None
         or not isinstance(node, ast.Attribute)
@@ -58,11 +62,22 @@ def _called(machine: Machine, node: ast.expr, frame: Frame) -> Value:
     machine.note_part(node.value, frame, f'.{node.attr}')
     noted, machine.world.effects = machine.world.effects, None
     function = machine.evaluate(node, frame)
+    machine.world.refilling = node.attr == 'update' and _refills(machine, call, node.value, frame)
     machine.world.effects = noted
     machine.world.moves = _MOVES.get(node.attr)
     machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
-    machine.world.moves = None
+    machine.world.moves, machine.world.refilling = None, False
     return function
+
+
+def _refills(machine: Machine, call: ast.Call, owner: ast.expr, frame: Frame) -> bool:
+    """``self.state.update(mode='x')``: whether the dictionary has all of these keys already."""
+    keys: list[object] = [each.arg for each in call.keywords]
+    for argument in call.args:
+        given = argument.keys if isinstance(argument, ast.Dict) else [None]
+        keys += [each.value if isinstance(each, ast.Constant) else None for each in given]
+    known = machine.evaluate(owner, frame)
+    return None not in keys and all(loops.has_key(known, Const(key)) for key in keys)
 
 
 _MOVES = {

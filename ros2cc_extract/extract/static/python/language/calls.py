@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
-from ros2cc_extract.extract.static.python.language import plain_data_calls
+from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
@@ -152,7 +152,7 @@ class Calls(Machine):
     def _run_body(self, function: Function, frame: Frame, call: Call) -> Value:
         if isinstance(function.node, ast.Lambda):
             return self.evaluate(function.node.body, frame)
-        flow = self.execute_block(function.node.body, frame)
+        flow = self.execute_block(recursive_loops.body_of(function.node), frame)
         self.note_left(frame, goes_on=bool(flow & NEXT))
         if frame.known_at_return:
             ends = [self.world.ready] if flow & NEXT else []

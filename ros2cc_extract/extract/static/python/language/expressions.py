@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ros2cc_extract.extract.static.python.branching import conditions, open_tests
+from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -62,6 +62,8 @@ class Expressions(Machine):
             value: Value = handler(self, node, frame)
         finally:
             self.depth -= 1
+        if frame.narrowed and isinstance(value, Choice):
+            return narrowed_types.narrowed(self, node, value, frame)
         return value
 
     def look_up(self, name: str, scope: Scope) -> Value | None:

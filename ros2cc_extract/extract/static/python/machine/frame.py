@@ -42,6 +42,7 @@ class Frame:
     :param copies: own names that hold what other functions may have changed.
     :param sources: shared data that own names were computed from, while a callback is followed.
     :param continues: the same of the branches that go on with its next round.
+    :param narrowed: names and attributes of which it was asked what they are instances of.
     :param tests: undecided ones with the place of the first ``if``, whether that asks the
         opposite, and the options of the values that were asked.
     """
@@ -61,6 +62,7 @@ class Frame:
     continues: list[Writes] = field(default_factory=list)
     copies: frozenset[str] = frozenset()
     sources: dict[str, frozenset[str]] = field(default_factory=dict)
+    narrowed: frozenset[str] = frozenset()
     tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
         default_factory=dict
     )

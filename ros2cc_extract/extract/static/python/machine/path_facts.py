@@ -37,6 +37,8 @@ class Word(Enum):
     ARRIVE = 'arrive'
     END = 'end'
     WRITE = 'write'
+    OTHER = 'other'
+    """Of what an expression does not stand for."""
 
 
 Facts = frozenset[tuple[Value, Word]]
@@ -107,6 +109,12 @@ def cancelled(future: Value, call: Call) -> Answer:
     """Whether ``future`` was cancelled, which makes it done."""
     told = Told(holds=frozenset({(future, Word.SET)}))
     return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+
+
+def known_if_true(fact: tuple[Value, Word], call: Call) -> Answer:
+    """A truth that nobody waits for, and what it tells."""
+    told = Told(knows=frozenset({fact}))
+    return Answer(Unknown('a transform at run time', call.place), call.text or '', told)
 
 
 def running(future: Value, call: Call) -> Answer:

@@ -282,6 +282,12 @@ def is_key(value: Value) -> bool:
     )
 
 
+def has_key(owner: Value, key: Value) -> bool:
+    """Whether ``key`` is surely in a dictionary already: storing under it changes no size."""
+    held = owner.entries.get(key) if isinstance(owner, Mapping) and is_key(key) else None
+    return held is not None and not (isinstance(held, Choice) and ABSENT in held.options)
+
+
 def key_text(value: Value) -> str:
     """A name for what is stored under ``value``."""
     return str(value.value) if isinstance(value, Const) else 'item'

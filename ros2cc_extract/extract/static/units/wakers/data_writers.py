@@ -22,7 +22,7 @@ from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import OUTSIDE, Access, Blocking, Waker
+from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Blocking, Waker
 
 Doer = EntityState | ActivityState
 
@@ -114,12 +114,19 @@ class DataWriters:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
                     yield self._does(doer, act.name, act.source)
 
-    def _at_end(self, on: DataRef, doer: Doer) -> Iterator[Waker]:
-        """What the program does when the spin has ended, which ends its threads from outside."""
+    def _by_main(self, raw: Blocking, on: DataRef, doer: Doer) -> Iterator[Waker]:
+        """
+        What the program does when the spin has ended, which ends its threads from outside.
+
+        So does what it does beside them before; a thread that works meanwhile waits for nobody.
+        """
         for name in sorted(on.names) if is_activity(doer) else ():
             by, place = self._world.other_writes.get(name, ('', None))
+            beside = self._world.writes_beside.get(name)
             if by is None:
                 yield Waker(by=OUTSIDE, source=place)
+            elif beside is not None and raw.call != WORKING_LOOP:
+                yield Waker(by=OUTSIDE, source=beside)
 
     def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
         """A write or a message of ``doer`` that ends a wait."""

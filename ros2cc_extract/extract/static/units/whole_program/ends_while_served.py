@@ -49,9 +49,10 @@ from ros2cc_extract.extract.static.units.whole_program.destroyed_publishers impo
 )
 from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
 from ros2cc_extract.spec.effects import Blocking
-from ros2cc_extract.spec.model import ActivityKind, When
+from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
 
 _SINGLE = 'SingleThreadedExecutor'
+_TASKS = (EntityKind.TASK, EntityKind.DONE_CALLBACK, EntityKind.ACTION_EXECUTE)
 _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 
 
@@ -83,7 +84,15 @@ def _spins_of(executor: Instance | None, world: RosWorld) -> list[Spin]:
 
 
 def _waits_for_itself(end: End, doer: EntityState, world: RosWorld) -> bool:
+    """
+    Whether the shutdown waits for the callback that calls it.
+
+    It waits for what the executor does with an entity, and for no task. Source: rclpy 3.3.21,
+    ``executors.py`` (``_make_handler`` alone enters the work tracker); run on 3.3.21.
+    """
     executor = executor_of(doer.node)
+    if doer.kind in _TASKS:
+        return False
     if executor is None or executor.state.kind != _SINGLE or not _spins_of(executor, world):
         return False
     if end.kind == SHUTDOWN_EXECUTOR:

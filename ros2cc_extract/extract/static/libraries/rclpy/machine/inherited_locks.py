@@ -41,7 +41,7 @@ def call_holding(
         world.held = world.admitted.get(served, ())
         world.still_down = world.open_to.get(served, frozenset())
     else:
-        world.held = entity.held or ()
+        world.held = (*(entity.held or ()), *_held_by_caller(machine, entity, callback))
     result = machine.run_if_coroutine(machine.call(callback, arguments), entity.place)
     if callback in options_of(entity.goal_callback or NONE):
         _note_admission(world)
@@ -49,6 +49,13 @@ def call_holding(
         is_one_piece = not entity.defers and not has_waited(world)
         world.open_to[served] = world.found_down if is_one_piece else frozenset()
     return result
+
+
+def _held_by_caller(machine: RosMachine, entity: EntityState, callback: Value) -> Iterator[str]:
+    """The lock that a library holds while it calls ``callback``."""
+    for given, lock in entity.called_under.items():
+        if lock is not None and callback in options_of(given):
+            yield machine.lock_name(lock, 'lock')
 
 
 def _note_admission(world: RosWorld) -> None:

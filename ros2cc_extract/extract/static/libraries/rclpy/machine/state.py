@@ -131,6 +131,8 @@ class EntityState(Doer, LibraryState):
     :param ran: how many of its functions were followed; -1 before any is.
     :param maker: the callback or activity that makes it, if any does.
     :param part_of: the subscription whose event it handles.
+    :param called_under: the lock that a library holds while it calls one of the functions;
+        ``None`` where it depends on the caller.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
     """
@@ -167,6 +169,7 @@ class EntityState(Doer, LibraryState):
     maker: object = None
     part_of: EntityState | None = None
     assumed: str | None = None
+    called_under: dict[Value, Instance | None] = field(default_factory=dict)
 
     @property
     def owner(self) -> Instance | None:

@@ -193,6 +193,12 @@ def _sleep_by_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return _blocking('Rate.sleep', None)(machine, receiver, call)
 
 
+def _absent(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    """A method of ROS 1 that rclpy has not (``timer.py``): what stands behind never runs."""
+    machine.stop_program()
+    return NONE
+
+
 def _destroy_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Whoever sleeps by it wakes; its timer stays (``timer.py``, ``Rate.destroy``)."""
     state = receiver.state if isinstance(receiver, Instance) else None
@@ -219,7 +225,9 @@ def _wait_for_message(machine: RosMachine, receiver: Value, call: Call) -> Value
 
 TABLE = Library(
     classes={
-        'rclpy.timer.Timer': LibraryClass(methods={'cancel': _cancel, 'reset': _reset, **_ENTITY}),
+        'rclpy.timer.Timer': LibraryClass(
+            methods={'cancel': _cancel, 'reset': _reset, 'shutdown': _absent, **_ENTITY}
+        ),
         'rclpy.timer.Rate': LibraryClass(
             methods={'sleep': _sleep_by_rate, 'destroy': _destroy_rate}
         ),

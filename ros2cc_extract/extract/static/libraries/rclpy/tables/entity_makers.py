@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of, new_group
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_callback, add_entity
+from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.containers import Sequence
@@ -41,7 +42,9 @@ from ros2cc_extract.spec.model import EntityKind, GroupType
 
 _TF = 'tf2_ros.TransformListener'
 _FILTERS = 'message_filters'
+_SYNCHRONIZES, _LOCK = 'synchronizer', '__lock__'
 _UPDATER = 'diagnostic_updater.Updater'
+_LATEST = 'rclpy.time.Time()'
 _LONGEST = 2**63
 """rclpy counts a duration in signed 64 bit nanoseconds."""
 
@@ -111,7 +114,13 @@ def _filter_state(machine: RosMachine, instance: Instance) -> PlainState:
 
 def _synchronize(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
-    receiver.state = PlainState('filter', of=call.argument(0, 'fs', 'f'), place=call.place)
+    receiver.state = PlainState(_SYNCHRONIZES, of=call.argument(0, 'fs'), place=call.place)
+    return NONE
+
+
+def _cache(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    receiver.state = PlainState('filter', of=call.argument(0, 'f'), place=call.place)
     return NONE
 
 
@@ -121,7 +130,27 @@ def _register(machine: RosMachine, receiver: Value, call: Call) -> Value:
     for entity in _inputs(receiver):
         if callback is not None:
             add_callback(entity, callback)
+            lock = _lock_of(receiver)
+            same = entity.called_under.get(callback, lock) is lock
+            entity.called_under[callback] = lock if same else None
     return machine.mystery('a filter connection', call.place)
+
+
+def _lock_of(receiver: Value) -> Instance | None:
+    """
+    The lock that a synchronizer holds while it calls the functions that wait for all inputs.
+
+    Source: ``message_filters/__init__.py`` (``TimeSynchronizer.add``); other filters have none.
+    """
+    if not (isinstance(receiver, Instance) and isinstance(receiver.state, PlainState)):
+        return None
+    if receiver.state.kind != _SYNCHRONIZES:
+        return None
+    lock = receiver.slots.get(_LOCK)
+    if not isinstance(lock, Instance):
+        lock = receiver.slots[_LOCK] = Instance(Name('threading.Lock'), receiver.place)
+        lock.hint, lock.state = f'{receiver.hint or "synchronizer"}_lock', PlainState('lock')
+    return lock
 
 
 def _inputs(value: Value) -> list[EntityState]:
@@ -167,17 +196,45 @@ def _set_duration(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _look_up(name: str, position: int) -> Handler:
-    """A method of the transform buffer; ``position`` is that of its timeout."""
+    """
+    A method of the transform buffer; ``position`` is that of its timeout.
+
+    What ``can_transform`` has found there is looked up at once.
+    """
 
     def look_up(machine: RosMachine, receiver: Value, call: Call) -> Value:
         timeout = call.argument(position, 'timeout')
         state = timeout.state if isinstance(timeout, Instance) else None
         seconds = state.key if isinstance(state, PlainState) else timeout
-        if seconds is not None and seconds != Const(0.0):
+        asked = (_question(receiver, call), path_facts.Word.SET)
+        is_there = name != 'can_transform' and asked in machine.world.ready
+        if seconds is not None and seconds != Const(0.0) and not is_there:
             machine.note_blocking(f'Buffer.{name}', receiver, seconds, call.place)
+        if name == 'can_transform':
+            return path_facts.known_if_true(asked, call)
         return machine.mystery('a transform at run time', call.place)
 
     return look_up
+
+
+def _question(buffer: Value, call: Call) -> Value:
+    """Which transform of which time is asked for: equal for two that are the same for certain."""
+    names = ('target_frame', 'source_frame', 'time')
+    asked = (call.argument(at, name) for at, name in enumerate(names))
+    return Const((buffer, *map(_identity, asked)))
+
+
+def _identity(value: Value | None) -> object:
+    if isinstance(value, Mystery):
+        return _LATEST if value.text == _LATEST else (value.unknown, value.text)
+    return value if isinstance(value, (Const, Instance)) else object()
+
+
+def _time(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    """A time; without arguments it is 0, which stands for the latest transform there is."""
+    is_latest = not (call.args or call.keywords or call.more)
+    text = _LATEST if is_latest else 'rclpy.time.Time(…)'
+    return machine.mystery('result of rclpy.time.Time, which is not scanned', call.place, text)
 
 
 _LOOK_UPS = {
@@ -209,9 +266,12 @@ TABLE = Library(
         ),
         'message_filters.TimeSynchronizer': _SYNCHRONIZER,
         'message_filters.ApproximateTimeSynchronizer': _SYNCHRONIZER,
-        'message_filters.Cache': _SYNCHRONIZER,
+        'message_filters.Cache': LibraryClass(
+            state=_filter_state, init=_cache, methods={'registerCallback': _register}
+        ),
         'diagnostic_updater.Updater': LibraryClass(init=_update),
     },
+    functions={'rclpy.time.Time': _time},
     aliases={
         'tf2_ros.transform_listener.TransformListener': _TF,
         'tf2_ros.buffer.Buffer': 'tf2_ros.Buffer',

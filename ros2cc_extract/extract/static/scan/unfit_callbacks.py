@@ -1,0 +1,61 @@
+"""
+Callbacks that do not take what rclpy passes: each call raises ``TypeError``, and nothing runs.
+
+Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``_execute_service`` …), ``subscription.py`` (a
+second parameter gets the message's info), ``timer.py`` (a parameter gets the call's times).
+"""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
+from ros2cc_extract.extract.static.python.values.argument_binding import fits
+from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
+    Bound,
+    Call,
+    Function,
+    Value,
+)
+from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.model import EntityKind
+
+_PASSED = {
+    EntityKind.TIMER: (0, 1),
+    EntityKind.SUBSCRIPTION: (1, 2),
+    EntityKind.SERVICE: (2,),
+    EntityKind.ACTION_EXECUTE: (1,),
+    EntityKind.DONE_CALLBACK: (1,),
+}
+
+
+def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> bool:
+    """Whether an entity can never call that function; this is told."""
+    numbers = _PASSED.get(entity.kind)
+    function = callback.function if isinstance(callback, Bound) else callback
+    if numbers is None or entity.library is not None or not isinstance(function, Function):
+        return False
+    first = [callback.receiver] if isinstance(callback, Bound) else []
+    if any(fits(function, Call(entity.place, [*first, *[NONE] * each])) for each in numbers):
+        return False
+    _tell(machine, function, numbers[0])
+    return True
+
+
+def _tell(machine: RosInterpreter, function: Function, number: int) -> None:
+    many = '1 argument' if number == 1 else f'{number} arguments'
+    name = 'this lambda' if isinstance(function.node, ast.Lambda) else function.name
+    at = Place(function.module.file, function.node.lineno, function.node.col_offset + 1)
+    told = Diagnostic(
+        severity=Severity.WARNING,
+        slug='not-followed',
+        place=at,
+        message=f'{name} does not take the {many} that rclpy passes to it: each call raises '
+        'TypeError, so what it does is not looked at',
+        help='give it the parameters of such a callback',
+    )
+    if told not in machine.world.diagnostics:
+        machine.world.diagnostics.append(told)
