@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TextIO
@@ -20,6 +20,7 @@ from ros2cc_extract.findings.filters.baseline import compare
 from ros2cc_extract.findings.filters.selection import select
 from ros2cc_extract.findings.filters.suppress import suppress
 from ros2cc_extract.findings.promises import Judgement, about, judge, weakest
+from ros2cc_extract.findings.promises_of_systems import discharged
 from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
@@ -210,7 +211,12 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
-        promises=tuple(_promises(tasks, examined, findings)),
+        promises=_discharged(
+            tuple(_promises(tasks, examined, findings)),
+            units,
+            system,
+            zip(more, together, strict=True),
+        ),
         interrupted=examination.interrupted,
         system=system,
         answers={} if job.sees_all else _answers([*tasks, *more], examination.found),
@@ -279,6 +285,19 @@ def _promises(
         own = (*each.findings, *named)
         verified = (each.judged, *each.elsewhere)
         yield weakest(judge(task.unit, verification, own, near) for verification in verified)
+
+
+def _discharged(
+    promises: tuple[tuple[Judgement, ...], ...],
+    units: Sequence[Spec],
+    system: System | None,
+    together: Iterable[tuple[Task, Examined]],
+) -> tuple[tuple[Judgement, ...], ...]:
+    """In a system a promise rests on those of others."""
+    if system is None:
+        return promises
+    pairs = [(task.joined, each.under_all) for task, each in together if task.joined]
+    return discharged(promises, units, system, pairs)
 
 
 def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:

@@ -20,6 +20,11 @@ from ros2cc_extract.spec.system.joined_processes import circles_of
 from ros2cc_extract.spec.system.model import System
 
 
+def names_launch_file(path: Path) -> bool:
+    """Whether a path of the command line is a launch file."""
+    return is_launch_file(path, DISK)
+
+
 def scan_paths(
     paths: Sequence[Path],
     arguments: Mapping[str, str],

@@ -43,7 +43,7 @@ class _Picture:
             for circle in circles_in(system)
             for process in circle
             for wait in service_waits(process)
-            if _is_offered_by(wait.what, wait.name, circle, system)
+            if isinstance(wait.name, str) and _is_offered_by(wait.what, wait.name, circle, system)
         }
 
     def is_red(self, connection: Connection) -> bool:

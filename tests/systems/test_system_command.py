@@ -104,3 +104,11 @@ def test_an_argument_needs_a_launch_file(tmp_path: Path) -> None:
     err = io.StringIO()
     assert main(['check', str(path), 'a:=b'], io.StringIO(), err) == 2
     assert 'a:= is for a launch file; name the launch file too' in err.getvalue()
+
+
+def test_confirm_starts_no_system() -> None:
+    err = io.StringIO()
+    assert main(['confirm', '--no-cache', str(RELAYS)], io.StringIO(), err) == 2
+    assert 'a launch file is not started; name the Python file of one of its nodes' in (
+        err.getvalue()
+    )

@@ -9,7 +9,7 @@ one name have that of their process before it.
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -33,6 +33,7 @@ _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
 _NOBODY = (OUTSIDE, TIME)
+_OFFERS = {EntityKind.SERVICE: 'service', EntityKind.ACTION_SERVER: 'action'}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +112,7 @@ class ServiceWait:
     doer: Callback | Activity
     block: Blocking
     what: str
-    name: str
+    name: str | Unknown
 
 
 def service_waits(process: Process) -> Iterator[ServiceWait]:
@@ -124,15 +125,30 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
             for block in doer.blocking:
                 client = clients.get(block.on) if isinstance(block.on, str) else None
                 key = names.key(client) if client is not None else None
-                if client is not None and block.seconds is None and isinstance(key, str):
+                if client is not None and block.seconds is None and key is not None:
                     what = 'service' if client.entity is EntityKind.CLIENT else 'action'
                     yield ServiceWait(unit, doer, block, what, key)
+
+
+def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
+    """The units that offer each service and action, by kind and name."""
+    found: dict[tuple[str, str], list[Spec]] = defaultdict(list)
+    for process in system.processes:
+        for unit in process.units:
+            names = _Names(process, unit)
+            for callback in unit.callbacks:
+                what = _OFFERS.get(callback.entity) if callback.entity is not None else None
+                key = names.key(callback) if what is not None else None
+                if what is not None and isinstance(key, str):
+                    found[what, key].append(unit)
+    return found
 
 
 def _needed(process: Process) -> Iterator[tuple[str, str]]:
     """Services and actions whose answer something in the process waits for."""
     for wait in service_waits(process):
-        yield wait.what, wait.name
+        if isinstance(wait.name, str):
+            yield wait.what, wait.name
 
 
 def _why_not(process: Process) -> Unknown | None:

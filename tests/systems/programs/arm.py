@@ -30,7 +30,9 @@ class Arm(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=3)
-    executor.add_node(Arm())
+    node = Arm()
+    node.plan.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 

@@ -38,7 +38,9 @@ class Keeper(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=4)
-    executor.add_node(Keeper())
+    node = Keeper()
+    node.confirm.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 

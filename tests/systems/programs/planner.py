@@ -23,7 +23,9 @@ class Planner(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=2)
-    executor.add_node(Planner())
+    node = Planner()
+    node.back.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 

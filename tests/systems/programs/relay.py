@@ -30,7 +30,9 @@ class Relay(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=2)
-    executor.add_node(Relay())
+    node = Relay()
+    node.next.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 

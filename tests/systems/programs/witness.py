@@ -24,7 +24,9 @@ class Witness(Node):
 def main():
     rclpy.init()
     executor = MultiThreadedExecutor(num_threads=2)
-    executor.add_node(Witness())
+    node = Witness()
+    node.read.wait_for_service()
+    executor.add_node(node)
     executor.spin()
 
 

@@ -74,9 +74,14 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.confirm.processes import release_of
     from ros2cc_extract.confirm.telling import as_json, as_text, summary
     from ros2cc_extract.errors import InputError
+    from ros2cc_extract.pipeline.system_sources import names_launch_file
+    from ros2cc_extract.source_locations import Place
 
     if (args.path is None) == (args.replay is None):
         raise InputError('one path, or --replay', None, 'as in: confirm my_node.py')
+    if args.path is not None and names_launch_file(args.path):
+        mend = 'name the Python file of one of its nodes'
+        raise InputError('a launch file is not started', Place(str(args.path)), mend)
     python = interpreter_of(args)
     release = release_of(python)
     schedules = _schedules(args, release, stderr)

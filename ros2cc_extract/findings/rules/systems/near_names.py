@@ -32,6 +32,7 @@ def find(system: System) -> Iterator[Hit]:
             if each.what == wanted.what
             and each.ends[0].endpoint.kind is kind.counterpart
             and _types_agree(wanted, each)
+            and _processes(wanted).isdisjoint(_processes(each))
             and (why := how_near(wanted.name, each.name)) is not None
         ]
         if near:
@@ -40,6 +41,10 @@ def find(system: System) -> Iterator[Hit]:
 
 def _is_lone(connection: Connection) -> bool:
     return len({end.endpoint.kind for end in connection.ends}) == 1
+
+
+def _processes(connection: Connection) -> set[str]:
+    return {end.process.name for end in connection.ends}
 
 
 def _types_agree(one: Connection, other: Connection) -> bool:

@@ -1,0 +1,148 @@
+"""
+What a unit's promise rests on in a system: that its neighbours answer.
+
+Alone, a unit is judged as if whoever is asked answered. In a system that assumption is discharged
+by the neighbours' own verdicts: a promise that every wait ends is kept only where each service and
+action that is waited for is offered by units that keep theirs.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.promises import DEADLOCK, Judgement, Mark, Promise
+from ros2cc_extract.findings.waits.verdicts import PROGRESS
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.joined_executors import Joined
+from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.system.joined_processes import ServiceWait, service_waits, units_by_offer
+from ros2cc_extract.spec.system.model import System
+from ros2cc_extract.verify.results.results import Verdict, Verification
+
+Judgements = tuple[Judgement, ...]
+_NOT_PROVEN = 'processes wait for each other, and their common model does not prove it'
+_FAMILIES = (DEADLOCK, PROGRESS)
+_UNTIL_THERE = ('wait_for_service', 'wait_for_server')
+
+
+@dataclass
+class _Offers:
+    """
+    Who offers what.
+
+    :param are_all: nobody else may.
+    :param names: identities of the units, in the order of the judgements.
+    """
+
+    units: Mapping[tuple[str, str], Sequence[Spec]]
+    are_all: bool
+    names: Sequence[object]
+
+    def numbers_of(self, unit: Spec) -> list[int]:
+        """Which of the judgements are about a unit."""
+        return self._by_name.get(_identity(unit), [])
+
+    @cached_property
+    def _by_name(self) -> dict[object, list[int]]:
+        found: dict[object, list[int]] = defaultdict(list)
+        for number, name in enumerate(self.names):
+            found[name].append(number)
+        return found
+
+
+def discharged(
+    judgements: Sequence[Judgements],
+    units: Sequence[Spec],
+    system: System,
+    circles: Iterable[tuple[Joined, Verification]] = (),
+) -> tuple[Judgements, ...]:
+    """
+    Leave no promise kept that rests on one of a neighbour's that is not.
+
+    :param units: in the order of ``judgements``.
+    :param circles: processes that wait for each other, with what is known of them together.
+    """
+    known = list(judgements)
+    for joined, verification in circles:
+        if joined.is_of_processes and not _is_proven(verification):
+            for number, unit in enumerate(units):
+                is_in_it = not set(joined.spec.sources).isdisjoint(unit.sources)
+                if is_in_it and _mark(known[number]) is Mark.KEPT:
+                    known[number] = _opened(known[number], _NOT_PROVEN)
+    names = [_identity(unit) for unit in units]
+    waits: dict[object, list[ServiceWait]] = defaultdict(list)
+    for process in system.processes:
+        for wait in service_waits(process):
+            waits[_identity(wait.unit)].append(wait)
+    offers = _Offers(units_by_offer(system), system.is_whole, names)
+    changed = True
+    while changed:
+        changed = False
+        for number, name in enumerate(names):
+            if _mark(known[number]) is not Mark.KEPT:
+                continue
+            why = next(_doubts(waits.get(name, ()), offers, known), '')
+            if why:
+                known[number] = _opened(known[number], why)
+                changed = True
+    return tuple(known)
+
+
+def _is_proven(verification: Verification) -> bool:
+    results = [each for each in verification.results if each.family in _FAMILIES]
+    return bool(results) and all(each.verdict is Verdict.SATISFIED for each in results)
+
+
+def _doubts(
+    waits: Sequence[ServiceWait], offers: _Offers, known: Sequence[Judgements]
+) -> Iterator[str]:
+    for wait in waits:
+        who = f'{called(wait.doer)} waits for'
+        if isinstance(wait.name, Unknown):
+            yield f'{who} a {wait.what} whose name is not known ({wait.name.reason})'
+            continue
+        if not _was_there(wait):
+            yield (
+                f'{who} {wait.what} {wait.name} and has not waited until it is there: a request '
+                'that comes too early is lost'
+            )
+        servers = offers.units.get((wait.what, wait.name), [])
+        if not servers:
+            where = '' if offers.are_all else ' in sight'
+            yield f'{who} {wait.what} {wait.name}, which nobody{where} offers'
+        for unit in servers:
+            at = offers.numbers_of(unit)
+            if not at or any(_mark(known[n]) is not Mark.KEPT for n in at):
+                yield f'{who} {wait.what} {wait.name} of {unit.name}, of which that is not proven'
+
+
+def _was_there(wait: ServiceWait) -> bool:
+    """
+    Whether the code has waited for the server to be there, in its set-up or before it asks.
+
+    A request that is sent before its server is known is lost, and nobody answers it.
+    """
+    earlier = (*wait.unit.set_up, *wait.doer.blocking)
+    return wait.block.call in _UNTIL_THERE or any(
+        each.call in _UNTIL_THERE and each.on == wait.block.on for each in earlier
+    )
+
+
+def _identity(unit: Spec) -> object:
+    """Equal for a unit before and after what the user assumes of it."""
+    return unit.entry, unit.name, tuple(each.name for each in unit.callbacks)
+
+
+def _mark(judgements: Judgements) -> Mark:
+    return next(each.mark for each in judgements if each.promise is Promise.WAITS)
+
+
+def _opened(judgements: Judgements, why: str) -> Judgements:
+    return tuple(
+        replace(each, mark=Mark.OPEN, reason=why) if each.promise is Promise.WAITS else each
+        for each in judgements
+    )
