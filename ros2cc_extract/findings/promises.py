@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
@@ -47,7 +48,8 @@ class Judgement:
     """
     One promise of one unit.
 
-    :param reason: why it is undecided, or the codes of the findings that break it.
+    :param reason: why it is undecided, the codes of the findings that break it, or what it
+        assumes of other programs where it is kept.
     """
 
     promise: Promise
@@ -124,7 +126,10 @@ class _Unit:
         if promise is Promise.DEADLOCK and any(map(self._is_of_several, self.own)):
             return Judgement(promise, Mark.BROKEN, NEVER_ENDS.code)
         reason = next(self._doubts(promise), '')
-        return Judgement(promise, Mark.OPEN if reason else Mark.KEPT, reason)
+        if reason:
+            return Judgement(promise, Mark.OPEN, reason)
+        assumed = answers_assumed(self.unit) if promise is Promise.WAITS else ''
+        return Judgement(promise, Mark.KEPT, assumed)
 
     def _is_of_several(self, finding: Finding) -> bool:
         """Whether several units together stand still, as only their common model shows."""

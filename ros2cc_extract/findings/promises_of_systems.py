@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from ros2cc_extract.findings.answers_of_others import waited_until_there
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.promises import DEADLOCK, Judgement, Mark, Promise
 from ros2cc_extract.findings.waits.verdicts import PROGRESS
@@ -26,7 +27,6 @@ from ros2cc_extract.verify.results.results import Verdict, Verification
 Judgements = tuple[Judgement, ...]
 _NOT_PROVEN = 'processes wait for each other, and their common model does not prove it'
 _FAMILIES = (DEADLOCK, PROGRESS)
-_UNTIL_THERE = ('wait_for_service', 'wait_for_server')
 
 
 @dataclass
@@ -89,7 +89,7 @@ def discharged(
             if why:
                 known[number] = _opened(known[number], why)
                 changed = True
-    return tuple(known)
+    return tuple(tuple(map(_rested, each)) for each in known)
 
 
 def _is_proven(verification: Verification) -> bool:
@@ -105,7 +105,7 @@ def _doubts(
         if isinstance(wait.name, Unknown):
             yield f'{who} a {wait.what} whose name is not known ({wait.name.reason})'
             continue
-        if not _was_there(wait):
+        if not waited_until_there(wait.unit, wait.doer.blocking, wait.block):
             yield (
                 f'{who} {wait.what} {wait.name} and has not waited until it is there: a request '
                 'that comes too early is lost'
@@ -120,18 +120,6 @@ def _doubts(
                 yield f'{who} {wait.what} {wait.name} of {unit.name}, of which that is not proven'
 
 
-def _was_there(wait: ServiceWait) -> bool:
-    """
-    Whether the code has waited for the server to be there, in its set-up or before it asks.
-
-    A request that is sent before its server is known is lost, and nobody answers it.
-    """
-    earlier = (*wait.unit.set_up, *wait.doer.blocking)
-    return wait.block.call in _UNTIL_THERE or any(
-        each.call in _UNTIL_THERE and each.on == wait.block.on for each in earlier
-    )
-
-
 def _identity(unit: Spec) -> object:
     """Equal for a unit before and after what the user assumes of it."""
     return unit.entry, unit.name, tuple(each.name for each in unit.callbacks)
@@ -139,6 +127,11 @@ def _identity(unit: Spec) -> object:
 
 def _mark(judgements: Judgements) -> Mark:
     return next(each.mark for each in judgements if each.promise is Promise.WAITS)
+
+
+def _rested(judgement: Judgement) -> Judgement:
+    """What a kept promise assumes of others, these keep."""
+    return replace(judgement, reason='') if judgement.mark is Mark.KEPT else judgement
 
 
 def _opened(judgements: Judgements, why: str) -> Judgements:

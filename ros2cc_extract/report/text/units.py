@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from rich.console import Console
 from rich.text import Text
 
-from ros2cc_extract.findings.promises import Judgement, Mark
+from ros2cc_extract.findings.promises import Judgement, Mark, Promise
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.shared.unit_rows import (
     COLUMNS,
@@ -65,6 +65,10 @@ def _print_block(row: Row, console: Console) -> None:
     console.print(line, soft_wrap=True)
     for reason, claims in _reasons([row]).items():
         console.print(f'  ? {", ".join(dict.fromkeys(claims))}: {reason}', soft_wrap=True)
+    for each in row.promises:
+        if each.mark is Mark.KEPT and each.reason:
+            told = f'  {signs[each.mark]} {each.promise.value}, {one_line(each.reason)}'
+            console.print(told, soft_wrap=True)
 
 
 def _reasons(rows: Sequence[Row]) -> dict[str, list[str]]:
@@ -100,6 +104,12 @@ def _print_rows(rows: Sequence[Row], console: Console) -> None:
     if len(reasons) > MOST_REASONS:
         left = counted(len(reasons) - MOST_REASONS, 'more reasons')
         console.print(f'? {left}; --verbose shows them')
+    assumed = [each for row in rows for each in row.promises if each.mark is Mark.KEPT]
+    number = sum(bool(each.reason) for each in assumed)
+    if number:
+        units = counted(number, 'units')
+        kept = f'{signs[Mark.KEPT]} {Promise.WAITS.value} in {units} as long as others answer'
+        console.print(f'{kept}; --verbose names them')
 
 
 def _times(number: int) -> str:

@@ -104,6 +104,20 @@ def test_what_is_undecided_has_its_reason() -> None:
     ]
 
 
+def test_what_a_kept_promise_assumes_of_others_is_said() -> None:
+    assumed = Judgement(Promise.WAITS, Mark.KEPT, "as long as service 'plan' answers")
+    lines = told([], promises=(KEPT[0], assumed, *KEPT[2:])).splitlines()
+    assert lines[2:] == [
+        "  ✓ every wait ends, as long as service 'plan' answers",
+        'No problems found in 1 file',
+    ]
+    lines = told([], units=4, promises=(KEPT[0], assumed, *KEPT[2:])).splitlines()
+    assert lines[5:] == [
+        '✓ every wait ends in 1 unit as long as others answer; --verbose names them',
+        'No problems found in 1 file',
+    ]
+
+
 def test_where_only_ascii_can_be_written_marks_are_words() -> None:
     promises = (Judgement(Promise.DEADLOCK, Mark.BROKEN), *KEPT[1:])
     text = told([], promises=promises, encoding='ascii')
