@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ros2cc_extract.findings.base.wording import listing
 from ros2cc_extract.spec.client_server_pairs import is_client, server_of
 from ros2cc_extract.spec.effects import Blocking
-from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 
 UNTIL_THERE = ('wait_for_service', 'wait_for_server')
 """Calls that wait until somebody offers the service or the action."""
@@ -44,7 +44,8 @@ def answers_assumed(unit: Spec) -> str:
 
 def _waits_for_others(unit: Spec) -> Iterator[tuple[Callback, tuple[Blocking, ...], Blocking]]:
     clients = {each.name: each for each in unit.callbacks if is_client(each)}
-    for doer in (*unit.callbacks, *unit.activities):
+    doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
+    for doer in doers:
         for block in doer.blocking:
             client = clients.get(block.on) if isinstance(block.on, str) else None
             asks = client is not None and block.seconds is None and block.call not in UNTIL_THERE
