@@ -164,7 +164,8 @@ class Event:
     def _pattern(self) -> str:
         return _OPTIONAL.sub(
             lambda match: match[1] if all(self._known(match[1])) else '',
-            WORDS[f'{self.kind} {self.form}'.strip()],
+            # A cache may hold what no template says: that has no words.
+            WORDS.get(f'{self.kind} {self.form}'.strip(), ''),
         )
 
     def _known(self, part: str) -> Iterator[bool]:
