@@ -102,7 +102,7 @@ def test_deadlock_is_explained_once(
     first, verdict, *lines = text.splitlines()
     assert first.removeprefix('ros2cc-extract: ').startswith(says)
     assert ' (/some): deadlock: ' in verdict
-    assert 'CC101 ask ' in lines[0]
+    assert 'CC101 Some.ask ' in lines[0]
 
 
 @pytest.mark.parametrize(
