@@ -184,7 +184,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
         return Unknown(f'package {package} is not in sight', launched.source)
     found = started.packages.executable(package, name)
     if found is None:
-        why = f'executable {name} is not among what package {package} installs'
+        why = f'executable {name} was not found among what package {package} installs'
         return Unknown(why, launched.source)
     if found.file is None:
         return Unknown(f'executable {name} of package {package} is no Python', launched.source)
