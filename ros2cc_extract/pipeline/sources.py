@@ -155,8 +155,8 @@ def load_units(path: Path, stderr: TextIO, *, lists_builtin: bool = False) -> tu
 
         return load_specs(path)
     if path.suffix == RECORDING_SUFFIX:
-        from ros2cc_extract.extract.live.collect import specs_of
-        from ros2cc_extract.extract.live.recording import read_recording
+        from ros2cc_extract.extract.live.recordings.collect import specs_of
+        from ros2cc_extract.extract.live.recordings.recording import read_recording
 
         return specs_of(read_recording(path, Path.cwd()))
     extraction = scan_sources([path], stderr, lists_builtin=lists_builtin)

@@ -21,7 +21,8 @@ from pathlib import Path
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Trace, read_traces
 from ros2cc_extract.conform.unit import Comparison
-from ros2cc_extract.extract.live.run import record, write_traces
+from ros2cc_extract.extract.live.recordings.output_files import write_traces
+from ros2cc_extract.extract.live.run import record
 from ros2cc_extract.spec.releases.table import EVENTS_EXECUTOR
 from tests.conformance.checking import Ran, compare_in_time, read_ran
 from tests.conformance.programs import EVENTS, draw

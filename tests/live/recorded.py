@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from pathlib import Path
 
-from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.recordings.recording import Recording
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.spec.model import Callback, Spec
 

@@ -21,8 +21,8 @@ from expectations import EXPECTED
 from held import Held, of_probe, of_spec, without_unknown_keys
 
 from ros2cc_extract.compare.merge import diff
-from ros2cc_extract.extract.live.collect import specs_of
-from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.recordings.collect import specs_of
+from ros2cc_extract.extract.live.recordings.recording import Recording
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.spec.model import Spec

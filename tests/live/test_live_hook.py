@@ -11,8 +11,8 @@ from child import Child
 from conftest import ROOT
 from recorded import PROGRAMS, recordings_in, written
 
-from ros2cc_extract.extract.live.collect import specs_of
-from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.recordings.collect import specs_of
+from ros2cc_extract.extract.live.recordings.recording import Recording
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec, When
 from ros2cc_extract.spec.yaml.yaml_io import read_specs, write_specs

@@ -17,7 +17,7 @@ import pytest
 from child import Child
 from conftest import EXAMPLES
 
-from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recordings.collect import specs_of
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.spec.model import CallbackType
 from ros2cc_extract.verify.results.load import LoadKind, load_of

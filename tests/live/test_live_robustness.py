@@ -11,8 +11,8 @@ from child import Child
 from conftest import EXAMPLES
 from recorded import PROGRAMS, recordings_in, timers_of, written
 
-from ros2cc_extract.extract.live.collect import specs_of
-from ros2cc_extract.extract.live.trace import read_trace
+from ros2cc_extract.extract.live.recordings.collect import specs_of
+from ros2cc_extract.extract.live.recordings.trace import read_trace
 
 Start = Callable[..., Child]
 FULL = 'File too large'

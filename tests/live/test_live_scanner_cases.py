@@ -20,7 +20,7 @@ from conftest import ROOT
 from interpreters import EVERY_RELEASE, interpreter_of
 
 from ros2cc_extract.compare.merge import Difference, diff
-from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recordings.collect import specs_of
 from ros2cc_extract.extract.live.run import read_directory
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.spec.model import Spec

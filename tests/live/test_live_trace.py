@@ -15,8 +15,8 @@ from conftest import EXAMPLES
 from recorded import recordings_in
 
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.extract.live.recordings.trace import read_trace
 from ros2cc_extract.extract.live.run import collect_directory, run_command
-from ros2cc_extract.extract.live.trace import read_trace
 from ros2cc_extract.spec.yaml.yaml_io import load_specs
 
 PROGRAMS = Path(__file__).with_name('programs')

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import io
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from child import Child
 from interpreters import EVERY_RELEASE, interpreter_of
 
 from ros2cc_extract.extract.live.environment import hooked_environment
-from ros2cc_extract.extract.live.hook.watch import FILE_SUFFIX, limit_of
+from ros2cc_extract.extract.live.hook.diagnostics import HEALTHY
+from ros2cc_extract.extract.live.hook.diagnostics import VARIABLE as DIAGNOSTICS
+from ros2cc_extract.extract.live.hook.watch import FILE_SUFFIX, VARIABLE, limit_of
 from ros2cc_extract.extract.live.run import run_command
 from tests.live.standing import programs
 
@@ -183,3 +186,39 @@ def test_limit_is_read_from_the_environment(text: str | None, limit: float | Non
 def test_limit_that_is_no_number_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert limit_of('soon') is None
     assert "ROS2CC_LIVE_WATCH='soon' is no number of seconds" in capsys.readouterr().err
+
+
+NAPS = 'self.create_timer(0.1, lambda: time.sleep(next(naps)))'
+LISTENER = """
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+
+def heard(message):
+    (status,) = message.status
+    print(ord(status.level), status.name, status.message, flush=True)
+    for value in status.values:
+        if value.key == 'explanation':
+            print(value.value, flush=True)
+
+rclpy.init()
+node = rclpy.create_node('listener')
+node.create_subscription(DiagnosticArray, '/diagnostics', heard, 10)
+rclpy.spin(node)
+"""
+
+
+def test_standstill_is_on_diagnostics_until_it_passes(
+    start: Callable[..., Child], tmp_path: Path
+) -> None:
+    listener, program = tmp_path / 'listener.py', tmp_path / 'node.py'
+    listener.write_text(LISTENER)
+    stands = 'naps = itertools.cycle([0] * 10 + [4])'
+    program.write_text(f'import itertools\n{stands}\n' + node(NAPS))
+    hears = start(listener)
+    start(program, recorded_into=tmp_path, **{VARIABLE: f'{LIMIT_S:g}', DIAGNOSTICS: '1'})
+    healthy, busy = f'0 /some: callbacks {HEALTHY}\n', '1 /some: callbacks busy\n'
+    hears.read_until(lambda lines: healthy in lines)
+    hears.read_until(lambda lines: busy in lines)
+    after = len(hears.lines)
+    hears.read_until(lambda lines: healthy in lines[after:])
+    assert any('node.py:' in line for line in hears.lines)

@@ -10,7 +10,7 @@ import pytest
 from ros2cc_extract.checker.runs.printed_runs import NamedState
 from ros2cc_extract.conform.trace import read_traces
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live.recording import read_recording
+from ros2cc_extract.extract.live.recordings.recording import read_recording
 from ros2cc_extract.findings.filters.baseline import read_baseline
 from ros2cc_extract.pipeline.config import read_config
 from ros2cc_extract.verify.uppaal.verifyta_trace import read_runs

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ros2cc_extract.jobs.pools import Pool
     from ros2cc_extract.spec.close import Policy
     from ros2cc_extract.verify.search.options import Options
@@ -29,6 +32,38 @@ def add_launch_paths(parser: argparse.ArgumentParser) -> None:
         help='a Python file, a launch file or a directory; NAME:=VALUE for launch files',
     )
     add_cache_argument(parser)
+
+
+def add_watch_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the watch of processes that are started with the hook."""
+    parser.add_argument(
+        '--watch',
+        type=number_of_seconds,
+        metavar='SECONDS',
+        help='explain, as `why` does, where no callback has ended for so long, and keep the last '
+        'steps before it',
+    )
+    parser.add_argument(
+        '--diagnostics',
+        action='store_true',
+        help='with --watch: publish the verdict on /diagnostics, once a second',
+    )
+
+
+def live_environment(args: argparse.Namespace) -> Mapping[str, str]:
+    """
+    Give the environment for processes that are started with the hook.
+
+    :raises InputError: when diagnostics are asked for and no watch.
+    """
+    from ros2cc_extract.errors import InputError
+    from ros2cc_extract.extract.live.environment import publishing
+
+    if not args.diagnostics:
+        return os.environ
+    if args.watch is None:
+        raise InputError('--diagnostics publishes what --watch finds', None, 'add --watch 5')
+    return publishing(os.environ)
 
 
 def add_cache_argument(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import TextIO
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.injection import (
     Injector,
     check_process,
@@ -23,8 +22,10 @@ from ros2cc_extract.extract.live.injection import (
     private_folder,
     user_to_enter,
 )
-from ros2cc_extract.extract.live.recording import read_recording
-from ros2cc_extract.extract.live.run import check_file, report_losses, write_specs_to
+from ros2cc_extract.extract.live.recordings.collect import specs_of
+from ros2cc_extract.extract.live.recordings.output_files import check_file, write_specs_to
+from ros2cc_extract.extract.live.recordings.recording import read_recording
+from ros2cc_extract.extract.live.run import report_losses
 from ros2cc_extract.files import read_regular
 
 EXIT_CLEAN, EXIT_ERROR = 0, 2

@@ -7,10 +7,16 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
+from ros2cc_extract.extract.live.hook.diagnostics import VARIABLE as DIAGNOSTICS_VARIABLE
 from ros2cc_extract.extract.live.hook.watch import VARIABLE as WATCH_VARIABLE
 from ros2cc_extract.extract.live.hook.wrapping import OUTPUT_VARIABLE, TRACE_VARIABLE
 
 BOOTSTRAP = Path(__file__).resolve().parent / 'bootstrap'
+
+
+def publishing(environment: Mapping[str, str]) -> dict[str, str]:
+    """Give ``environment`` with what makes watched processes publish on ``/diagnostics``."""
+    return {**environment, DIAGNOSTICS_VARIABLE: '1'}
 
 
 def hooked_environment(
@@ -47,6 +53,6 @@ def shell_commands(
 ) -> str:
     """Give the commands that set these variables in a POSIX shell."""
     hooked = hooked_environment(environment, directory, traced=traced, limit_s=limit_s)
-    names = ('PYTHONPATH', OUTPUT_VARIABLE, TRACE_VARIABLE, WATCH_VARIABLE)
+    names = ('PYTHONPATH', OUTPUT_VARIABLE, TRACE_VARIABLE, WATCH_VARIABLE, DIAGNOSTICS_VARIABLE)
     set_ = (name for name in names if name in hooked)
     return ''.join(f'export {name}={shlex.quote(hooked[name])}\n' for name in set_)

@@ -11,23 +11,28 @@ from typing import TextIO
 
 from ros2cc_extract.errors import InputError, Ros2ccError
 from ros2cc_extract.extract.live.child_process import deaf_to_ctrl_c, end_alike, run_child
-from ros2cc_extract.extract.live.collect import specs_of
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.hook.watch import FILE_SUFFIX
-from ros2cc_extract.extract.live.recording import Recording, read_recording
-from ros2cc_extract.extract.live.trace import Trace, read_trace, write_lines
-from ros2cc_extract.extract.live.trace_event_format import write_chrome
+from ros2cc_extract.extract.live.recordings.collect import specs_of
+from ros2cc_extract.extract.live.recordings.flight_records import write_flight_records
+from ros2cc_extract.extract.live.recordings.output_files import (
+    check_file,
+    check_output,
+    stem_of,
+    write_specs_to,
+    write_traces,
+    write_whole,
+)
+from ros2cc_extract.extract.live.recordings.recording import Recording, read_recording
+from ros2cc_extract.extract.live.recordings.trace import Trace, read_trace
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
 DEFAULT_OUTPUT = Path('live.spec.yaml')
 # In a folder of specifications; else it is named after the one.
 WHY = 'why.txt'
 EXIT_ERROR = 2
 EXIT_INTERRUPTED = 130
-# Some seconds of writing, which somebody at a terminal is told of.
-MANY_EVENTS = 100_000
 Finish = Callable[[tuple[Spec, ...]], int]
 
 
@@ -81,6 +86,7 @@ def run_command(
                 report_losses(recorded.recordings, stderr)
                 write_output(recorded, output, stderr)
                 write_explanations(Path(folder), output, stderr)
+                write_flight_records(recorded.recordings, output, stderr)
             if trace is not None:
                 write_traces(recorded.traces, trace, stderr)
         except Ros2ccError as error:
@@ -119,6 +125,7 @@ def collect_directory(
     report_losses(recordings, stderr)
     recorded = Recorded(0, recordings)
     write_output(recorded, output, stderr)
+    write_flight_records(recordings, output, stderr)
     if trace is not None:
         write_traces(tuple(filter(None, map(read_trace, recordings))), trace, stderr)
     return 0 if recorded.specs else EXIT_ERROR
@@ -162,21 +169,6 @@ def read_directory(directory: Path, stderr: TextIO) -> list[Recording]:
     return recordings
 
 
-def check_output(output: Path) -> None:
-    """
-    Refuse an output that can only fail, before anything runs.
-
-    :raises InputError: when the folder does not exist or may not be written to.
-    """
-    folder = output if output.is_dir() else output.parent
-    if not folder.is_dir():
-        raise InputError('folder does not exist', Place(str(folder)), 'create it first')
-    if not os.access(folder, os.W_OK) or (output.is_file() and not os.access(output, os.W_OK)):
-        raise InputError(
-            'cannot be written: permission denied', Place(str(output)), 'choose another with -o'
-        )
-
-
 def write_output(recorded: Recorded, output: Path, stderr: TextIO) -> None:
     """
     Write one file, or into a directory one file for each process.
@@ -206,63 +198,9 @@ def write_explanations(folder: Path, output: Path, stderr: TextIO) -> None:
     """
     texts = [path.read_text(encoding='utf-8') for path in sorted(folder.glob(f'*{FILE_SUFFIX}'))]
     if texts:
-        name = output.name.removesuffix('.yaml').removesuffix('.spec')
-        path = output / WHY if output.is_dir() else output.with_name(f'{name}{FILE_SUFFIX}')
-        _write_whole(path, lambda stream: stream.write(''.join(texts)))
+        path = output / WHY if output.is_dir() else Path(f'{stem_of(output)}{FILE_SUFFIX}')
+        write_whole(path, lambda stream: stream.write(''.join(texts)))
         print(f'ros2cc-extract: {path} says why callbacks did not end', file=stderr)
-
-
-def write_specs_to(path: Path, specs: Sequence[Spec]) -> None:
-    """
-    Write specifications.
-
-    :raises InputError: when writing fails; what was there before is kept.
-    """
-    _write_whole(path, lambda stream: stream.write(write_specs(specs)))
-
-
-def check_file(path: Path) -> None:
-    """
-    Refuse what can only fail where no folder will do, before anything runs.
-
-    :raises InputError: when it is a directory, or its folder cannot be written to.
-    """
-    if path.is_dir():
-        raise InputError('is a directory', Place(str(path)), 'name a file')
-    check_output(path)
-
-
-def write_traces(traces: Sequence[Trace], path: Path, stderr: TextIO) -> None:
-    """
-    Write the trace as JSON lines, and for Perfetto beside it (``NAME.perfetto.json``).
-
-    :raises InputError: when writing fails; what was there before is kept.
-    """
-    count = sum(trace.count for trace in traces)
-    if not count:
-        print(f'ros2cc-extract: no executor was traced; {path} is not written', file=stderr)
-        return
-    if count > MANY_EVENTS and stderr.isatty():
-        print(f'ros2cc-extract: writing {count:,} events to {path} …', file=stderr)
-    _write_whole(path, lambda stream: write_lines(traces, stream))
-    for_perfetto = path.with_name(f'{path.stem}.perfetto.json')
-    _write_whole(for_perfetto, lambda stream: write_chrome(traces, stream))
-
-
-def _write_whole(path: Path, write: Callable[[TextIO], object]) -> None:
-    """Write by way of a temporary file, so that a half-written one never stands there."""
-    temporary = path.with_name(f'{path.name}.new')
-    try:
-        with temporary.open('w', encoding='utf-8') as stream:
-            write(stream)
-        temporary.replace(path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        mend = 'what was there before is kept' if path.exists() else ''
-        raise InputError(f'cannot be written: {error.strerror}', Place(str(path)), mend) from error
-    except BaseException:  # Ctrl-C
-        temporary.unlink(missing_ok=True)
-        raise
 
 
 def report_losses(recordings: Sequence[Recording], stderr: TextIO) -> None:

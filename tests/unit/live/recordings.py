@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.extract.live.recorder.events import EVENT_NAMES, RAW_SUFFIX, pack
-from ros2cc_extract.extract.live.recording import Recording, read_recording
-from ros2cc_extract.extract.live.trace import Trace, read_trace
+from ros2cc_extract.extract.live.recordings.recording import Recording, read_recording
+from ros2cc_extract.extract.live.recordings.trace import Trace, read_trace
 
 NOT_MEASURED = {
     'count': 0,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ros2cc_extract.extract.live.collect import specs_of
+from ros2cc_extract.extract.live.recordings.collect import specs_of
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import (
     Callback,

@@ -12,9 +12,9 @@ import pytest
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live.recorder.events import loss, thread_name
-from ros2cc_extract.extract.live.recording import read_recording
-from ros2cc_extract.extract.live.trace import Event, Trace, read_trace, write_lines
-from ros2cc_extract.extract.live.trace_event_format import write_chrome
+from ros2cc_extract.extract.live.recordings.recording import read_recording
+from ros2cc_extract.extract.live.recordings.trace import Event, Trace, read_trace, write_lines
+from ros2cc_extract.extract.live.recordings.trace_event_format import write_chrome
 from tests.unit.live.recordings import data, event, group, node, recording, timer, trace
 
 

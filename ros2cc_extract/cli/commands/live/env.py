@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TextIO
 
-from ros2cc_extract.cli.shared.arguments import number_of_seconds
+from ros2cc_extract.cli.shared.arguments import add_watch_arguments, live_environment
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
 
 
@@ -20,20 +20,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '-o', '--output', type=Path, required=True, metavar='DIR', help='folder of the recordings'
     )
     parser.add_argument('--trace', action='store_true', help='also record the execution')
-    parser.add_argument(
-        '--watch',
-        type=number_of_seconds,
-        metavar='SECONDS',
-        help='explain, as `why` does, where no callback has ended for so long',
-    )
+    add_watch_arguments(parser)
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    import os
-
     from ros2cc_extract.cli.shared.output import make_folder
     from ros2cc_extract.extract.live.environment import shell_commands
 
     make_folder(args.output)
-    stdout.write(shell_commands(os.environ, args.output, traced=args.trace, limit_s=args.watch))
+    environment = live_environment(args)
+    stdout.write(shell_commands(environment, args.output, traced=args.trace, limit_s=args.watch))
     return EXIT_CLEAN

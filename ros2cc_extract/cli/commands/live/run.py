@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ros2cc_extract.cli.shared.arguments import number_of_seconds
+from ros2cc_extract.cli.shared.arguments import add_watch_arguments, live_environment
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR
 
 if TYPE_CHECKING:
@@ -48,12 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='PATH',
         help='also scan this source and compare it with the run',
     )
-    parser.add_argument(
-        '--watch',
-        type=number_of_seconds,
-        metavar='SECONDS',
-        help='explain, as `why` does, where no callback has ended for so long',
-    )
+    add_watch_arguments(parser)
     parser.add_argument(
         'command',
         nargs=argparse.REMAINDER,
@@ -70,6 +65,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     command = args.command[1:] if args.command[:1] == ['--'] else args.command
     if not command:
         raise InputError('no command given', None, 'write it after --: run -- python node.py')
+    environment = live_environment(args)
     compare = _comparison(args.check, stdout, stderr) if args.check else None
 
     def finish(live: tuple[Spec, ...]) -> int:
@@ -77,7 +73,13 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         return compare(live) if compare else EXIT_CLEAN
 
     return run_command(
-        command, args.output, stderr, trace=args.trace, limit_s=args.watch, finish=finish
+        command,
+        args.output,
+        stderr,
+        trace=args.trace,
+        limit_s=args.watch,
+        environment=environment,
+        finish=finish,
     )
 
 

@@ -241,7 +241,7 @@ class _Graph:
             return bool(self.live)
         if self.keepers(entity) and not self.keepers(entity) & self.live:
             return False
-        if not self.spinners(executor) and not self.live - self.workers(executor):
+        if not self._may_be_spun(executor):
             return False
         return executor.workers is None or len(self.stuck(executor)) < executor.workers
 
@@ -251,6 +251,10 @@ class _Graph:
 
     def spinners(self, executor: Executor) -> set[int]:
         return {index for index, wait in self.waits.items() if wait.spins == executor.number}
+
+    def _may_be_spun(self, executor: Executor) -> bool:
+        """A thread spins it, or one that goes on may be about to."""
+        return bool(self.spinners(executor) or self.live - self.workers(executor))
 
     def stuck(self, executor: Executor) -> set[int]:
         """Threads of its pool that never go on."""
@@ -345,7 +349,7 @@ class _Graph:
             yield 'its node is in no executor'
         elif executor.workers is not None and len(self.stuck(executor)) >= executor.workers:
             yield f'no thread of the pool is free: {len(self.stuck(executor))} of them wait'
-        elif not self.spinners(executor):
+        elif not self._may_be_spun(executor):
             runs = [
                 i
                 for i, each in enumerate(self.look.activities)

@@ -50,6 +50,24 @@ class TraceFile:
                 file=sys.stderr,
             )
 
+    def restart(self) -> None:
+        """Begin again with an empty file."""
+        if self._stream is not None and self._usable:
+            self._stream.close()
+            self._stream = None
+            self._threads.clear()
+
+    def read(self) -> bytes:
+        """
+        Give what was written so far.
+
+        :raises OSError: when it cannot be read.
+        """
+        if self._stream is None:
+            return b''
+        with open(self._path, 'rb') as stream:  # noqa: PTH123
+            return stream.read()
+
     def close(self) -> None:
         if self._stream is not None and self._usable:
             self._usable = False

@@ -18,6 +18,7 @@ from typing import Any
 
 from ..hang_analysis import probe
 from ..recorder.record import Recorder
+from .flight import FlightRecorder
 
 VARIABLE = 'ROS2CC_LIVE_WATCH'
 FILE_SUFFIX = '.why.txt'
@@ -33,11 +34,13 @@ class Watch:
     Asked several times a second; looks at the process when something has not ended for long.
 
     :param limit_s: how long that is.
+    :param flight: keeps the steps that led there.
     """
 
-    def __init__(self, recorder: Recorder, limit_s: float) -> None:
+    def __init__(self, recorder: Recorder, limit_s: float, flight: FlightRecorder) -> None:
         self._recorder = recorder
         self._limit_s = limit_s
+        self._flight = flight
         self.forget()
 
     def forget(self) -> None:
@@ -48,6 +51,8 @@ class Watch:
         self._looked_at_timers = False
         # How old a run is to be when it is looked at again: it may come to a stop later.
         self._look_at: dict[Run, int] = {}
+        #: Verdict and explanation of the standstill that goes on.
+        self.standing: tuple[str, str] | None = None
         # Verdicts that were written while these ran.
         self._said: set[tuple[Run, str]] = set()
 
@@ -64,6 +69,8 @@ class Watch:
         overdue = {run: now - run[1] for run in running if run[1] <= earliest}
         nothing_ended = self._since <= earliest
         self._look_at = {run: age for run, age in self._look_at.items() if run in overdue}
+        if not overdue and not nothing_ended:
+            self.standing = None
         due = {run for run, age in overdue.items() if age >= self._look_at.get(run, limit)}
         if due or (nothing_ended and not running and self._is_timer_due()):
             self._look_at |= {run: 2 * overdue[run] for run in due}
@@ -91,11 +98,12 @@ class Watch:
         )
         if found is None:
             return
-        verdict, text = found
+        self.standing = verdict, text = found
         news = {(run, verdict) for run in overdue} - self._said
         if news or not overdue:
             self._said = {said for said in self._said if said[0] in overdue} | news
             _write(recording.removesuffix('.json') + FILE_SUFFIX, text)
+            self._flight.keep('hang')
 
 
 def _write(path: str, text: str) -> None:

@@ -21,7 +21,10 @@ from ..recorder.events import BEGIN, END, REFUSED
 from ..recorder.frames import is_node, trace_creation
 from ..recorder.record import Recorder
 from ..steering.steer import steer_from_environment
+from .diagnostics import VARIABLE as DIAGNOSTICS_VARIABLE
+from .diagnostics import Diagnostics
 from .events_executor import mark_spinning, measure_callbacks
+from .flight import FlightRecorder
 from .groups import reporting
 from .steps import mark_task, trace_runs, trace_submits, trace_takes, trace_waits
 from .watch import VARIABLE as WATCH_VARIABLE
@@ -43,12 +46,25 @@ class Hook:
     """The recorder of this process, its writer, and what is wrapped."""
 
     def __init__(
-        self, directory: str, *, traced: bool = False, limit_s: float | None = None
+        self,
+        directory: str,
+        *,
+        traced: bool = False,
+        limit_s: float | None = None,
+        published: bool = False,
     ) -> None:
         self.recorder = Recorder(traced=traced)
-        watch = None if limit_s is None else Watch(self.recorder, limit_s)
+        flight = watch = None
+        if limit_s is not None:
+            flight = FlightRecorder(self.recorder)
+            watch = Watch(self.recorder, limit_s, flight)
         self.writer = Writer(
-            self.recorder, lambda: _file_of_process(directory), traced=traced, watch=watch
+            self.recorder,
+            lambda: _file_of_process(directory),
+            traced=traced,
+            watch=watch,
+            flight=flight,
+            diagnostics=Diagnostics(self.recorder) if published else None,
         )
         self._traced = traced
         self._wrapped: list[tuple[type, str, Any]] = []
@@ -282,7 +298,8 @@ class _Finder:
 def install(directory: str, *, traced: bool = False) -> Hook:
     """Install the hook; recordings go into ``directory``, one file for each process."""
     limit_s = limit_of(os.environ.get(WATCH_VARIABLE))
-    hook = Hook(directory, traced=traced, limit_s=limit_s)
+    published = os.environ.get(DIAGNOSTICS_VARIABLE) == '1'
+    hook = Hook(directory, traced=traced, limit_s=limit_s, published=published)
     hook.install()
     return hook
 

@@ -19,6 +19,8 @@ from ..recorder.events import RAW_SUFFIX
 from ..recorder.record import EVENTS_KEPT, Recorder
 from ..recorder.snapshot import snapshot
 from ..recorder.spinning import look_for_spinning_threads
+from .diagnostics import Diagnostics
+from .flight import FlightRecorder
 from .tracefile import TraceFile
 from .watch import Watch
 
@@ -41,11 +43,15 @@ class Writer:
         *,
         traced: bool = False,
         watch: Watch | None = None,
+        flight: FlightRecorder | None = None,
+        diagnostics: Diagnostics | None = None,
     ) -> None:
         self._recorder = recorder
         self._path_of_process = path
         self._traced = traced
         self._watch = watch
+        self._flight = flight
+        self._diagnostics = diagnostics
         self.forget()
 
     def forget(self) -> None:
@@ -62,10 +68,16 @@ class Writer:
         self._complained = False
         if self._watch is not None:
             self._watch.forget()
+        if self._flight is not None:
+            self._flight.begin(self._path)
+        if self._diagnostics is not None:
+            self._diagnostics.forget()
 
     def start(self) -> None:
         """Start the thread, unless it runs."""
         if self._thread is None:
+            if self._flight is not None:
+                self._flight.listen()
             self._thread = threading.Thread(target=self._run, name='ros2cc-extract', daemon=True)
             self._thread.start()
 
@@ -76,6 +88,8 @@ class Writer:
             self._thread.join(timeout=2.0)
         if self._recorder.all_executors or self._recorder.loss_count:
             self.take_events()
+            if self._flight is not None:
+                self._flight.finish()
             self._recorder.settle()
             self._write(ended=True)
         if self._trace is not None:
@@ -87,8 +101,12 @@ class Writer:
         while not self._stop.wait(INTERVAL_S):
             try:
                 self.update()
+                if self._flight is not None:
+                    self._flight.update()
                 if self._watch is not None:
                     self._watch.update(self._path)
+                    if self._diagnostics is not None:
+                        self._diagnostics.update(self._watch.standing)
             except Exception as error:
                 self._recorder.lose(error)
 
@@ -125,6 +143,8 @@ class Writer:
         while events := self._recorder.take_events():
             if self._trace is not None:
                 self._trace.write(events)
+            if self._flight is not None:
+                self._flight.write(events)
             # Whoever has something to do would else wait for the last batch, or for 5 ms.
             time.sleep(PAUSE_S)
 

@@ -29,7 +29,7 @@ from .entries import (
     has_waited,
     thread_count,
 )
-from .events import BEGIN, END, SIZE, unpack
+from .events import BEGIN, END, SIZE, Fields, unpack
 from .frames import Creation, RawPlace, is_node, name_function
 from .journal import new_journal
 from .service_functions import called_functions
@@ -257,8 +257,16 @@ class Recorder:
     def running(self) -> list[tuple[int, int]]:
         """Give the entities whose callbacks run, each with when the first run of them began."""
         with self.lock:
-            begun = [(number, each.oldest) for number, each in self._timings.items()]
-        return [(number, clock) for number, clock in begun if clock is not None]
+            begun = [(number, each.begun) for number, each in self._timings.items()]
+        return [(number, runs[0][0]) for number, runs in begun if runs]
+
+    def open_runs(self, before: bytes) -> list[Fields]:
+        """Give the begins of the runs that have not ended, but for those in ``before``."""
+        with self.lock:
+            begun = [(number, each.begun) for number, each in self._timings.items()]
+        told = {fields for fields in unpack(before) if fields[2] == BEGIN}
+        rows = ((at, thread, BEGIN, number) for number, runs in begun for at, thread in runs)
+        return [row for row in sorted(rows) if row not in told]
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)

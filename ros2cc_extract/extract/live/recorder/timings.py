@@ -77,9 +77,9 @@ class Timings:
         self._begun.append((clock_ns, thread))
 
     @property
-    def oldest(self) -> int | None:
-        """When the first of the runs began that have not ended."""
-        return self._begun[0][0] if self._begun else None
+    def begun(self) -> list[tuple[int, int]]:
+        """When the runs began that have not ended, the first one first, and in which thread."""
+        return list(self._begun)
 
     def end(self, clock_ns: int, thread: int) -> None:
         """Close the last run begun by this thread; a coroutine may end in another one."""

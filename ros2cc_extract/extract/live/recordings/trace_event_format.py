@@ -17,8 +17,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from heapq import heappop, heappush
 from typing import Any, TextIO
 
-from ros2cc_extract.extract.live.recording import Recording
-from ros2cc_extract.extract.live.trace import Event, Trace, subjects_of
+from ros2cc_extract.extract.live.recordings.recording import Recording
+from ros2cc_extract.extract.live.recordings.trace import Event, Trace, subjects_of
 
 # What ends a stretch of time, and what it can have begun with. A coroutine that pauses leaves its
 # thread and stays in its group.

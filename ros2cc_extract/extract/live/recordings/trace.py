@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any, NamedTuple, TextIO, cast
 
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.live.collect import home_of
 from ros2cc_extract.extract.live.recorder.events import (
     EVENT_NAMES,
     LOST,
@@ -28,7 +27,8 @@ from ros2cc_extract.extract.live.recorder.events import (
     Fields,
     rows,
 )
-from ros2cc_extract.extract.live.recording import Recording
+from ros2cc_extract.extract.live.recordings.collect import home_of
+from ros2cc_extract.extract.live.recordings.recording import Recording
 from ros2cc_extract.files import open_regular
 from ros2cc_extract.source_locations import Place
 
@@ -77,15 +77,17 @@ class Trace:
             yield Event(clock_ns, thread, EVENT_NAMES[what], subject)
 
 
-def read_trace(recording: Recording) -> Trace | None:
+def read_trace(recording: Recording, raw: Path | None = None) -> Trace | None:
     """
     Find the trace beside a recording; ``None`` if there is none.
 
     A last row cut off in the middle, as a killed process leaves it, is left out.
 
+    :param raw: another file of its events than that of the whole trace.
+
     :raises InputError: when the file cannot be read.
     """
-    path = Path(f'{recording.file}{RAW_SUFFIX}')
+    path = Path(f'{recording.file}{RAW_SUFFIX}') if raw is None else raw
     threads: dict[int, str] = {}
     lost = count = 0
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.live.recording import (
+from ros2cc_extract.extract.live.recordings.recording import (
     Function,
     RecordedCalled,
     RecordedEntity,
