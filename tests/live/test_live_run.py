@@ -248,3 +248,19 @@ def test_run_of_nothing_is_compared_with_nothing(
         'command ended, or name the source of what it runs'
     )
     assert 'only left' not in said.getvalue()
+
+
+@pytest.mark.parametrize('command', [['run', '--', 'true'], ['env', '-o', 'recordings']])
+def test_diagnostics_without_a_watch_are_refused(
+    command: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([command[0], '--diagnostics', *command[1:]]) == 2
+    said = capsys.readouterr().err
+    assert said.splitlines()[0].endswith(
+        '--diagnostics publishes what --watch finds; add --watch 5'
+    )
+    assert list(tmp_path.iterdir()) == []

@@ -27,7 +27,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.output import make_folder
     from ros2cc_extract.extract.live.environment import shell_commands
 
-    make_folder(args.output)
     environment = live_environment(args)
+    make_folder(args.output)
     stdout.write(shell_commands(environment, args.output, traced=args.trace, limit_s=args.watch))
     return EXIT_CLEAN
