@@ -252,14 +252,12 @@ def test_run_of_nothing_is_compared_with_nothing(
 
 @pytest.mark.parametrize('command', [['run', '--', 'true'], ['env', '-o', 'recordings']])
 def test_diagnostics_without_a_watch_are_refused(
-    command: list[str],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main([command[0], '--diagnostics', *command[1:]]) == 2
-    said = capsys.readouterr().err
+    stderr = io.StringIO()
+    assert main([command[0], '--diagnostics', *command[1:]], io.StringIO(), stderr) == 2
+    said = stderr.getvalue()
     assert said.splitlines()[0].endswith(
         '--diagnostics publishes what --watch finds; add --watch 5'
     )

@@ -67,7 +67,8 @@ def _joined(stem: Path) -> bytes:
     """Put the two files that take turns one after the other, the older first."""
     paths = (Path(f'{stem}{turn}') for turn in TURNS)
     parts = [read_named(path, MOST_BYTES) for path in paths if path.exists()]
-    return b''.join(sorted(parts, key=_first_clock))
+    parts.sort(key=_first_clock)
+    return b''.join(parts)
 
 
 def _first_clock(raw: bytes) -> int:
