@@ -20,6 +20,7 @@ from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
+from ros2cc_extract.extract.live.steering.stubs import TEXTS_VARIABLE
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
 # The ports of domains up to 101 stay below Linux' ephemeral ports.
@@ -101,6 +102,8 @@ def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator
         hooked = hooked_environment(plain, folder / 'recordings')
         hooked[VARIABLE] = str(folder / 'plan')
         hooked[STUBS_VARIABLE] = '1' if stubs else '0'
+        texts = [each for each in schedule.values if isinstance(each, str)]
+        hooked[TEXTS_VARIABLE] = json.dumps(texts)
         node = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
         node += [schedule.function] if schedule.function else []
         stimulus = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]

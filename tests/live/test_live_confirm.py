@@ -59,3 +59,53 @@ def test_a_missing_module_is_the_reason(rclpy_python: str, tmp_path: Path) -> No
     )
     assert done.returncode == 0
     assert 'needs the module no_such_driver, which is not there; see --stub-missing' in done.stdout
+
+
+# Device and interfaces are installed nowhere; what it waits for depends on a text of a request.
+OF_A_ROBOT = """
+import rclpy
+from rclpy.node import Node
+from no_such_interfaces.msg import Wheels
+from no_such_interfaces.srv import Order, Park
+from no_such_driver import Motor
+
+
+class Car(Node):
+    def __init__(self):
+        super().__init__('car')
+        self.motor = Motor('/dev/ttyACM0')
+        self.speed = 0.0
+        self.parking = self.create_client(Park, 'park')
+        self.create_subscription(Wheels, 'wheels', self.on_wheels, 10)
+        self.create_service(Order, 'order', self.on_order)
+
+    def on_wheels(self, wheels):
+        self.speed = (wheels.left + wheels.right) / 2 * self.motor.ratio
+
+    def on_order(self, order, answer):
+        if order.word.lower() == 'park':
+            answer.done = self.parking.call(Park.Request(side=order.side)).done
+        return answer
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Car())
+
+
+if __name__ == '__main__':
+    main()
+"""
+
+
+def test_interfaces_that_are_not_installed_are_stood_in_for(
+    rclpy_python: str, tmp_path: Path
+) -> None:
+    node = tmp_path / 'node.py'
+    node.write_text(OF_A_ROBOT, encoding='utf-8')
+    command = [sys.executable, '-m', 'ros2cc_extract.cli.main', 'confirm', str(node), '--yes']
+    options = ['--python', rclpy_python, '--limit', str(LIMIT_S), '--output-format', 'json']
+    done = subprocess.run([*command, *options, '--stub-missing'], capture_output=True, text=True)
+    (found,) = json.loads(done.stdout)['findings']
+    assert (found['code'], found['outcome']) == ('CC102', 'confirmed'), done.stdout
+    assert 'Car.on_order' in found['evidence']

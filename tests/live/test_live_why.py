@@ -12,6 +12,7 @@ from interpreters import EVERY_RELEASE, interpreter_of
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live import injection, why
 from ros2cc_extract.extract.live.environment import hooked_environment
+from ros2cc_extract.extract.live.hang_analysis.formats import as_text
 from ros2cc_extract.extract.live.why import explain_process
 from ros2cc_extract.hang_proof import judge
 from ros2cc_extract.hang_proof.judge import judged
@@ -131,3 +132,44 @@ def test_process_without_nodes_is_told() -> None:
                 explain_process(other.pid)
         finally:
             other.kill()
+
+
+TAKEN_OUT = """
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+class Wheels(Node):
+    def __init__(self):
+        super().__init__('wheels')
+        self.laps = 0
+        self.create_timer(0.1, self.turn)
+
+    def turn(self):
+        self.laps += 1
+        print('asks', flush=True)
+        ONCE
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=2)
+executor.add_node(Wheels())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('once', 'verdict'),
+    [
+        ('rclpy.spin_once(self, timeout_sec=0.01)', 'in no executor'),
+        ('pass', 'idle and healthy'),
+    ],
+)
+def test_node_that_was_taken_out_of_its_executor(
+    once: str, verdict: str, rclpy_python: str
+) -> None:
+    with program(rclpy_python, TAKEN_OUT.replace('ONCE', once), Path('node.py')) as process:
+        explanation = explain_process(process.pid)
+    text = as_text((explanation,))
+    assert explanation.verdict.value == verdict, text
+    lost = '/wheels is in no executor: `rclpy.spin_once` and the like take it out'
+    assert (lost in text) is (verdict == 'in no executor')

@@ -13,6 +13,7 @@ from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation
 MEANS = {
     Verdict.DEADLOCK: 'nothing is left that could end a wait',
     Verdict.NEVER_SPUN: 'an executor holds nodes, but no thread has ever spun it',
+    Verdict.IN_NO_EXECUTOR: 'a node is in no executor, so none of its callbacks runs',
     Verdict.ASLEEP: 'a coroutine could go on, but its executor sleeps until something wakes it',
     Verdict.OUTSIDE: 'nothing in this process keeps the answer from coming',
     Verdict.UNDECIDED: 'something may still end each wait, but what does was not followed',
@@ -40,6 +41,12 @@ def _of_process(explanation: Explanation) -> Iterator[str]:
     for executor in explanation.look.executors:
         names = ', '.join(executor.nodes) or 'no node'
         yield f'  {executor.cls} of {names}{ready(explanation, executor.entities)}\n'
+    if verdict is Verdict.IN_NO_EXECUTOR:
+        held = {name for executor in explanation.look.executors for name in executor.nodes}
+        for name in explanation.look.nodes:
+            if name not in held:
+                yield f'  {name} is in no executor: `rclpy.spin_once` and the like take it out\n'
+        yield '  help: ros2cc-extract explain CC106\n'
 
 
 def title(explanation: Explanation) -> str:

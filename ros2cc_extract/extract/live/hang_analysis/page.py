@@ -41,7 +41,13 @@ pre { background: var(--code); margin: 4px 0 0; padding: 4px 8px; white-space: p
 ul { margin: 0; padding-left: 18px; }
 """
 _MOST_SOURCE_BYTES = 5_000_000
-_BAD = (Verdict.DEADLOCK, Verdict.NEVER_SPUN, Verdict.ASLEEP, Verdict.OUTSIDE)
+_BAD = (
+    Verdict.DEADLOCK,
+    Verdict.NEVER_SPUN,
+    Verdict.IN_NO_EXECUTOR,
+    Verdict.ASLEEP,
+    Verdict.OUTSIDE,
+)
 
 
 def as_html(explanations: Sequence[Explanation]) -> str:

@@ -26,6 +26,7 @@ class Verdict(Enum):
 
     DEADLOCK = 'deadlock'
     NEVER_SPUN = 'never spun'
+    IN_NO_EXECUTOR = 'in no executor'
     ASLEEP = 'asleep'
     OUTSIDE = 'waits for another process'
     UNDECIDED = 'undecided'
@@ -249,6 +250,23 @@ class _Graph:
         """Who runs the callback that keeps the group of ``entity`` closed."""
         return self._runs(entity.active) if entity.active is not None else set()
 
+    def has_lost_a_node(self, before: Look) -> bool:
+        """
+        A thread spins an executor that holds no node, and a node with callbacks is in none.
+
+        A node that is spun in turns (``spin_once`` in a loop) is in none for moments, but then no
+        thread spins an empty executor.
+        """
+        served = {
+            each for look in (before, self.look) for e in look.executors for each in e.entities
+        }
+        lost = (each for each in self.look.entities.values() if not each.builtin)
+        empty_before = {each.number for each in before.executors if not each.nodes}
+        return any(each.number not in served for each in lost) and any(
+            not each.nodes and each.number in empty_before and self.spinners(each)
+            for each in self.look.executors
+        )
+
     def spinners(self, executor: Executor) -> set[int]:
         return {index for index, wait in self.waits.items() if wait.spins == executor.number}
 
@@ -399,6 +417,8 @@ def _verdict(standings: Sequence[Standing], before: Look, graph: _Graph) -> Verd
         unspun = not each.spun and each.number not in spun_before
         if each.nodes and unspun and not graph.spinners(each):
             return Verdict.NEVER_SPUN
+    if graph.has_lost_a_node(before):
+        return Verdict.IN_NO_EXECUTOR
     if any(each.asleep for each in standings):
         return Verdict.ASLEEP
     return _verdict_on_waits(standings)
