@@ -8,6 +8,7 @@ neighbours.
 from __future__ import annotations
 
 import random
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -154,6 +155,7 @@ def conducted(
     """Run schedules in a thread of their own, which never outlives the program."""
 
     def work() -> None:
+        sys.settrace(None)  # this thread is not of the program
         try:
             run()
         finally:

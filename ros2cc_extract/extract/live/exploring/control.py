@@ -20,6 +20,7 @@ from typing import Any
 
 from ..steering.director import is_of_program
 from .activities import Activity, Asked, Held, function_of, label_of
+from .askers import asks_again, is_nested, is_of_pool
 from .policies import BEGIN, Policy
 
 # Who was asked for that long ago is not ready any more: a timer was cancelled, a group closed.
@@ -36,15 +37,22 @@ class Control:
 
     :param begun: is told of each callback of the program that begins.
     :param known: labels of callbacks that may be ready soon.
+    :param refuses: who may not begin yet is refused, and asked for again; else it waits, where
+        that holds nobody else, and may begin at once where nobody is sure to ask again.
     :param is_open: everybody goes on as without control.
     :param choices: who was chosen, and where it stood.
     :param choosable: the keys among which each of these was chosen.
     :param rounds: after how many choices nobody was on his way any more.
     :param begins: how many callbacks have begun since control was taken.
+    :param moved_at: when one has begun or ended last.
     """
 
     def __init__(
-        self, begun: Callable[[Any], None] = lambda entity: None, known: Iterable[str] = ()
+        self,
+        begun: Callable[[Any], None] = lambda entity: None,
+        known: Iterable[str] = (),
+        *,
+        refuses: bool = True,
     ) -> None:
         self._tell_begun = begun
         self._changed = threading.Condition(threading.Lock())
@@ -53,6 +61,8 @@ class Control:
         self.running: dict[int, Activity] = {}
         self._stacks: dict[int, list[Activity]] = {}
         self._known = set(known)
+        self._refuses = refuses
+        self.moved_at = time.monotonic()
         self._restart(0.0)
 
     def _restart(self, gather_s: float) -> None:
@@ -107,16 +117,26 @@ class Control:
             return True
         if self._policy is None:
             return False
+        if not self._refuses and not asks_again():
+            return not is_of_pool() or self._wait_to_begin(entity)
         with self._changed:
-            if self._granted is not None and self._granted[0].entity is entity:
-                return True
+            return self._asks(entity)
+
+    def _wait_to_begin(self, entity: Any) -> bool:
+        with self._changed:
+            while self._policy is not None and not self._asks(entity):
+                self._changed.wait(0.05)
+        return True
+
+    def _asks(self, entity: Any) -> bool:
+        """Note that an entity is asked for, and say whether it may begin; the lock is held."""
+        if self._granted is None or self._granted[0].entity is not entity:
             now = time.monotonic()
             if id(entity) not in self._asked:
                 self._asked[id(entity)] = Asked(label_of(entity), entity, now)
             self._asked[id(entity)].last = now
             self._decide()
-            granted = self._granted
-            return granted is not None and granted[0].entity is entity
+        return self._granted is not None and self._granted[0].entity is entity
 
     def begun(self, entity: Any) -> None:
         if not is_of_program(entity):
@@ -127,9 +147,10 @@ class Control:
             activity = Activity(f'{label}#{self._runs[label]}', threading.get_ident())
             self._known.add(label)
             self.begins += 1
+            self.moved_at = time.monotonic()
             self.running[id(entity)] = activity
             stack = self._stacks.setdefault(threading.get_ident(), [])
-            if not _is_nested():
+            if not is_nested():
                 stack.clear()  # a coroutine has given the thread back
             stack.append(activity)
             self._asked.pop(id(entity), None)
@@ -150,6 +171,7 @@ class Control:
             activity = self.running.pop(id(entity), None)
             if activity is None:
                 return
+            self.moved_at = time.monotonic()
             stack = self._stacks.get(threading.get_ident(), [])
             if activity in stack:
                 stack.remove(activity)
@@ -232,7 +254,7 @@ class Control:
         chosen = self._policy.choose(candidates, self._last)
         if chosen is None:
             return
-        if not self.running and len(self.choices) != self.rounds[-1]:
+        if not self.running and not waiting and len(self.choices) != self.rounds[-1]:
             self.rounds.append(len(self.choices))
         self.choices.append((chosen.key, chosen.at))
         self.choosable.append(tuple(each.key for each in candidates))
@@ -243,6 +265,7 @@ class Control:
             self._changed.notify_all()
         else:
             self._granted = chosen, now
+            self._changed.notify_all()
 
     def _gathered(self, now: float) -> bool:
         """Whether all who may be ready soon have been waited for; once when somebody is first."""
@@ -266,14 +289,3 @@ def _is_open(asked: Asked) -> bool:
         return bool(asked.entity.callback_group.can_execute(asked.entity))
     except Exception:
         return True  # the group itself decides
-
-
-def _is_nested() -> bool:
-    """Whether the thread runs another callback, further out: the one that begins is the first."""
-    frame, handlers = sys._getframe(1), 0
-    found: Any = frame
-    while found is not None and handlers < 2:
-        of_rclpy = found.f_globals.get('__name__') == 'rclpy.executors'
-        handlers += found.f_code.co_name == 'handler' and of_rclpy
-        found = found.f_back
-    return handlers > 1

@@ -73,7 +73,7 @@ class Exploration:
             label = label_of(entity)
             if label not in told:
                 told.add(label)
-                report.write('callback', label=label, file=_file_of(entity))
+                report.write('callback', label=label, file=file_of(entity))
 
         control = Control(tell_begun, map(str, self._plan.get('known', ())))
         conductor = Conductor(control, report.write, Limits(self._plan.get('limits', {})))
@@ -126,7 +126,8 @@ def _end_with(watcher: int) -> None:
             os.kill(os.getpid(), signal.SIGKILL)
 
 
-def _file_of(entity: Any) -> str:
+def file_of(entity: Any) -> str:
+    """In which file the function of a callback stands; empty where that is not known."""
     function = getattr(entity, 'callback', None)
     function = getattr(function, 'func', function)
     code = getattr(getattr(function, '__func__', function), '__code__', None)
