@@ -52,7 +52,7 @@ class Rows:
             data = stream.read()
         whole = data[: data.rfind(b'\n') + 1]
         self._read += len(whole)
-        rows = []
+        rows: list[Row] = []
         for line in whole.splitlines():
             with contextlib.suppress(ValueError):
                 row = json.loads(line)

@@ -214,7 +214,7 @@ def _domains() -> range:
     text = os.environ.get(DOMAINS_VARIABLE)
     if not text:
         return _DOMAINS
-    first, dash, last = text.partition('-')
+    first, _, last = text.partition('-')
     if not (first.isdecimal() and last.isdecimal() and int(first) <= int(last) <= _MOST_DOMAIN):
         what = f'{DOMAINS_VARIABLE}={text!r} names no domains'
         raise InputError(what, None, f'write 10-39; the highest is {_MOST_DOMAIN}')

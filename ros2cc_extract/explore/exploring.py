@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import statistics
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from ros2cc_extract.explore.failures import Kind
-from ros2cc_extract.explore.scenario import PLAIN, Found, Row, Scenario
-from ros2cc_extract.explore.watching import Process, Seen, run_process
+from ros2cc_extract.explore.scenario import PLAIN, Found, Row
+from ros2cc_extract.explore.watching import Process, Seen
 
 A_PROCESS = 20
 """
@@ -19,12 +20,13 @@ other process runs a single one: what a program does at first it does but once.
 PLAIN_S = 3.0
 # The same hang so often in a row: nothing else is reached any more.
 _MOST_ALIKE = 3
-_FIRST_STEPS = 30
+_FIRST_STEPS = 12
 
 
 class Strategy(Enum):
     """How schedules are chosen."""
 
+    MIXED = 'mixed'
     PCT = 'pct'
     RANDOM = 'random'
     PREEMPTIONS = 'preemptions'
@@ -65,8 +67,17 @@ class Exploration:
 
 
 def schedule_row(strategy: Strategy, seed: int, number: int, steps: int) -> dict[str, object]:
-    """Give a schedule; of PCT and few preemptions the depths 2, 3 and 4 take turns."""
-    depth = 2 + number % 3
+    """
+    Give a schedule.
+
+    Of the mixed strategy random priorities and a random walk take turns; of random priorities and
+    few preemptions the depths 2, 3 and 4 do.
+
+    :param steps: among so many it is chosen where somebody falls, or another one goes on.
+    """
+    depth = 2 + number // 2 % 3
+    if strategy is Strategy.MIXED:
+        strategy = Strategy.PCT if number % 2 else Strategy.RANDOM
     return {
         'number': number,
         'policy': strategy.value,
@@ -101,7 +112,8 @@ def explore(
     """
     alike, steps = 0, _FIRST_STEPS
     while not into.why_ended:
-        count = min(budget.a_process, budget.schedules - into.done)
+        a_process = 1 if into.processes % 2 else budget.a_process
+        count = min(a_process, budget.schedules - into.done)
         if count <= 0:
             into.why_ended = 'all schedules were run'
         elif time.monotonic() > budget.deadline:
@@ -112,7 +124,8 @@ def explore(
             process = run(rows)
             news = note(process, into)
             into.done += len(process.schedules)
-            steps = max([_FIRST_STEPS, *(len(each.choices) for each in process.schedules)])
+            lengths = [len(each.choices) for each in process.schedules if each.choices]
+            steps = round(statistics.mean(lengths)) if lengths else steps
             progress(into)
             alike = 0 if news or not _hangs(process) else alike + 1
             into.why_ended = _why(process, into, budget, alike)
@@ -145,7 +158,9 @@ def note(process: Process, into: Exploration) -> bool:
         into.longest = max(into.longest, len(seen.choices))
         into.begins += seen.begins
         for found in founds_of(seen):
-            known = next((each for each in into.found if each.failure.is_like(found.failure)), None)
+            known = next(
+                (each for each in into.found if each.failure.is_like(found.failure)), None
+            )
             if known is None:
                 into.found.append(found)
                 news = True

@@ -70,8 +70,10 @@ def _run(scenario: Scenario, python: str, stubs: bool) -> Process:
     process = plain(lambda rows: run_process(scenario, rows, python, stubs=stubs))
     if not process.started:
         said = [line for line in process.said.splitlines() if line.strip()]
-        what = f'no process of the command has loaded rclpy.executors: {said[-1]}' if said else (
-            'no process of the command has loaded rclpy.executors, and it said nothing'
+        what = (
+            f'no process of the command has loaded rclpy.executors: {said[-1]}'
+            if said
+            else ('no process of the command has loaded rclpy.executors, and it said nothing')
         )
         mend = 'give a command that runs a node, as you would type it; see --stub-missing'
         raise InputError(what, None, mend)
@@ -96,4 +98,6 @@ def units_of(sources: Sequence[Path]) -> list[Spec]:
 
 def _values(sources: Sequence[Path]) -> tuple[str | int | float, ...]:
     files = (path for path in sources if path.is_file())
-    return tuple(dict.fromkeys(value for path in files for value in values_compared(tree_of(path))))
+    return tuple(
+        dict.fromkeys(value for path in files for value in values_compared(tree_of(path)))
+    )

@@ -25,6 +25,7 @@ class Point:
     kind: str
     name: str = ''
     rests: bool = False
+    computed: bool = False
 
 
 def points_of(units: Iterable[Spec]) -> tuple[Point, ...]:
@@ -88,9 +89,15 @@ def _point(place: Place, kind: str, name: str, write: Access | None = None) -> P
         kind=kind,
         name=name,
         rests=rests,
+        computed=rests and write is not None and _is_computed(write),
     )
 
 
 def _rests(write: Access) -> bool:
     """Whether an update by another thread is lost where it comes between the read and this."""
     return write.update or write.rests or write.clears or write.lowers
+
+
+def _is_computed(write: Access) -> bool:
+    """Whether the value is made of what was read, rather than one that a test led to."""
+    return write.update or (write.rests and not write.constant)

@@ -8,6 +8,7 @@ number that repeats it.
 
 from __future__ import annotations
 
+import inspect
 import os
 import signal
 import sys
@@ -17,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from _pytest.runner import runtestprotocol
+from _pytest.runner import CallInfo, runtestprotocol
 
 if TYPE_CHECKING:
     from ros2cc_extract.explore.failures import Failure
@@ -30,7 +31,8 @@ SECTION = 'ros2cc schedule'
 # Executors wait for what they run, at their shutdown, so a hang may go on in the teardown.
 _TEARDOWN_S = 10.0
 _MOST_CHOICES = 20
-_STRATEGIES = ('pct', 'random')
+# A test has few steps; by their number it is chosen where a schedule changes its mind.
+_STEPS = 12
 _running: list[_Schedule] = []
 _hung: list[str] = []
 
@@ -77,17 +79,32 @@ def _reports(
         item._initrequest()
         schedule = _Schedule(number, points, learned)
         _running.append(schedule)
+        # Until the last one, what is made for more than one test stays as it is.
+        follows: Any = nextitem if is_last else item.parent
         try:
-            reports = runtestprotocol(item, log=False, nextitem=nextitem if is_last else item.parent)  # type: ignore[arg-type]
+            reports = runtestprotocol(item, log=False, nextitem=follows)
         finally:
             _running.remove(schedule)
             schedule.uninstall()
         schedule.judge(item, reports)
         if any(report.failed or report.skipped for report in reports):
+            if not is_last:
+                reports += _torn_down(item, nextitem)
             break
         if number == 0 and not _sources(marker):
             points = _points([Path(file) for file in learned.files])
     return reports
+
+
+def _torn_down(item: pytest.Item, nextitem: pytest.Item | None) -> list[pytest.TestReport]:
+    """Tear down what the next test does not use; a report where that fails."""
+    tear_down = item.session._setupstate.teardown_exact
+    # Before pytest 7 the item came first.
+    asked = (nextitem,) if len(inspect.signature(tear_down).parameters) == 1 else (item, nextitem)
+    call = CallInfo.from_call(lambda: tear_down(*asked), when='teardown')
+    if call.excinfo is None:
+        return []
+    return [item.ihook.pytest_runtest_makereport(item=item, call=call)]
 
 
 def _count(marker: pytest.Mark) -> int:
@@ -175,8 +192,7 @@ class _Schedule:
 
         if self._number == 0:
             return {'number': 0, 'policy': PLAIN}
-        strategy = Strategy(_STRATEGIES[self._number % len(_STRATEGIES)])
-        return schedule_row(strategy, 1, self._number, 20)
+        return schedule_row(Strategy.MIXED, 1, self._number, _STEPS)
 
     def _found_hang(self, failure: Failure) -> None:
         """Called beside the test: end it where it stands."""
@@ -235,7 +251,10 @@ class _Schedule:
 
 
 def _text(failure: Failure) -> str:
-    head = f'{failure.file}:{failure.line}: {failure.kind.value}: {failure.words}'
+    from ros2cc_extract.explore.telling import shown_path
+
+    where = f'{shown_path(failure.file)}:{failure.line}'
+    head = f'{where}: {failure.kind.value}: {failure.words}'
     return '\n'.join([head, *(f'  {line}' for line in failure.evidence.splitlines())])
 
 

@@ -136,9 +136,7 @@ def add_search_arguments(
         help='explore a large model with N threads (default 1); the result is the same',
     )
     group.add_argument('--max-states', type=positive, metavar='N', help='stop after N states')
-    group.add_argument(
-        '--max-memory', type=positive, metavar='MB', help='stop above MB megabytes'
-    )
+    group.add_argument('--max-memory', type=positive, metavar='MB', help='stop above MB megabytes')
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
         '--timeout',

@@ -59,9 +59,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         '--strategy',
-        choices=('pct', 'random', 'preemptions'),
-        default='pct',
-        help='random priorities (pct, the default), a random walk, or few preemptions',
+        choices=('mixed', 'pct', 'random', 'preemptions'),
+        default='mixed',
+        help='random priorities (pct), a random walk, both in turn (mixed, the default), or few '
+        'preemptions',
     )
     parser.add_argument('--seed', type=int, default=1, metavar='N', help='of all that is random')
     parser.add_argument('--first', action='store_true', help='end with the first failure')
@@ -108,7 +109,9 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if bool(command) == (args.replay is not None):
         mend = 'as in: explore -- python my_node.py'
         raise InputError('one command after --, or --replay', None, mend)
-    return _replay(args, stdout, stderr) if args.replay else _explore(args, command, stdout, stderr)
+    return (
+        _replay(args, stdout, stderr) if args.replay else _explore(args, command, stdout, stderr)
+    )
 
 
 def _python_of(args: argparse.Namespace, command: Sequence[str]) -> str:

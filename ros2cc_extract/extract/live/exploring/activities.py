@@ -7,7 +7,7 @@ neighbours.
 
 from __future__ import annotations
 
-from types import FrameType
+from types import CodeType
 from typing import Any
 
 from ..steering.plan import name_of
@@ -59,6 +59,6 @@ def label_of(entity: Any) -> str:
     return f'{str(name).rpartition("<locals>.")[2]} ({of})'
 
 
-def function_of(frame: FrameType) -> str:
+def function_of(code: CodeType) -> str:
     """Name the function that a thread runs, where it runs no callback."""
-    return getattr(frame.f_code, 'co_qualname', frame.f_code.co_name)
+    return str(getattr(code, 'co_qualname', code.co_name))

@@ -99,9 +99,7 @@ class Conductor:
     def end(self) -> None:
         control = self._control
         control.let_go()
-        self._tell(
-            'choices', **self.so_far(), choosable=control.choosable, begins=control.begins
-        )
+        self._tell('choices', **self.so_far(), choosable=control.choosable, begins=control.begins)
 
     def so_far(self) -> dict[str, Any]:
         """What was chosen in this schedule."""
@@ -149,9 +147,7 @@ def look_twice() -> list[dict[str, Any]]:
     return looks
 
 
-def conducted(
-    control: Control, conductor: Conductor, run: Callable[[], None]
-) -> threading.Thread:
+def conducted(control: Control, conductor: Conductor, run: Callable[[], None]) -> threading.Thread:
     """Run schedules in a thread of their own, which never outlives the program."""
 
     def work() -> None:

@@ -183,14 +183,14 @@ class Control:
                 else:
                     self._decide()
 
-    def pause(self, at: str, frame: Any) -> None:
-        """Hold this thread where it stands, until it is chosen."""
+    def pause(self, at: str, code: Any) -> None:
+        """Hold this thread in a function, where it stands, until it is chosen."""
         if self.is_open or self._policy is None:
             return
         thread = threading.get_ident()
         with self._changed:
             stack = self._stacks.get(thread)
-            activity = stack[-1] if stack else Activity(function_of(frame), thread)
+            activity = stack[-1] if stack else Activity(function_of(code), thread)
             held = self._held[thread] = Held(activity, at)
             if self._on_way is not None and self._on_way.thread == thread:
                 self._on_way = None
@@ -248,7 +248,8 @@ class Control:
         if not waiting and not self.running and not self._gathered(now):
             return
         asked_for = [self._numbered(each) for each in self._asked.values() if _is_open(each)]
-        candidates = sorted((*waiting, *asked_for), key=lambda each: (each.key, each.at))
+        candidates: list[Held | Asked] = [*waiting, *asked_for]
+        candidates.sort(key=lambda each: (each.key, each.at))
         if not candidates:
             return
         chosen = self._policy.choose(candidates, self._last)
@@ -263,7 +264,7 @@ class Control:
             chosen.granted = True
             self._send(chosen.activity)
             self._changed.notify_all()
-        else:
+        elif isinstance(chosen, Asked):
             self._granted = chosen, now
             self._changed.notify_all()
 

@@ -67,7 +67,8 @@ class Accesses:
             self._writers.note(owner, mark.attribute)
             self._read[mark.attribute] = own, mark.line
             lost, self._lost = self._lost, None
-            if lost is not None and shown(own) != lost['other']:
+            # Who was only led to store what the other one has stored has taken nothing away.
+            if lost is not None and (mark.computed or shown(own) != lost['other']):
                 self._tell(mark, own=shown(own), **lost)
 
 

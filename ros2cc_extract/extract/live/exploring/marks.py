@@ -31,6 +31,7 @@ class Point:
     :param kind: `access` or `wait`.
     :param name: `Class.attribute`, `module.name`, or the name of what is waited for.
     :param rests: what is written there rests on what was read of it before.
+    :param computed: by its value, not only by a test.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:
@@ -40,6 +41,7 @@ class Point:
         self.kind = str(row['kind'])
         self.name = str(row.get('name', ''))
         self.rests = bool(row.get('rests', False))
+        self.computed = bool(row.get('computed', False))
 
 
 class Mark:
@@ -56,6 +58,7 @@ class Mark:
         self.file = point.file
         self.name = point.name
         self.rests = point.rests
+        self.computed = point.computed
         self.attribute = '' if kind == WAIT else point.name.rpartition('.')[2]
         self.at = f'{os.path.basename(point.file)}:{line} {kind} {point.name}'.rstrip()  # noqa: PTH119
 

@@ -51,7 +51,7 @@ class Tracing:
         sys.settrace(self._call)
 
     def stop(self) -> None:
-        threading.settrace(None)  # type: ignore[arg-type]
+        threading.settrace(None)
         sys.settrace(None)
 
     def _call(self, frame: FrameType, _event: str, _argument: Any) -> Any:
@@ -98,7 +98,7 @@ class _OfCall:
         calls = self._tracing.calls.count
         may_switch = mark.kind == WAIT or calls != self._calls or self._tracing.everywhere
         if may_switch:
-            self._tracing.control.pause(mark.at, frame)
+            self._tracing.control.pause(mark.at, frame.f_code)
             self._calls = calls
         if mark.kind != WAIT:
             self._accesses.before(mark, frame)
