@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo quick test test-long texts slices shapes waits why confirm random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean enter
+.PHONY: demo quick test test-long texts slices shapes waits why confirm explore random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean enter
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -92,6 +92,11 @@ why: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 confirm: $(VENV)/developed $(JAZZY)/installed
 	@mkdir -p build
 	$(BIN)/python -m tests.confirm.table --python $(CURDIR)/$(JAZZY)/bin/python --record build/confirm_jazzy.jsonl
+
+# Nodes with a race or a rare hang: schedules to the failure against plain repetition, and replays.
+explore: $(VENV)/developed $(JAZZY)/installed
+	@mkdir -p build
+	$(BIN)/python -m tests.explore.table --python $(CURDIR)/$(JAZZY)/bin/python --record build/explore_jazzy.jsonl
 
 # 300 entries into a process that allocates, loads C modules, makes entities and keeps the interpreter,
 # on both distributions: none of its threads stands, and nothing of ours is left in it.

@@ -41,13 +41,14 @@ COMMANDS = {
     'attach': 'write the specification of a running process',
     'why': 'explain why running nodes hang, or show that they do not',
     'confirm': 'show findings on the running node: force the order of the model',
+    'explore': 'run nodes under many schedules, and repeat one that fails',
     'conform': 'check whether a recorded execution is a path of the model',
     'diff': 'compare two specifications of the same program',
     'upgrade': 'list what changes when another release of rclpy runs the nodes',
     'init': 'add the check to a ROS 2 package: test, hooks and CI jobs',
     'merge': 'merge a specification from source with one from a live run',
 }
-OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why', 'confirm')
+OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why', 'confirm', 'explore')
 WRITES_DATA = ('spec', 'system', 'merge')
 HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
 """Requests to end: they tell what is known by then, or hand them on to what they have begun."""

@@ -22,20 +22,33 @@ def ask_to_start(entry: str, python: str, stderr: TextIO, *, yes: bool) -> None:
     :raises InputError: when the answer is no, or there is nobody to ask.
     """
     path = Path(entry).resolve()
-    if yes or _mark(path) in _marks():
+    _ask(str(path), f'{path} with {python}', entry, stderr, yes=yes)
+
+
+def ask_to_run(command: str, stderr: TextIO, *, yes: bool) -> None:
+    """
+    Ask before a command is run for the first time here; the answer is kept for this command.
+
+    :raises InputError: as ``ask_to_start``.
+    """
+    _ask(f'{Path.cwd()}: {command}', command, command, stderr, yes=yes)
+
+
+def _ask(mark: str, what_is_started: str, entry: str, stderr: TextIO, *, yes: bool) -> None:
+    if yes or _mark(mark) in _marks():
         return
     if not sys.stdin.isatty():
         what = 'is not started: nobody was asked, as this is no terminal'
         raise InputError(what, Place(entry), 'add --yes; its code then runs as if you started it')
-    question = f'start {path} with {python}, as if you started it, in a ROS domain of its own?'
+    question = f'start {what_is_started}, as if you started it, in a ROS domain of its own?'
     print(f'{question} [y/N] ', end='', file=stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ('y', 'yes'):
         raise InputError('is not started', Place(entry))
-    _keep(path)
+    _keep(mark)
 
 
-def _mark(path: Path) -> str:
-    return hashlib.sha256(str(path).encode('utf-8', 'surrogateescape')).hexdigest()
+def _mark(text: str) -> str:
+    return hashlib.sha256(text.encode('utf-8', 'surrogateescape')).hexdigest()
 
 
 def _marks() -> frozenset[str]:
@@ -50,13 +63,13 @@ def _marks() -> frozenset[str]:
         return frozenset()
 
 
-def _keep(path: Path) -> None:
+def _keep(text: str) -> None:
     folder = default_cache_folder()
     if folder is None:
         return
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         with (folder / _FILE).open('a', encoding='ascii') as stream:
-            stream.write(f'{_mark(path)}\n')
+            stream.write(f'{_mark(text)}\n')
     except OSError:
         return  # it will be asked again

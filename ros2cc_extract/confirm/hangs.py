@@ -7,6 +7,7 @@ left that could end its wait.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -45,15 +46,27 @@ def hang(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 def _stands_in_both(schedule: Schedule, earlier: Sample, later: Sample) -> Explanation | None:
     before, after = _explained(schedule, earlier), _explained(schedule, later)
+    found = stand_in_both(before, after, lambda each: _never_ends(each, schedule))
+    return after if found else None
+
+
+def stand_in_both(
+    before: Explanation, after: Explanation, is_meant: Callable[[Standing], bool]
+) -> list[Standing]:
+    """
+    What is meant of a later explanation, and stood just so in the earlier one.
+
+    Nothing where a look could not read everything.
+    """
     if after.look.unread or before.look.unread:
-        return None
-    stood = [each for each in before.standings if _never_ends(each, schedule)]
-    for now in after.standings:
-        if _never_ends(now, schedule):
-            for each in stood:
-                if each.activity.stands_as(replace(now.activity, ticks=each.activity.ticks)):
-                    return after
-    return None
+        return []
+    stood = [each.activity for each in before.standings if is_meant(each)]
+    return [
+        now
+        for now in after.standings
+        if is_meant(now)
+        and any(each.stands_as(replace(now.activity, ticks=each.ticks)) for each in stood)
+    ]
 
 
 def _never_ends(standing: Standing, schedule: Schedule) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -25,6 +26,39 @@ class Sample:
     at: float
     looks: tuple[Look, Look]
     explanation: Explanation
+
+
+def sample_of(process: int, row: Row) -> Sample:
+    """
+    Read two looks and judge them.
+
+    :raises ValueError, KeyError, TypeError, AttributeError: where they are none.
+    """
+    before, after = map(look_of, row['looks'])
+    found = explain(process, (before, after))
+    return Sample(float(row['at']), (before, after), found)
+
+
+class Rows:
+    """Reads a report that is being written, row by row."""
+
+    def __init__(self) -> None:
+        self._read = 0
+
+    def read(self, report: Path) -> list[Row]:
+        """Read the rows that are new and whole; what is no row is left out."""
+        with report.open('rb') as stream:
+            stream.seek(self._read)
+            data = stream.read()
+        whole = data[: data.rfind(b'\n') + 1]
+        self._read += len(whole)
+        rows: list[Row] = []
+        for line in whole.splitlines():
+            with contextlib.suppress(ValueError):
+                row = json.loads(line)
+                if isinstance(row, dict):
+                    rows.append(row)
+        return rows
 
 
 @dataclass
@@ -54,21 +88,16 @@ class Observations:
     nested: list[Row] = field(default_factory=list)
     begins: list[tuple[float, int]] = field(default_factory=list)
     samples: list[Sample] = field(default_factory=list)
-    _read: int = 0
+    _rows: Rows = field(default_factory=Rows)
 
     def update(self, report: Path) -> bool:
         """Read what is new; whether there was any."""
-        with report.open('rb') as stream:
-            stream.seek(self._read)
-            data = stream.read()
-        whole = data[: data.rfind(b'\n') + 1]
-        self._read += len(whole)
-        for line in whole.splitlines():
-            try:
-                self._note(json.loads(line))
-            except (ValueError, KeyError, TypeError, AttributeError):
-                continue  # somebody else has written there
-        return bool(whole)
+        rows = self._rows.read(report)
+        for row in rows:
+            # Somebody else may have written there.
+            with contextlib.suppress(ValueError, KeyError, TypeError, AttributeError):
+                self._note(row)
+        return bool(rows)
 
     def _note(self, row: Row) -> None:
         what, at = row['what'], float(row['at'])
@@ -95,6 +124,4 @@ class Observations:
         elif what == 'begin':
             self.begins.append((at, int(row['entity'])))
         elif what == 'looks':
-            before, after = map(look_of, row['looks'])
-            found = explain(self.process, (before, after))
-            self.samples.append(Sample(at, (before, after), found))
+            self.samples.append(sample_of(self.process, row))

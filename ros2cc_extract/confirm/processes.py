@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import functools
 import json
 import os
 import random
 import signal
 import subprocess
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO
@@ -25,7 +26,10 @@ from ros2cc_extract.extract.live.steering.stubs import TEXTS_VARIABLE
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
 # The ports of domains up to 101 stay below Linux' ephemeral ports.
 _DOMAINS = range(1, 102)
-READY = 'ready'
+_MOST_DOMAIN = 232
+READY, REPORT = 'ready', 'report'
+DOMAINS_VARIABLE = 'ROS2CC_DOMAINS'
+"""Domains that may be used, as `10-39`."""
 _MOST_LOG_BYTES = 4_000_000
 _VERSION = """
 from importlib import metadata
@@ -76,21 +80,60 @@ def release_of(python: str) -> str | None:
     return found.stdout.strip() or None
 
 
+@dataclass(frozen=True)
+class Stimulus:
+    """
+    What is sent to a node; fields as of a ``Schedule``.
+
+    :param is_sent: whether anything is.
+    """
+
+    values: Sequence[str | int | float] = ()
+    at_once: int = 1
+    defaults: bool = True
+    is_sent: bool = True
+
+
 @contextmanager
 def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator[Node]:
     """
     Start the program of a schedule beside its stimulus; both are killed in the end.
 
+    :raises InputError, ToolNotFoundError: as ``started_beside``.
+    """
+    command = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
+    command += [schedule.function] if schedule.function else []
+    stimulus = Stimulus(schedule.values, schedule.at_once, schedule.defaults)
+    with started_beside(
+        command, {VARIABLE: functools.partial(_plan, schedule)}, stimulus, python, stubs=stubs
+    ) as node:
+        yield node
+
+
+@contextmanager
+def started_beside(
+    command: Sequence[str],
+    plan: Mapping[str, Callable[[Path], str]],
+    stimulus: Stimulus,
+    python: str,
+    *,
+    stubs: bool = False,
+) -> Iterator[Node]:
+    """
+    Start a command, hooked, beside a stimulus; both are killed in the end.
+
     They see a domain of their own, and nothing beyond this machine.
 
+    :param plan: the variable that names the plan of the hook, and what gives its text for a folder
+        with the files `report` and, once the stimulus is there, ``READY``.
+    :param python: runs the stimulus.
     :raises InputError: when all domains are in use.
     :raises ToolNotFoundError: when they cannot be started.
     """
     with tempfile.TemporaryDirectory(prefix='ros2cc-confirm-') as name, _domain() as domain:
         folder = Path(name)
         (folder / 'recordings').mkdir()
-        (folder / 'report').touch()
-        (folder / 'plan').write_text(_plan(schedule, folder), encoding='utf-8')
+        (folder / REPORT).touch()
         plain = {
             **{key: value for key, value in os.environ.items() if key != 'ROS_LOCALHOST_ONLY'},
             'ROS_DOMAIN_ID': str(domain),
@@ -100,26 +143,26 @@ def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator
             'PYTHONDONTWRITEBYTECODE': '1',
         }
         hooked = hooked_environment(plain, folder / 'recordings')
-        hooked[VARIABLE] = str(folder / 'plan')
+        for variable, text in plan.items():
+            (folder / 'plan').write_text(text(folder), encoding='utf-8')
+            hooked[variable] = str(folder / 'plan')
         hooked[STUBS_VARIABLE] = '1' if stubs else '0'
-        texts = [each for each in schedule.values if isinstance(each, str)]
+        texts = [each for each in stimulus.values if isinstance(each, str)]
         hooked[TEXTS_VARIABLE] = json.dumps(texts)
-        node = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
-        node += [schedule.function] if schedule.function else []
-        stimulus = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
-        stimulus += [json.dumps(schedule.values), str(schedule.at_once)]
-        stimulus.append('1' if schedule.defaults else '0')
-        with (
-            (folder / 'said').open('wb') as said,
-            _running(stimulus, plain, subprocess.DEVNULL),
-            _running(node, hooked, said) as process,
-        ):
-            yield Node(process, folder / 'report', folder / 'said')
+        sends = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
+        sends += [json.dumps(stimulus.values), str(stimulus.at_once)]
+        sends.append('1' if stimulus.defaults else '0')
+        with ExitStack() as stack:
+            said = stack.enter_context((folder / 'said').open('wb'))
+            if stimulus.is_sent:
+                stack.enter_context(_running(sends, plain, subprocess.DEVNULL))
+            process = stack.enter_context(_running(command, hooked, said))
+            yield Node(process, folder / REPORT, folder / 'said')
 
 
 def _plan(schedule: Schedule, folder: Path) -> str:
     row = {
-        'report': str(folder / 'report'),
+        'report': str(folder / REPORT),
         'surroundings': str(folder / READY),
         'points': [asdict(each) for each in schedule.points],
         'race': None if schedule.race is None else asdict(schedule.race),
@@ -130,7 +173,7 @@ def _plan(schedule: Schedule, folder: Path) -> str:
 
 @contextmanager
 def _running(
-    command: list[str], environment: Mapping[str, str], output: IO[bytes] | int
+    command: Sequence[str], environment: Mapping[str, str], output: IO[bytes] | int
 ) -> Iterator[subprocess.Popen[bytes]]:
     try:
         process = subprocess.Popen(
@@ -156,7 +199,8 @@ def _running(
 def _domain() -> Iterator[int]:
     """Hold a domain that no other run of ours on this machine has, nor the user."""
     own = os.environ.get('ROS_DOMAIN_ID')
-    for number in random.sample(_DOMAINS, len(_DOMAINS)):
+    domains = _domains()
+    for number in random.sample(domains, len(domains)):
         path = Path(tempfile.gettempdir()) / f'ros2cc-confirm-{os.getuid()}-{number}.lock'
         with path.open('w') as lock:
             try:
@@ -167,3 +211,14 @@ def _domain() -> Iterator[int]:
                 yield number
                 return
     raise InputError('all domains of ROS are in use')
+
+
+def _domains() -> range:
+    text = os.environ.get(DOMAINS_VARIABLE)
+    if not text:
+        return _DOMAINS
+    first, _, last = text.partition('-')
+    if not (first.isdecimal() and last.isdecimal() and int(first) <= int(last) <= _MOST_DOMAIN):
+        what = f'{DOMAINS_VARIABLE}={text!r} names no domains'
+        raise InputError(what, None, f'write 10-39; the highest is {_MOST_DOMAIN}')
+    return range(int(first), int(last) + 1)

@@ -37,6 +37,7 @@ ALLOWED = {
     'ros': {'*'},
     'cli': {
         'confirm',
+        'explore',
         'pipeline',
         'packages',
         'report',
@@ -66,8 +67,9 @@ ALLOWED = {
         'extract.live',
         'extract.launch',
     },
-    # Only here is started what was scanned.
+    # Only here, and in what rests on it, is started what was scanned.
     'confirm': {'findings', 'verify', 'spec', 'extract', 'extract.live'},
+    'explore': {'confirm', 'spec', 'extract.live', 'extract.static'},
     'packages': set(),
     'report': {'findings', 'verify', 'spec', 'compare'},
     'findings': {'verify', 'spec'},

@@ -81,6 +81,32 @@ def test_confirm_asks_before_it_starts_a_node(
     assert canary.exists(), 'the canary would have sung'
 
 
+def test_explore_asks_before_it_runs_a_command(
+    node: Path, canary: Path, tmp_path: Path, run: Run
+) -> None:
+    python = tmp_path / 'python'
+    python.write_text(f'#!/bin/sh\ncase "$1" in -c) echo 7.1.6;; *) touch {canary};; esac\n')
+    python.chmod(0o755)
+    refused = run('explore', '--', python, node)
+    assert (refused.status, refused.out) == (2, '')
+    assert 'is not started: nobody was asked, as this is no terminal; add --yes' in refused.err
+    assert not canary.exists()
+    empty = run('explore', '--yes', '--', python, node)
+    assert empty.status == 2
+    assert 'no process of the command has loaded rclpy.executors, and it said' in empty.err
+    assert canary.exists(), 'the canary would have sung'
+
+
+def test_explore_says_what_it_lacks(node: Path, tmp_path: Path, run: Run) -> None:
+    assert 'one command after --, or --replay' in run('explore').err
+    both = run('explore', '--replay', node, '--', 'true')
+    assert (both.status, both.out) == (2, '')
+    assert 'one command after --, or --replay' in both.err
+    assert 'is no schedule that explore has written' in run('explore', '--replay', node).err
+    gone = run('explore', '--', tmp_path / 'python3', node)
+    assert gone.status == 2 and 'cannot be started' in gone.err
+
+
 def test_confirm_says_what_it_lacks(node: Path, run: Run) -> None:
     lacking = run('confirm', node, '--python', '/no/such/python')
     assert lacking.status == 2

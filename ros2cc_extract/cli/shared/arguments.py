@@ -165,15 +165,13 @@ def add_search_arguments(
     )
     group.add_argument(
         '--jobs',
-        type=_positive,
+        type=positive,
         default=1,
         metavar='N',
         help='explore a large model with N threads (default 1); the result is the same',
     )
-    group.add_argument('--max-states', type=_positive, metavar='N', help='stop after N states')
-    group.add_argument(
-        '--max-memory', type=_positive, metavar='MB', help='stop above MB megabytes'
-    )
+    group.add_argument('--max-states', type=positive, metavar='N', help='stop after N states')
+    group.add_argument('--max-memory', type=positive, metavar='MB', help='stop above MB megabytes')
     limit = f' (default {seconds:g})' if seconds else ''
     group.add_argument(
         '--timeout',
@@ -257,7 +255,8 @@ def options_of(args: argparse.Namespace) -> Options:
     )
 
 
-def _positive(text: str) -> int:
+def positive(text: str) -> int:
+    """Read a whole number above 0."""
     value = int(text) if text.isascii() and text.isdigit() else 0
     if value < 1:
         raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
@@ -291,14 +290,14 @@ def _bound(text: str) -> tuple[int | None, ...]:
 
 
 def _single(text: str) -> range:
-    number = _positive(text)
+    number = positive(text)
     return range(number, number + 1)
 
 
 def _range(text: str) -> range:
     """Read ``4`` or ``1..8``, both ends included."""
     first, dots, last = text.partition('..')
-    low, high = _positive(first), _positive(last if dots else first)
+    low, high = positive(first), positive(last if dots else first)
     if low > high:
         raise argparse.ArgumentTypeError(f'{text!r} is empty; write {high}..{low}')
     return range(low, high + 1)

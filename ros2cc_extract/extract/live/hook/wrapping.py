@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from ..exploring.exploration import explore_from_environment
 from ..recorder.events import BEGIN, END, REFUSED
 from ..recorder.frames import is_node, trace_creation
 from ..recorder.record import Recorder
@@ -311,7 +312,7 @@ def install_from_environment() -> Hook | None:
     if not directory:
         return None
     hook = install(directory, traced=traced)
-    steering = steer_from_environment()
+    steering = steer_from_environment() or explore_from_environment()
     if steering is not None:
         hook.afterwards = steering.wrap
     return hook

@@ -16,8 +16,9 @@ import os
 import sys
 import threading
 import time
+from collections.abc import Callable
 from types import FrameType
-from typing import Any
+from typing import Any, Protocol
 
 from .director import Director, is_of_program
 from .report import Report
@@ -26,55 +27,85 @@ from .report import Report
 _PAUSE_S = 0.002
 
 
-def steer_groups(module: Any, director: Director, report: Report) -> None:
-    """Wrap the methods of every class of ``rclpy.callback_groups``."""
-    for group in vars(module).values():
+class Guard(Protocol):
+    """Who decides which callbacks begin, and is told of it."""
+
+    def may_begin(self, entity: Any) -> bool:
+        """Whether a callback may begin now; it is asked again if not."""
+
+    def begun(self, entity: Any) -> None:
+        """Its group has let it begin, in this thread."""
+
+    def refused(self, entity: Any) -> None:
+        """It might have begun, but its group is closed."""
+
+    def ended(self, entity: Any) -> None:
+        """It has come to its end."""
+
+
+def steer_groups(module: Any, guard: Guard) -> Callable[[], None]:
+    """
+    Wrap the methods of every class of ``rclpy.callback_groups``.
+
+    :return: what puts them back.
+    """
+    wrapped: list[tuple[Any, str, Any]] = []
+    for group in list(vars(module).values()):
         if isinstance(group, type) and issubclass(group, module.CallbackGroup):
-            _steer(group, director, report)
+            wrapped += _steer(group, guard)
+
+    def undo() -> None:
+        for group, name, original in wrapped:
+            setattr(group, name, original)
+
+    return undo
 
 
-def _steer(group: Any, director: Director, report: Report) -> None:
+def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
     begin, end = group.__dict__.get('beginning_execution'), group.__dict__.get('ending_execution')
     if begin is None or end is None:
-        return
-    running = _Running(director, report)
+        return []
 
     @functools.wraps(begin)
     def beginning_execution(self: Any, entity: Any) -> bool:
-        if not director.may_begin(entity):
+        if not guard.may_begin(entity):
             time.sleep(_PAUSE_S)
             return False
         accepted = bool(begin(self, entity))
-        if accepted:
-            running.begin(entity)
+        (guard.begun if accepted else guard.refused)(entity)
         return accepted
 
     @functools.wraps(end)
     def ending_execution(self: Any, entity: Any) -> Any:
-        running.end(entity)
+        guard.ended(entity)
         return end(self, entity)
 
     group.beginning_execution = beginning_execution
     group.ending_execution = ending_execution
+    return [(group, 'beginning_execution', begin), (group, 'ending_execution', end)]
 
 
-class _Running:
-    """Which callbacks run in which thread, one inside the other."""
+class Running:
+    """Which callbacks run in which thread, one inside the other; a director decides."""
 
     _of_thread = threading.local()
 
     def __init__(self, director: Director, report: Report) -> None:
         self._director = director
         self._report = report
+        self.may_begin = director.may_begin
 
-    def begin(self, entity: Any) -> None:
+    def begun(self, entity: Any) -> None:
         stack = self._stack()
         if stack and self._director.plan.points and is_of_program(entity):
             self._tell_nested(entity)
         stack.append(id(entity))
         self._report.write('begin', entity=id(entity), name=_name(entity))
 
-    def end(self, entity: Any) -> None:
+    def refused(self, entity: Any) -> None:
+        """It is asked for again."""
+
+    def ended(self, entity: Any) -> None:
         stack = self._stack()
         if id(entity) in stack:
             stack.remove(id(entity))

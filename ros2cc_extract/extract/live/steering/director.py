@@ -7,19 +7,17 @@ neighbours.
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from typing import Any
 
 from .plan import Plan
 from .report import Report
+from .surroundings import Surroundings
 
 # For the first arrival: an import of a large package and the discovery of DDS take seconds.
 _FIRST_S = 15.0
 _SOFT_S = 3.0
-# For somebody who calls all services and offers all that is asked for.
-_SURROUNDINGS_S = 8.0
 
 
 class Director:
@@ -38,8 +36,7 @@ class Director:
         self._arrived: set[tuple[int, int]] = set()
         self._give_up_at = time.monotonic() + _FIRST_S
         self.is_open = not plan.points
-        self._asked_since: float | None = None
-        self._ready_since: float | None = None
+        self._surroundings = Surroundings(plan.surroundings)
 
     def may_begin(self, entity: Any) -> bool:
         """Whether a callback may begin now; it is asked again if not."""
@@ -52,19 +49,14 @@ class Director:
         return self.is_open or not held or (self._is_late() and all(each.soft for each in held))
 
     def _is_ready(self) -> bool:
-        """Whether what the node meets is there; what it asks of nobody is lost for good."""
-        if self._ready_since is None:
-            now = time.monotonic()
-            if self._asked_since is None:
-                self._asked_since = now
-            given_up = now - self._asked_since > _SURROUNDINGS_S
-            if not self.plan.surroundings or given_up or os.path.exists(self.plan.surroundings):  # noqa: PTH110
-                self._ready_since = now
-                self._give_up_at = max(self._give_up_at, now + _FIRST_S)
-        return self._ready_since is not None
+        """Whether what the node meets is there; only from then on is anybody given up."""
+        if self._surroundings.ready_since is None and self._surroundings.are_ready():
+            self._give_up_at = max(self._give_up_at, time.monotonic() + _FIRST_S)
+        return self._surroundings.ready_since is not None
 
     def _is_late(self) -> bool:
-        return self._ready_since is not None and time.monotonic() - self._ready_since > _SOFT_S
+        since = self._surroundings.ready_since
+        return since is not None and time.monotonic() - since > _SOFT_S
 
     def arrive(self, index: int) -> None:
         """Note that this thread stands at a point; where the plan says so, wait for the rest."""

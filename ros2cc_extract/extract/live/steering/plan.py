@@ -65,7 +65,7 @@ class Held:
         if self.function:
             function = getattr(entity, 'callback', None)
             return self._is_function(getattr(function, '__func__', function))
-        return bool(self.key) and _name_of(entity).endswith(f'/{self.key.lstrip("/")}')
+        return bool(self.key) and name_of(entity).endswith(f'/{self.key.lstrip("/")}')
 
     def _is_function(self, function: Any) -> bool:
         code = getattr(function, '__code__', None)
@@ -79,7 +79,8 @@ class Held:
         )
 
 
-def _name_of(entity: Any) -> str:
+def name_of(entity: Any) -> str:
+    """Name of its topic, service or action; empty where it has none."""
     for name in ('srv_name', 'topic_name', '_action_name'):
         found = getattr(entity, name, None)
         if isinstance(found, str):

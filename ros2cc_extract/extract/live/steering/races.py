@@ -19,14 +19,13 @@ from types import CodeType, FrameType
 from typing import Any
 
 from .report import Report
+from .values import NOTHING, copied, shown, target, value
 
 Trace = Callable[[FrameType, str, Any], Any]
 # Long enough for a timer of a second.
 HELD_S = 1.5
 _MOST_TRIES = 16
-_LONGEST = 120
 _READ, _WRITE = 'read', 'write'
-_NOTHING = object()
 
 
 class Write:
@@ -58,7 +57,7 @@ class Race:
         self._changed = threading.Condition(threading.Lock())
         self._held: int | None = None
         self._object: Any = None
-        self._other: Any = _NOTHING
+        self._other: Any = NOTHING
         self._tries = 0
 
     def of(self, frame: FrameType) -> Trace | None:
@@ -100,7 +99,7 @@ class Race:
     def is_other(self, frame: FrameType, line: int) -> bool:
         return any(_is_in(frame, line, each) for each in self.others)
 
-    def hold(self, target: Any) -> tuple[Any, ...] | None:
+    def hold(self, owner: Any) -> tuple[Any, ...] | None:
         """
         Hold this thread until another one has written.
 
@@ -111,27 +110,27 @@ class Race:
             if self._held is not None or self._tries >= _MOST_TRIES:
                 return None
             self._tries += 1
-            self._held, self._object, self._other = threading.get_ident(), target, _NOTHING
-            self._changed.wait_for(lambda: self._other is not _NOTHING, HELD_S)
+            self._held, self._object, self._other = threading.get_ident(), owner, NOTHING
+            self._changed.wait_for(lambda: self._other is not NOTHING, HELD_S)
             self._held, self._object = None, None
-            return () if self._other is _NOTHING else (self._other,)
+            return () if self._other is NOTHING else (self._other,)
 
-    def wrote(self, target: Any) -> None:
+    def wrote(self, owner: Any) -> None:
         """Another thread has written: let go who is held."""
         with self._changed:
             is_other = self._held not in (None, threading.get_ident())
-            if is_other and target is self._object and self._other is _NOTHING:
-                self._other = _value(self._object, self.attribute)
+            if is_other and owner is self._object and self._other is NOTHING:
+                self._other = value(self._object, self.attribute)
                 self._changed.notify_all()
 
     def tell(self, read: Any, other: Any, own: Any) -> None:
-        if other is _NOTHING:
+        if other is NOTHING:
             self._report.write('alone')
         else:
-            shown = {'read': _shown(read), 'other': _shown(other), 'own': _shown(own)}
-            differs = read is not _NOTHING and shown['read'] != shown['other']
+            texts = {'read': shown(read), 'other': shown(other), 'own': shown(own)}
+            differs = read is not NOTHING and texts['read'] != texts['other']
             self._report.write(
-                'raced', **shown, stale=differs, lost=shown['own'] != shown['other']
+                'raced', **texts, stale=differs, lost=texts['own'] != texts['other']
             )
 
 
@@ -143,7 +142,7 @@ class _Call:
         self._marks = marks
         self._before = -1
         self._line = 0
-        self._read: Any = _NOTHING
+        self._read: Any = NOTHING
         self._forced: Any = None
 
     def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
@@ -161,54 +160,20 @@ class _Call:
         """What the instruction before has done."""
         did, self._before = self._marks.get(self._before), -1
         if did == _READ:
-            self._read = _copied(_value(_target(frame), self._race.attribute))
+            self._read = copied(value(target(frame), self._race.attribute))
         elif did == _WRITE:
             if self._forced is not None:
                 other, self._forced = self._forced[0], None
-                self._race.tell(self._read, other, _value(_target(frame), self._race.attribute))
+                self._race.tell(self._read, other, value(target(frame), self._race.attribute))
             elif self._race.is_other(frame, self._line):
-                self._race.wrote(_target(frame))
+                self._race.wrote(target(frame))
 
     def _hold(self, frame: FrameType) -> None:
-        forced = self._race.hold(_target(frame))
+        forced = self._race.hold(target(frame))
         self._forced = forced or None
         if forced == ():
-            self._race.tell(self._read, _NOTHING, _NOTHING)
+            self._race.tell(self._read, NOTHING, NOTHING)
 
 
 def _is_in(frame: FrameType, line: int, write: Write) -> bool:
     return write.contains(line) and write.file == os.path.realpath(frame.f_code.co_filename)
-
-
-def _target(frame: FrameType) -> Any:
-    """Whose attribute it is: of the first argument."""
-    names = frame.f_code.co_varnames
-    return frame.f_locals.get(names[0], _NOTHING) if names else _NOTHING
-
-
-def _value(target: Any, name: str) -> Any:
-    """What the attribute holds, without asking a property."""
-    return getattr(target, '__dict__', {}).get(name, _NOTHING)
-
-
-def _copied(value: Any) -> Any:
-    """What changes in place is kept as it reads now."""
-    immutable = isinstance(value, (int, float, str, bytes, tuple, frozenset, type(None)))
-    return value if immutable or value is _NOTHING else _Text(_shown(value))
-
-
-class _Text:
-    def __init__(self, text: str) -> None:
-        self._text = text
-
-    def __repr__(self) -> str:
-        return self._text
-
-
-def _shown(value: Any) -> str:
-    if value is _NOTHING:
-        return '?'
-    try:
-        return repr(value)[:_LONGEST]
-    except Exception:
-        return f'a {type(value).__name__}'

@@ -1,0 +1,292 @@
+"""
+Lets one callback at a time go on, from one point of control to the next.
+
+Points are the begin of a callback, and the instructions that the plan names: waits, locks, and
+accesses of shared data. Who comes to one is held until it is chosen. Who is on its way and
+stands still, because it really waits, is no longer waited for; so nobody is held for ever, and
+what only the schedule keeps back is never taken for a hang.
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from ..steering.director import is_of_program
+from .activities import Activity, Asked, Held, function_of, label_of
+from .askers import asks_again, is_nested, is_of_pool
+from .policies import BEGIN, Policy
+
+# Who was asked for that long ago is not ready any more: a timer was cancelled, a group closed.
+_STALE_S = 0.4
+# Who may begin and does not is waiting for a thread, or its group was closed meanwhile.
+_TAKES_UP_S = 0.15
+# On its way without coming to a point: it waits, or computes for long.
+_STANDS_S, _LONGEST_S = 0.012, 0.2
+
+
+class Control:
+    """
+    All threads of the process, as far as they come to points of control.
+
+    :param begun: is told of each callback of the program that begins.
+    :param known: labels of callbacks that may be ready soon.
+    :param refuses: who may not begin yet is refused, and asked for again; else it waits, where
+        that holds nobody else, and may begin at once where nobody is sure to ask again.
+    :param is_open: everybody goes on as without control.
+    :param choices: who was chosen, and where it stood.
+    :param choosable: the keys among which each of these was chosen.
+    :param rounds: after how many choices nobody was on his way any more.
+    :param begins: how many callbacks have begun since control was taken.
+    :param moved_at: when one has begun or ended last.
+    """
+
+    def __init__(
+        self,
+        begun: Callable[[Any], None] = lambda entity: None,
+        known: Iterable[str] = (),
+        *,
+        refuses: bool = True,
+    ) -> None:
+        self._tell_begun = begun
+        self._changed = threading.Condition(threading.Lock())
+        self._policy: Policy | None = None
+        self.is_closed = False
+        self.running: dict[int, Activity] = {}
+        self._stacks: dict[int, list[Activity]] = {}
+        self._known = set(known)
+        self._refuses = refuses
+        self.moved_at = time.monotonic()
+        self._restart(0.0)
+
+    def _restart(self, gather_s: float) -> None:
+        self.choices: list[tuple[str, str]] = []
+        self.choosable: list[tuple[str, ...]] = []
+        self.rounds: list[int] = [0]
+        self.begins = 0
+        self._runs: dict[str, int] = {}
+        self._asked: dict[int, Asked] = {}
+        self._granted: tuple[Asked, float] | None = None
+        self._held: dict[int, Held] = {}
+        self._on_way: Activity | None = None
+        self._on_way_since = 0.0
+        self._stood: object = None
+        self._last = ''
+        self._gather_s = gather_s
+        self._gathers_since: float | None = None
+        self._has_gathered = False
+
+    @property
+    def is_open(self) -> bool:
+        return self._policy is None and not self.is_closed
+
+    def take(self, policy: Policy, gather_s: float) -> None:
+        """Take control: from now on the policy decides."""
+        with self._changed:
+            self._restart(gather_s)
+            self._policy, self.is_closed = policy, False
+
+    def watch(self) -> None:
+        """Take no control, and count anew what begins."""
+        with self._changed:
+            self._restart(0.0)
+            self.is_closed = False
+
+    def hold_all(self) -> None:
+        """Let no callback of the program begin, until control is taken or given up."""
+        self.is_closed = True
+
+    def let_go(self) -> None:
+        """Let everybody go on."""
+        with self._changed:
+            self._policy, self.is_closed = None, False
+            for held in self._held.values():
+                held.granted = True
+            self._asked.clear()
+            self._granted, self._on_way = None, None
+            self._changed.notify_all()
+
+    def may_begin(self, entity: Any) -> bool:
+        if self.is_open or not is_of_program(entity):
+            return True
+        if self._policy is None:
+            return False
+        if not self._refuses and not asks_again():
+            return not is_of_pool() or self._wait_to_begin(entity)
+        with self._changed:
+            return self._asks(entity)
+
+    def _wait_to_begin(self, entity: Any) -> bool:
+        with self._changed:
+            while self._policy is not None and not self._asks(entity):
+                self._changed.wait(0.05)
+        return True
+
+    def _asks(self, entity: Any) -> bool:
+        """Note that an entity is asked for, and say whether it may begin; the lock is held."""
+        if self._granted is None or self._granted[0].entity is not entity:
+            now = time.monotonic()
+            if id(entity) not in self._asked:
+                self._asked[id(entity)] = Asked(label_of(entity), entity, now)
+            self._asked[id(entity)].last = now
+            self._decide()
+        return self._granted is not None and self._granted[0].entity is entity
+
+    def begun(self, entity: Any) -> None:
+        if not is_of_program(entity):
+            return
+        with self._changed:
+            label = label_of(entity)
+            self._runs[label] = self._runs.get(label, 0) + 1
+            activity = Activity(f'{label}#{self._runs[label]}', threading.get_ident())
+            self._known.add(label)
+            self.begins += 1
+            self.moved_at = time.monotonic()
+            self.running[id(entity)] = activity
+            stack = self._stacks.setdefault(threading.get_ident(), [])
+            if not is_nested():
+                stack.clear()  # a coroutine has given the thread back
+            stack.append(activity)
+            self._asked.pop(id(entity), None)
+            if self._granted is not None and self._granted[0].entity is entity:
+                self._granted = None
+                self._send(activity)
+        self._tell_begun(entity)
+
+    def refused(self, entity: Any) -> None:
+        with self._changed:
+            self._asked.pop(id(entity), None)
+            if self._granted is not None and self._granted[0].entity is entity:
+                self._granted = None
+                self._decide()
+
+    def ended(self, entity: Any) -> None:
+        with self._changed:
+            activity = self.running.pop(id(entity), None)
+            if activity is None:
+                return
+            self.moved_at = time.monotonic()
+            stack = self._stacks.get(threading.get_ident(), [])
+            if activity in stack:
+                stack.remove(activity)
+            if self._on_way is activity:
+                # What was below it on the stack goes on with its turn.
+                self._on_way = None
+                if stack and self._policy is not None:
+                    self._send(stack[-1])
+                else:
+                    self._decide()
+
+    def pause(self, at: str, code: Any) -> None:
+        """Hold this thread in a function, where it stands, until it is chosen."""
+        if self.is_open or self._policy is None:
+            return
+        thread = threading.get_ident()
+        with self._changed:
+            stack = self._stacks.get(thread)
+            activity = stack[-1] if stack else Activity(function_of(code), thread)
+            held = self._held[thread] = Held(activity, at)
+            if self._on_way is not None and self._on_way.thread == thread:
+                self._on_way = None
+            self._decide()
+            while self._policy is not None and not held.granted:
+                self._changed.wait(0.2)
+            self._held.pop(thread, None)
+
+    def look_at_the_clock(self) -> None:
+        """Notice who stands still, and decide; to be called some hundred times a second."""
+        with self._changed:
+            if self._policy is None:
+                return
+            now = time.monotonic()
+            if self._granted is not None and now - self._granted[1] > _TAKES_UP_S:
+                self._asked.pop(id(self._granted[0].entity), None)
+                self._granted = None
+            if self._on_way is not None and self._stands(now):
+                self._on_way = None
+            self._decide()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the policy has nothing left to decide."""
+        policy = self._policy
+        return policy is not None and policy.is_over
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether nobody of the program is at work."""
+        return not self.running
+
+    def _stands(self, now: float) -> bool:
+        assert self._on_way is not None
+        age = now - self._on_way_since
+        if age < _STANDS_S:
+            return False
+        frame = sys._current_frames().get(self._on_way.thread)
+        at = (id(frame), frame.f_lasti) if frame is not None else None
+        stood, self._stood = self._stood, at
+        return age > _LONGEST_S or (at is not None and at == stood)
+
+    def _send(self, activity: Activity) -> None:
+        self._on_way, self._on_way_since, self._stood = activity, time.monotonic(), None
+
+    def _decide(self) -> None:
+        """Choose who goes on, unless somebody is on his way; the lock is held."""
+        if self._policy is None or self._on_way is not None or self._granted is not None:
+            return
+        now = time.monotonic()
+        for number, asked in list(self._asked.items()):
+            if now - asked.last > _STALE_S:
+                del self._asked[number]
+        waiting = [each for each in self._held.values() if not each.granted]
+        if not waiting and not self.running and not self._gathered(now):
+            return
+        asked_for = [self._numbered(each) for each in self._asked.values() if _is_open(each)]
+        candidates: list[Held | Asked] = [*waiting, *asked_for]
+        candidates.sort(key=lambda each: (each.key, each.at))
+        if not candidates:
+            return
+        chosen = self._policy.choose(candidates, self._last)
+        if chosen is None:
+            return
+        if not self.running and not waiting and len(self.choices) != self.rounds[-1]:
+            self.rounds.append(len(self.choices))
+        self.choices.append((chosen.key, chosen.at))
+        self.choosable.append(tuple(each.key for each in candidates))
+        self._last = chosen.key
+        if isinstance(chosen, Held):
+            chosen.granted = True
+            self._send(chosen.activity)
+            self._changed.notify_all()
+        elif isinstance(chosen, Asked):
+            self._granted = chosen, now
+            self._changed.notify_all()
+
+    def _gathered(self, now: float) -> bool:
+        """Whether all who may be ready soon have been waited for; once when somebody is first."""
+        if not self._asked:
+            self._gathers_since, self._has_gathered = None, False
+        elif not self._has_gathered:
+            self._gathers_since = self._gathers_since or now
+            ready = {each.label for each in self._asked.values()}
+            late = now - self._gathers_since >= self._gather_s
+            self._has_gathered = late or (bool(self._known) and ready >= self._known)
+        return self._has_gathered
+
+    def _numbered(self, asked: Asked) -> Asked:
+        asked.key = f'{asked.label}#{self._runs.get(asked.label, 0) + 1}'
+        asked.at = BEGIN
+        return asked
+
+
+def _is_open(asked: Asked) -> bool:
+    try:
+        return bool(asked.entity.callback_group.can_execute(asked.entity))
+    except Exception:
+        return True  # the group itself decides

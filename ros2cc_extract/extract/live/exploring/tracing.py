@@ -1,0 +1,111 @@
+"""
+Stops threads at the marked instructions, and watches what they read and write there.
+
+Only functions that hold a mark are traced, instruction by instruction; of all other code each
+call costs one look into a table. Source: Python, `sys.settrace` (event `opcode`).
+
+Runs inside the user's process: the standard library only, nothing else of ours but its
+neighbours.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+from types import FrameType
+from typing import Any
+
+from .control import Control
+from .lost_updates import Accesses, Writers
+from .marks import WAIT, Mark, Marks, OfCode
+
+Trace = Callable[[FrameType, str, Any], Any]
+
+
+class Tracing:
+    """
+    :param tell_lost: is told of each lost update.
+    :param everywhere: hold at every mark, also where an interpreter with its global lock would
+        let no other thread in since the mark before.
+    """
+
+    def __init__(
+        self,
+        marks: Marks,
+        control: Control,
+        tell_lost: Callable[..., None],
+        *,
+        everywhere: bool = False,
+    ) -> None:
+        self.marks = marks
+        self.control = control
+        self.everywhere = everywhere or not _has_global_lock()
+        self.calls = _Calls()
+        self._tell_lost = tell_lost
+        self._writers = Writers()
+
+    def start(self) -> None:
+        """Trace this thread's calls, and all threads that begin from now on."""
+        threading.settrace(self._call)
+        sys.settrace(self._call)
+
+    def stop(self) -> None:
+        threading.settrace(None)
+        sys.settrace(None)
+
+    def _call(self, frame: FrameType, _event: str, _argument: Any) -> Any:
+        self.calls.count += 1
+        of_code = self.marks.of(frame.f_code)
+        if not of_code.marks:
+            return None
+        frame.f_trace_opcodes, frame.f_trace_lines = True, False
+        return _OfCall(of_code, self, Accesses(self._writers, self._tell_lost)).trace
+
+
+class _Calls(threading.local):
+    """How many Python functions a thread has called: at each, another thread may come in."""
+
+    count = 0
+
+
+class _OfCall:
+    """What one call of such a function does."""
+
+    def __init__(self, of_code: OfCode, tracing: Tracing, accesses: Accesses) -> None:
+        self._marks = of_code.marks
+        self._switches = of_code.switches
+        self._tracing = tracing
+        self._accesses = accesses
+        self._done: Mark | None = None
+        self._at = -1
+        self._calls = -1
+
+    def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
+        if event in ('opcode', 'return') and self._done is not None:
+            done, self._done = self._done, None
+            self._accesses.after(done, frame)
+        if event == 'opcode':
+            if self._at in self._switches:
+                self._calls = -1
+            self._at = frame.f_lasti
+            mark = self._marks.get(frame.f_lasti)
+            if mark is not None:
+                self._come_to(mark, frame)
+        return self.trace
+
+    def _come_to(self, mark: Mark, frame: FrameType) -> None:
+        calls = self._tracing.calls.count
+        may_switch = mark.kind == WAIT or calls != self._calls or self._tracing.everywhere
+        if may_switch:
+            self._tracing.control.pause(mark.at, frame.f_code)
+            self._calls = calls
+        if mark.kind != WAIT:
+            self._accesses.before(mark, frame)
+            self._done = mark
+
+
+def _has_global_lock() -> bool:
+    """Whether one thread at a time runs Python code; from Python 3.13 on it may not be so."""
+    enabled = getattr(sys, '_is_gil_enabled', None)
+    return enabled is None or bool(enabled())

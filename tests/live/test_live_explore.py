@@ -1,0 +1,98 @@
+"""``explore`` on real rclpy: finds what is rare, repeats it, and finds nothing in good twins."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+BUGS = ROOT / 'tests/bugs'
+NODES = ROOT / 'tests/explore/nodes'
+MARKED = Path(__file__).parent / 'programs' / 'marked.py'
+
+
+def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, '-m', 'ros2cc_extract.cli.main', 'explore', '--yes']
+    done = subprocess.run([*command, *map(str, arguments)], capture_output=True, text=True)
+    assert 'Traceback' not in done.stderr, done.stderr
+    return done
+
+
+def test_a_rare_deadlock_is_found_and_repeated(rclpy_python: str, tmp_path: Path) -> None:
+    node = NODES / 'rare_lock_order.py'
+    found = explore(
+        *('--first', '--schedules', 60, '-o', tmp_path, '--output-format', 'json'),
+        *('--', rclpy_python, node),
+    )
+    assert found.returncode == 1, found.stdout + found.stderr
+    (failure,) = json.loads(found.stdout)['failures']
+    assert (failure['kind'], failure['path']) == ('hang', str(node))
+    assert 'waits forever for a lock' in failure['evidence']
+    assert failure['policy'] in ('pct', 'random'), 'it is rare without a schedule'
+    again = explore('--replay', failure['file'])
+    assert again.returncode == 1
+    assert re.match(rf'.*rare_lock_order\.py:{failure["line"]}: hang repeated in', again.stdout)
+
+
+def test_an_exception_between_test_and_use_is_found(rclpy_python: str, tmp_path: Path) -> None:
+    node = NODES / 'goal_gone.py'
+    found = explore('--first', '--schedules', 60, '-o', tmp_path, '--', rclpy_python, node)
+    assert found.returncode == 1, found.stdout + found.stderr
+    words = "AttributeError: 'NoneType' object has no attribute 'data'"
+    assert f'goal_gone.py:29: exception: {words}' in found.stdout
+    assert re.search(r'Driver.cancel .*: goal_gone.py:\d+ write Driver.goal', found.stdout)
+
+
+@pytest.mark.parametrize('name', ['g2_lost_update_mended', 'g4_lock_order_mended'])
+def test_nothing_is_found_in_a_good_twin(name: str, rclpy_python: str, tmp_path: Path) -> None:
+    done = explore('--schedules', 22, '-o', tmp_path, '--', rclpy_python, BUGS / f'{name}.py')
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.startswith('no failure in 22 schedules and a plain run')
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_command_without_a_node_is_said_so(rclpy_python: str, tmp_path: Path) -> None:
+    done = explore('-o', tmp_path, '--', rclpy_python, '-c', 'raise SystemExit("no robot here")')
+    assert (done.returncode, done.stdout) == (2, '')
+    assert 'no process of the command has loaded rclpy.executors: no robot here' in done.stderr
+
+
+def run_marked(python: str, domain: int, *arguments: str) -> str:
+    """Run the marked tests with pytest, in the interpreter that has rclpy."""
+    paths = [str(ROOT), str(Path(pytest.__file__).parents[1])]
+    env = {
+        **os.environ,
+        'PYTHONPATH': os.pathsep.join(paths),
+        'ROS_DOMAIN_ID': str(domain),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1',
+    }
+    plugin = ['-p', 'ros2cc_extract.ros.pytest_schedules', '-p', 'no:cacheprovider']
+    command = [python, '-m', 'pytest', '-q', *plugin, '-c', os.devnull, str(MARKED), *arguments]
+    done = subprocess.run(command, env=env, capture_output=True, text=True, cwd=MARKED.parent)
+    return done.stdout + done.stderr
+
+
+def test_a_marked_test_fails_under_a_schedule_that_its_number_repeats(
+    rclpy_python: str, domain: int
+) -> None:
+    said = run_marked(rclpy_python, domain, '-k', 'not locks')
+    assert '1 failed, 3 passed' in said, said
+    assert 'lost update: count was 0 when line' in said
+    number = re.search(r'--ros2cc-schedule=(\d+)', said)
+    assert number is not None, said
+    again = run_marked(rclpy_python, domain, '-k', 'both_count', number.group(0))
+    assert '1 failed' in again and f'schedule {number.group(1)}; repeat it' in again
+
+
+def test_a_marked_test_that_hangs_is_ended_and_says_why(rclpy_python: str, domain: int) -> None:
+    said = run_marked(rclpy_python, domain, '-k', 'locks or without')
+    assert '1 failed, 1 passed' in said, said
+    assert re.search(r'marked\.py:\d+: hang: Counter\.on_\w+ waits forever for a lock', said)
+    assert 'the lock is held by Counter.on_' in said
