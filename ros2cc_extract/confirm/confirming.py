@@ -9,6 +9,7 @@ from ros2cc_extract.confirm.judging import confirmed, not_confirmed
 from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
 from ros2cc_extract.confirm.processes import started
+from ros2cc_extract.confirm.recorded_runs import recorded_run
 from ros2cc_extract.confirm.schedules import Schedule
 
 LIMIT_S = 30.0
@@ -62,10 +63,10 @@ def _watch(
             if seen.update(node.report):
                 found = confirmed(schedule, seen)
                 if found is not None:
-                    return found, False
+                    return replace(found, run=recorded_run(schedule, seen.steps)), False
             in_vain = not seen.raced and seen.alone >= MOST_TRIES
             if ended or in_vain or time.monotonic() > deadline:
                 found = not_confirmed(schedule, seen, node.said, ended=ended)
                 raised = any(row['type'] not in _OF_IMPORTS for row in seen.failed)
-                return found, ended and raised
+                return replace(found, run=recorded_run(schedule, seen.steps)), ended and raised
             time.sleep(_READ_EVERY_S)

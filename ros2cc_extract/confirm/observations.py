@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,6 +14,7 @@ from ros2cc_extract.extract.live.hang_analysis.samples import Look, look_of
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, explain
 
 Row = Mapping[str, Any]
+MOST_STEPS = 2000
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,7 @@ class Observations:
     :param alone: how often nobody else wrote in time.
     :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
+    :param steps: the last rows, as they came, but for the looks.
     """
 
     process: int = 0
@@ -88,6 +91,7 @@ class Observations:
     nested: list[Row] = field(default_factory=list)
     begins: list[tuple[float, int]] = field(default_factory=list)
     samples: list[Sample] = field(default_factory=list)
+    steps: deque[Row] = field(default_factory=lambda: deque(maxlen=MOST_STEPS))
     _rows: Rows = field(default_factory=Rows)
 
     def update(self, report: Path) -> bool:
@@ -97,6 +101,8 @@ class Observations:
             # Somebody else may have written there.
             with contextlib.suppress(ValueError, KeyError, TypeError, AttributeError):
                 self._note(row)
+                if row['what'] != 'looks':
+                    self.steps.append(row)
         return bool(rows)
 
     def _note(self, row: Row) -> None:

@@ -28,11 +28,13 @@ class Judgement:
     """
     :param reason: what was seen, or what is missing, in a clause.
     :param evidence: the explanation of ``why``, or the exception.
+    :param run: the last steps that the node took, each in words.
     """
 
     outcome: Outcome
     reason: str
     evidence: str = ''
+    run: tuple[str, ...] = ()
 
 
 def pair(seen: Observations) -> tuple[Sample, Sample] | None:

@@ -46,6 +46,7 @@ def as_json(found: Sequence[Confirmation], release: str | None) -> str:
             'outcome': each.judgement.outcome.value,
             'reason': each.judgement.reason,
             'evidence': each.judgement.evidence,
+            'run': list(each.judgement.run),
             'seconds': round(each.seconds, 1),
             'schedule': asdict(each.schedule),
         }

@@ -45,6 +45,8 @@ def with_outcomes(
         if stderr.isatty():
             print(f'confirming {schedule.code} at {schedule.path}:{schedule.line}', file=stderr)
         judgement = confirm(schedule, python, stubs=args.stub_missing).judgement
-        on_node = OnNode(judgement.outcome.value, release, judgement.reason, judgement.evidence)
+        on_node = OnNode(
+            judgement.outcome.value, release, judgement.reason, judgement.evidence, judgement.run
+        )
         found[number] = replace(found[number], on_node=on_node)
     return tuple(found)

@@ -26,12 +26,14 @@ class OnNode:
     :param release: of rclpy, where it is known.
     :param reason: what was seen, or what is missing.
     :param evidence: several lines that show it; may be empty.
+    :param run: the last steps that the node took, each in words.
     """
 
     outcome: str
     release: str | None
     reason: str
     evidence: str = ''
+    run: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:

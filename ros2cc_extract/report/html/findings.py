@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.findings.base.model import Finding, OnNode, Remark
 from ros2cc_extract.findings.base.rule import Rule
 from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.report.html.excerpts import AROUND, Excerpts
@@ -71,7 +71,7 @@ def _card(number: int, finding: Finding, excerpts: Excerpts, run: str) -> str:
         _remarks('How it gets there', finding.chain, excerpts),
         _remarks('Look also at', finding.related, excerpts),
         run,
-        tag('p', escape(finding.on_node.words)) if finding.on_node else '',
+        _on_node(finding.on_node) if finding.on_node else '',
         tag('p', tag('b', 'help: '), escape(finding.help), class_='help') if finding.help else '',
         tag('p', tag('a', escape(about), href=f'#rule-{rule.code}'), class_='about'),
         class_=f'finding {kind}',
@@ -82,6 +82,15 @@ def _card(number: int, finding: Finding, excerpts: Excerpts, run: str) -> str:
 
 def _of_unit(finding: Finding) -> str:
     return span('quiet', f' in unit {finding.unit}') if finding.unit else ''
+
+
+def _on_node(found: OnNode) -> str:
+    """What the running node did, below what the model says."""
+    steps = ''.join(tag('li', escape(step)) for step in found.run)
+    run = tag('ol', steps, class_='steps') if steps else ''
+    lines = '\n'.join(map(escape, found.evidence.splitlines()))
+    evidence = tag('pre', lines, class_='evidence') if lines else ''
+    return tag('h4', 'On the running node') + tag('p', escape(found.words)) + run + evidence
 
 
 def _run(finding: Finding, callbacks: Sequence[str], runs: Runs, *, opened: bool) -> str:

@@ -100,7 +100,7 @@ class Running:
         if stack and self._director.plan.points and is_of_program(entity):
             self._tell_nested(entity)
         stack.append(id(entity))
-        self._report.write('begin', entity=id(entity), name=_name(entity))
+        self._report.write('begin', **_row(entity))
 
     def refused(self, entity: Any) -> None:
         """It is asked for again."""
@@ -109,7 +109,7 @@ class Running:
         stack = self._stack()
         if id(entity) in stack:
             stack.remove(id(entity))
-        self._report.write('end', entity=id(entity), name=_name(entity))
+        self._report.write('end', **_row(entity))
 
     def _stack(self) -> list[int]:
         if not hasattr(self._of_thread, 'stack'):
@@ -129,6 +129,15 @@ class Running:
 
 def _file_of(frame: FrameType) -> str:
     return os.path.realpath(frame.f_code.co_filename)
+
+
+def _row(entity: Any) -> dict[str, Any]:
+    return {
+        'entity': id(entity),
+        'name': _name(entity),
+        'of_program': is_of_program(entity),
+        'thread': threading.get_ident(),
+    }
 
 
 def _name(entity: Any) -> str:

@@ -49,7 +49,8 @@ def stand_in(module: str, name: str, field: type) -> type | None:
         return _message(base, field)
     parts = {part: getattr(base, part) for part in _PARTS if hasattr(base, part)}
     made = {part: _message(each, field) for part, each in parts.items()}
-    return type(base)(name, (base,), made)
+    found: type = type(base)(name, (base,), made)
+    return found
 
 
 def _message(base: Any, field: type) -> type:
@@ -66,4 +67,5 @@ def _message(base: Any, field: type) -> type:
     base.__getattr__ = missing
     # The code in C may compare the name of the class with that which it was made for.
     named = {'__module__': base.__module__, '__qualname__': base.__qualname__}
-    return type(base)(base.__name__, (base,), {'__init__': fill, **named})
+    found: type = type(base)(base.__name__, (base,), {'__init__': fill, **named})
+    return found
