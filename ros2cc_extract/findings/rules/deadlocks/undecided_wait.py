@@ -14,6 +14,7 @@ from ros2cc_extract.findings.waits.verdicts import PROGRESS, refuting_run, surel
 from ros2cc_extract.findings.waits.waits import (
     AnyWait,
     WaitKind,
+    are_one,
     at_one_place,
     callers_of,
     kind_of,
@@ -235,7 +236,7 @@ def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside:
     wait = waits[0]
     what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
     named = f' for {what}' if what else ''
-    verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
+    verb = 'waits' if are_one(waits) else 'wait'
     start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
     ends = f'and {verb} forever unless {_others(wait)} ends it'
     if wait.block.answer_to is not None and is_outside:

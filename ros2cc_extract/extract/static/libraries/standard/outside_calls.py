@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_names import (
 )
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
+from ros2cc_extract.extract.static.libraries.standard.short_commands import is_short
 from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
@@ -67,6 +68,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
+        is_at_once = is_at_once or is_short(name, call)
         if not is_at_once and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
         if name == child_pipes.WAIT and timeout in (None, NONE):
