@@ -49,7 +49,9 @@ def test_one_line_for_one_wait_however_many_callbacks_get_there() -> None:
 def test_two_timers_of_one_function_are_one_for_the_reader() -> None:
     waits = calls('jobs', call='Barrier.wait')
     names = ('feed_1', 'feed_2')
-    timers = [timer(name, function='arm.Arm.feed', blocking=waits) for name in names]
+    timers = [
+        timer(name, function='arm.Arm.feed', defined=at(20), blocking=waits) for name in names
+    ]
     finding = only(unit(threads(2), *timers), 'CC120')
     assert finding.message.startswith('not decided: Arm.feed waits in Barrier.wait')
     assert finding.subjects == names
