@@ -26,6 +26,12 @@ TIME = 'time'
 BY_ITSELF = 'of these waits end by themselves'
 """Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
 
+UNKNOWN_WAIT = 'unknown wait'
+"""A call that waits by its name, on something that could not be followed."""
+
+NOT_FOLLOWED = 'code that is not followed'
+"""The rest of what is too long to be followed, or too late: there may be any wait in it."""
+
 WORKING_LOOP = 'working loop'
 """A loop in which a thread works until somebody ends it: only its end is waited for."""
 
