@@ -59,12 +59,13 @@ def joined(
     """
     at_line: dict[Hashable, list[SelfRace]] = {}
     for race in races:
-        key = (race.use.access.name, race.use.place, race.kind, race.is_whole, weight(race))
-        at_line.setdefault(key, []).append(race)
+        how = (race.kind, race.is_whole, weight(race))
+        at_line.setdefault((race.use.access.name, race.use.place, how), []).append(race)
     of_callbacks: dict[Hashable, list[list[SelfRace]]] = {}
-    for (_, _, *how), alike in at_line.items():  # type: ignore[misc]
+    for alike in at_line.values():
+        how = (alike[0].kind, alike[0].is_whole, weight(alike[0]))
         names = tuple(race.callback.name for race in alike)
-        of_callbacks.setdefault((names, *how), []).append(alike)
+        of_callbacks.setdefault((names, how), []).append(alike)
     for lines in of_callbacks.values():
         lines.sort(key=lambda alike: alike[0].use.place)
         callbacks = tuple(race.callback for race in lines[0])
