@@ -364,8 +364,9 @@ OUTSIDE_WAIT = Rule(
     what='A callback, `main` or a thread waits without a time-out for something outside: a '
     'process, a socket, a serial port or a person; another executor or program; the answer of '
     'another program to a message that was published before; or a message that nothing in this '
-    'program publishes during the wait, because its publishers are in the same group. The '
-    'verdicts assume that the wait ends. If it does not, a callback keeps its thread and its '
+    'program publishes during the wait, because its publishers are in the same group. '
+    'Commands that end at once, as `pkill` and `mkdir`, are no waits. The verdicts assume that '
+    'the wait ends. If it does not, a callback keeps its thread and its '
     'mutually exclusive group forever, and a thread keeps the process alive.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '

@@ -163,7 +163,8 @@ RULE = Rule(
     'and its write (`self.n += 1`, see CC301), for a timer whose runs are known to be shorter '
     'than its period, for a done-callback that one such timer alone requests, once in a run, and '
     'for a test that is followed by the write without a wait in between. Where another callback '
-    'may lose the same update, CC301 or CC303 is reported instead.',
+    'may lose the same update, CC301 or CC303 is reported instead. There is one finding for all '
+    'callbacks that come to one line, and for all attributes of one callback.',
     why='The executor may take an entity again as soon as its data was taken; a reentrant group '
     'refuses nothing, so one subscription runs on several threads at once. Source: rclpy 7.1.6 '
     'and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '
