@@ -44,7 +44,7 @@ class Seen:
     row: Row
     failures: list[Failure] = field(default_factory=list)
     choices: list[tuple[str, str]] = field(default_factory=list)
-    choosable: list[tuple[str, ...]] = field(default_factory=list)
+    choosable: list[list[tuple[str, str]]] = field(default_factory=list)
     rounds: list[int] = field(default_factory=list)
     begins: int = 0
     samples: list[Sample] = field(default_factory=list)
@@ -151,7 +151,9 @@ class _Watch:
             seen.choices = [(str(key), str(at)) for key, at in row['choices']]
             seen.rounds = list(map(int, row['rounds']))
         if what == 'choices':
-            seen.choosable = [tuple(map(str, each)) for each in row['choosable']]
+            seen.choosable = [
+                [(str(key), str(at)) for key, at in each] for each in row['choosable']
+            ]
             seen.begins = int(row['begins'])
         elif what == 'done':
             seen.is_done, seen.seconds = True, float(row['at']) - seen.begun

@@ -26,6 +26,12 @@ TIME = 'time'
 BY_ITSELF = 'of these waits end by themselves'
 """Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
 
+UNKNOWN_WAIT = 'unknown wait'
+"""A call that waits by its name, on something that could not be followed."""
+
+NOT_FOLLOWED = 'code that is not followed'
+"""The rest of what is too long to be followed, or too late: there may be any wait in it."""
+
 WORKING_LOOP = 'working loop'
 """A loop in which a thread works until somebody ends it: only its end is waited for."""
 
@@ -137,7 +143,7 @@ CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
 """The name of the change by which a callback tells a running goal to stop."""
-FOUND_NONE, FOUND_FALSE = 'None', 'false'
+FOUND_NONE, FOUND_FALSE, FOUND_TRUE = 'None', 'false', 'true'
 FOUND_THIS, FOUND_OTHER = '== ', '!= '
 
 
@@ -167,7 +173,8 @@ class Access:
         test, and for the use of an object that was tested before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
     :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
-        ``FOUND_FALSE`` where anything false would do; a constant behind ``FOUND_THIS``, or behind
+        ``FOUND_FALSE`` where anything false would do, and ``FOUND_TRUE``; a constant behind
+        ``FOUND_THIS``, or behind
         ``FOUND_OTHER`` where it is something else.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param compared: true for a read that only asks whether it is still what the code has in a

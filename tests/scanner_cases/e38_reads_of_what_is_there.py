@@ -40,7 +40,6 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer key in a_default every 1
-#     blocks select.select 0.0 s @19
 #   timer line in a_default every 1
 #     blocks sys.stdin.readline @24
 #   timer rest in a_default every 1

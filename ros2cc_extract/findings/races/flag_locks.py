@@ -8,17 +8,25 @@ else writes the flag, and where no two can find it down at once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races.critical_sections import kept_between, read_for
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.effects import FLAG, FOUND_NONE, FOUND_OTHER, FOUND_THIS, Access
+from ros2cc_extract.spec.effects import (
+    FLAG,
+    FOUND_NONE,
+    FOUND_OTHER,
+    FOUND_THIS,
+    FOUND_TRUE,
+    Access,
+)
 from ros2cc_extract.spec.model import Activity, Callback, Executor
 
 _Doer = TypeVar('_Doer', Callback, Activity)
+_Use = Callback | Activity
 
 
 def shared_by(context: Context) -> tuple[Callback, ...]:
@@ -77,8 +85,10 @@ def _keeps_out(flag: str, context: Context) -> bool:
         *context.unit.activities,
     )
     uses = [(one, write) for one in everybody for write in one.writes if write.name == name]
-    if not all(flag in write.locks for _, write in uses):
+    answers = [(one, write) for one, write in uses if flag not in write.locks]
+    if not _answer_in_turn(answers, context):
         return False
+    uses = [use for use in uses if use not in answers]
     setters = [(one, write) for one, write in uses if write.rests]
     if len({write.found for _, write in setters} - {None}) > 1 and any(
         write.lowers and write.found == FOUND_NONE for _, write in setters
@@ -100,6 +110,25 @@ def _keeps_out(flag: str, context: Context) -> bool:
     if len(groups) == 1 and None not in groups:
         return True
     return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _answer_in_turn(uses: Sequence[tuple[_Use, Access]], context: Context) -> bool:
+    """
+    Whether one doer alone puts the flag down that others put up, and only where it found it up.
+
+    ``if self.asked: …; self.asked = False``: while that doer is at it nobody finds it down, so
+    nobody puts it up.
+    """
+    if not all(write.lowers and write.found == FOUND_TRUE for _, write in uses):
+        return False
+    doers = {one.name: one for one, _ in uses}
+    return len(doers) <= 1 and all(_runs_once(one, context) for one in doers.values())
+
+
+def _runs_once(doer: _Use, context: Context) -> bool:
+    if isinstance(doer, Activity):
+        return doer.count == 1
+    return context.exclusive_group(doer) is not None
 
 
 def _is_put_up_in_turn(executor: Executor) -> bool:

@@ -245,10 +245,15 @@ def callers_of(waits: Sequence[AnyWait]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(wait.caller.name for wait in waits))
 
 
+def are_one(waits: Sequence[AnyWait]) -> bool:
+    """Whether all who wait have one name for the reader, as two timers of one function."""
+    return len({called(wait.caller) for wait in waits}) == 1
+
+
 def who_waits(waits: Sequence[AnyWait]) -> str:
     """Say who waits: ``drive waits``, ``drive, stop wait``."""
     names = shown(wait.caller for wait in waits)
-    return f'{names} {"waits" if len(callers_of(waits)) == 1 else "wait"}'
+    return f'{names} {"waits" if are_one(waits) else "wait"}'
 
 
 def ways_of_others(waits: Sequence[AnyWait]) -> Iterator[Remark]:

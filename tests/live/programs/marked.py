@@ -15,6 +15,7 @@ class Counter(Node):
     def __init__(self):
         super().__init__('counter')
         self.count = 0
+        self.ended = []
         self.one, self.two = threading.Lock(), threading.Lock()
         for topic, callback in (
             ('left', self.on_left),
@@ -39,13 +40,13 @@ class Counter(Node):
         with self.one:
             self.get_logger().debug('up')
             with self.two:
-                self.count += 1
+                self.ended.append('up')
 
     def on_down(self, msg):
         with self.two:
             self.get_logger().debug('down')
             with self.one:
-                self.count -= 1
+                self.ended.append('down')
 
 
 @pytest.fixture(scope='module')
@@ -102,7 +103,9 @@ def test_spin_once_serves_a_timer(partner, counter):
 @pytest.mark.ros2cc_schedules(40)
 def test_locks(partner, counter):
     spin(partner, counter, 'up', 'down')
-    time.sleep(20)
+    until = time.monotonic() + 20
+    while len(counter.ended) < 2 and time.monotonic() < until:
+        time.sleep(0.05)
 
 
 def test_without_a_marker(counter):

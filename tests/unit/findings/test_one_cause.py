@@ -11,7 +11,7 @@ from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind, Spec, Unresolved
 
-TOO_LONG = 'set-up is too long to be followed to its end'
+TOO_LONG = 'too long to be followed to its end'
 NO_CALLER = "parameter 'node' of Arm.__init__; no caller is in sight"
 
 

@@ -46,6 +46,17 @@ def test_one_line_for_one_wait_however_many_callbacks_get_there() -> None:
     assert only(spec, 'CC120').subjects == ('feed', 'drain')
 
 
+def test_two_timers_of_one_function_are_one_for_the_reader() -> None:
+    waits = calls('jobs', call='Barrier.wait')
+    names = ('feed_1', 'feed_2')
+    timers = [
+        timer(name, function='arm.Arm.feed', defined=at(20), blocking=waits) for name in names
+    ]
+    finding = only(unit(threads(2), *timers), 'CC120')
+    assert finding.message.startswith('not decided: Arm.feed waits in Barrier.wait')
+    assert finding.subjects == names
+
+
 def test_a_wait_that_is_found_to_hang_is_told_by_its_own_rule_alone() -> None:
     waits = calls('plan_client')
     assert found(unit(ONE_THREAD, timer('drive', blocking=waits), client('plan_client'))) == [

@@ -21,7 +21,7 @@ from .policies import policy_of
 
 PLAIN = 'plain'
 """The policy of a schedule in which everything goes on as it comes."""
-RECORDED = 'recorded'
+RECORDED, PREFIX = 'recorded', 'prefix'
 # How long others that may be ready soon are waited for before a round; of each schedule one.
 GATHERS_S = (0.02, 0.12, 0.12, 0.5)
 TICK_S, RESTS_S = 0.004, 0.4
@@ -87,7 +87,8 @@ class Conductor:
         else:
             self._come_to_rest()
             gather = random.Random(f'gather/{row.get("seed", 0)}').choice(GATHERS_S)
-            self._control.take(policy_of(row), float(row.get('gather_s', gather)))
+            gather_s, once = float(row.get('gather_s', gather)), row['policy'] == PREFIX
+            self._control.take(policy_of(row), gather_s, once=once)
 
     def _come_to_rest(self) -> None:
         """Let what is at work come to its end, so that all begins are of the schedule."""
@@ -114,6 +115,8 @@ class Conductor:
         control = self._control
         if row['policy'] in (PLAIN, RECORDED):
             return control.is_over
+        if row['policy'] == PREFIX:
+            return control.is_over or control.is_exhausted
         enough = 0 < self._limits.rounds < len(control.rounds) and control.is_quiet
         return control.is_over or len(control.choices) >= self._limits.steps or enough
 

@@ -29,6 +29,8 @@ _STALE_S = 0.4
 _TAKES_UP_S = 0.15
 # On its way without coming to a point: it waits, or computes for long.
 _STANDS_S, _LONGEST_S = 0.012, 0.2
+# Nobody is ready any more; what a callback has published has arrived by then.
+_EXHAUSTED_S = 0.5
 
 
 class Control:
@@ -41,7 +43,7 @@ class Control:
         that holds nobody else, and may begin at once where nobody is sure to ask again.
     :param is_open: everybody goes on as without control.
     :param choices: who was chosen, and where it stood.
-    :param choosable: the keys among which each of these was chosen.
+    :param choosable: those among whom each of these was chosen.
     :param rounds: after how many choices nobody was on his way any more.
     :param begins: how many callbacks have begun since control was taken.
     :param moved_at: when one has begun or ended last.
@@ -67,7 +69,7 @@ class Control:
 
     def _restart(self, gather_s: float) -> None:
         self.choices: list[tuple[str, str]] = []
-        self.choosable: list[tuple[str, ...]] = []
+        self.choosable: list[list[tuple[str, str]]] = []
         self.rounds: list[int] = [0]
         self.begins = 0
         self._runs: dict[str, int] = {}
@@ -79,6 +81,9 @@ class Control:
         self._stood: object = None
         self._last = ''
         self._gather_s = gather_s
+        self._once = False
+        self._stood_at: dict[int, object] = {}
+        self.idle_since = time.monotonic()
         self._gathers_since: float | None = None
         self._has_gathered = False
 
@@ -86,10 +91,16 @@ class Control:
     def is_open(self) -> bool:
         return self._policy is None and not self.is_closed
 
-    def take(self, policy: Policy, gather_s: float) -> None:
-        """Take control: from now on the policy decides."""
+    def take(self, policy: Policy, gather_s: float, *, once: bool = False) -> None:
+        """
+        Take control: from now on the policy decides.
+
+        :param once: each callback begins but once, and nobody is chosen before all others are held
+            or stand still; so the same choices lead to the same choice again.
+        """
         with self._changed:
             self._restart(gather_s)
+            self._once = once
             self._policy, self.is_closed = policy, False
 
     def watch(self) -> None:
@@ -131,6 +142,8 @@ class Control:
     def _asks(self, entity: Any) -> bool:
         """Note that an entity is asked for, and say whether it may begin; the lock is held."""
         if self._granted is None or self._granted[0].entity is not entity:
+            if self._once and self._runs.get(label_of(entity)):
+                return False
             now = time.monotonic()
             if id(entity) not in self._asked:
                 self._asked[id(entity)] = Asked(label_of(entity), entity, now)
@@ -210,13 +223,19 @@ class Control:
                 self._granted = None
             if self._on_way is not None and self._stands(now):
                 self._on_way = None
-            self._decide()
+            if not self._once or self._all_stand():
+                self._decide(is_settled=True)
 
     @property
     def is_over(self) -> bool:
         """Whether the policy has nothing left to decide."""
         policy = self._policy
         return policy is not None and policy.is_over
+
+    @property
+    def is_exhausted(self) -> bool:
+        """Whether there was nobody to choose from for a while, after the first choice."""
+        return bool(self.choices) and time.monotonic() - self.idle_since > _EXHAUSTED_S
 
     @property
     def is_quiet(self) -> bool:
@@ -236,9 +255,21 @@ class Control:
     def _send(self, activity: Activity) -> None:
         self._on_way, self._on_way_since, self._stood = activity, time.monotonic(), None
 
-    def _decide(self) -> None:
+    def _all_stand(self) -> bool:
+        """Whether nobody at work has moved since this was asked last."""
+        frames = sys._current_frames()
+        held = {each.activity.thread for each in self._held.values()}
+        threads = {each.thread for each in self.running.values()} - held
+        found = ((each, frames[each]) for each in threads if each in frames)
+        before = self._stood_at
+        self._stood_at = {each: (id(frame), frame.f_lasti) for each, frame in found}
+        return before == self._stood_at
+
+    def _decide(self, *, is_settled: bool = False) -> None:
         """Choose who goes on, unless somebody is on his way; the lock is held."""
         if self._policy is None or self._on_way is not None or self._granted is not None:
+            return
+        if self._once and not is_settled:
             return
         now = time.monotonic()
         for number, asked in list(self._asked.items()):
@@ -252,13 +283,14 @@ class Control:
         candidates.sort(key=lambda each: (each.key, each.at))
         if not candidates:
             return
+        self.idle_since = now
         chosen = self._policy.choose(candidates, self._last)
         if chosen is None:
             return
         if not self.running and not waiting and len(self.choices) != self.rounds[-1]:
             self.rounds.append(len(self.choices))
         self.choices.append((chosen.key, chosen.at))
-        self.choosable.append(tuple(each.key for each in candidates))
+        self.choosable.append([(each.key, each.at) for each in candidates])
         self._last = chosen.key
         if isinstance(chosen, Held):
             chosen.granted = True

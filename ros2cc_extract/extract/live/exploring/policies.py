@@ -149,27 +149,34 @@ class Recorded:
 
 
 class Prefix:
-    """Fixed first choices, then whoever goes on goes on: one leaf of a depth-first search."""
+    """
+    Fixed first choices, then whoever goes on goes on: one leaf of a depth-first search.
 
-    is_over = False
+    :param steps: after so many choices it is over.
+    """
 
-    def __init__(self, choices: Sequence[str]) -> None:
-        self._left = list(choices)
+    def __init__(self, choices: Sequence[Sequence[str]], steps: int) -> None:
+        self._left = [(str(key), str(at)) for key, at in choices]
+        self._steps = steps
         self._since = time.monotonic()
-        self.is_lost = False
+
+    @property
+    def is_over(self) -> bool:
+        return self._steps <= 0
 
     def choose(self, candidates: Sequence[Candidate], last: str) -> Candidate | None:
-        by_key = {each.key: each for each in candidates}
-        if self._left and not self.is_lost:
-            found = by_key.get(self._left[0])
-            if found is None:
-                # The search has to be told when the program does not do the same again.
-                self.is_lost = time.monotonic() - self._since > PATIENCE_S
+        found = next((each for each in candidates if each.key == last), candidates[0])
+        if self._left:
+            due = next((each for each in candidates if (each.key, each.at) == self._left[0]), None)
+            if due is None:
+                if time.monotonic() - self._since > PATIENCE_S:
+                    self._steps = 0  # the program does not do the same again
                 return None
+            found = due
             self._left.pop(0)
-            self._since = time.monotonic()
-            return found
-        return by_key.get(last) or candidates[0]
+        self._since = time.monotonic()
+        self._steps -= 1
+        return found
 
 
 def callback_of(key: str) -> str:
@@ -194,5 +201,5 @@ def policy_of(row: dict[str, Any]) -> Policy:
     if kind == 'recorded':
         return Recorded(row['choices'])
     if kind == 'prefix':
-        return Prefix(row['choices'])
+        return Prefix(row['choices'], steps)
     raise ValueError(f'{kind} is no policy')

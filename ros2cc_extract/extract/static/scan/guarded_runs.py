@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
@@ -13,10 +12,10 @@ from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.objects.reachable_texts import leads_nowhere
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import NOT_FOLLOWED, Blocking
 from ros2cc_extract.spec.model import When
 
-TOO_LONG = 'set-up is too long to be followed to its end'
+TOO_LONG = 'too long to be followed to its end'
 
 STEP_LIMIT = 600_000
 """Statements and expressions of one set-up, callback or method; ``RUN_LIMIT`` holds for all."""
@@ -48,7 +47,7 @@ def guarded(
         if world.nodes or text is None or not leads_nowhere(machine, text):
             why = _why_cut(machine)
     except RecursionError:
-        why = 'set-up is nested too deeply to be followed'
+        why = 'nested too deeply to be followed'
     finally:
         machine.steps_left -= min(machine.steps, machine.steps_left)
         machine.stack.clear()
@@ -66,7 +65,7 @@ def guarded(
 
 def note_cut_run(effects: EffectLog, why: str, place: Place) -> None:
     """A callback or thread was not followed to its end: it may wait for anything."""
-    wait = Blocking(call=UNKNOWN_WAIT, source=place, on=Unknown(why, place))
+    wait = Blocking(call=NOT_FOLLOWED, source=place, on=Unknown(why, place))
     if why and wait not in effects.blocking:
         effects.blocking.append(wait)
 

@@ -35,6 +35,7 @@ from ros2cc_extract.findings.waits.verdicts import (
 from ros2cc_extract.findings.waits.waits import (
     AnyWait,
     Wait,
+    are_one,
     at_one_place,
     callers_of,
     kind_of,
@@ -98,7 +99,7 @@ def _for_writers(context: Context) -> Iterator[AnyWait]:
 def _unread(waits: Sequence[AnyWait]) -> Hit:
     wait = waits[0]
     pipe = f'the pipe of its {wait.block.unread}'
-    it = 'it waits' if len(callers_of(waits)) == 1 else 'they wait'
+    it = 'it waits' if are_one(waits) else 'they wait'
     return Hit(
         place=wait.place,
         message=f'{who_waits(waits)} in {waits_in(wait)} for a child process while nothing '

@@ -12,6 +12,7 @@ from ros2cc_extract.findings.waits.waits import (
     Wait,
     WaitKind,
     all_wait_for,
+    are_one,
     at_one_place,
     callers_of,
     how_it_ends,
@@ -66,7 +67,7 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
     shut_out = [one for each in waits if (one := shut_out_by(each, context)) is not None]
     shut_out = list({one.name: one for one in shut_out}.values())
     group = context.group_of(wait.caller)
-    caller = wait.caller.display_name if len(callers_of(waits)) == 1 else 'one of them'
+    caller = wait.caller.display_name if are_one(waits) else 'one of them'
     return Hit(
         place=wait.place,
         message=f'{who_waits(waits)} in {waits_in(wait)} for {all_wait_for(waits)}, but '

@@ -14,6 +14,7 @@ from ros2cc_extract.findings.waits.verdicts import PROGRESS, refuting_run, surel
 from ros2cc_extract.findings.waits.waits import (
     AnyWait,
     WaitKind,
+    are_one,
     at_one_place,
     callers_of,
     kind_of,
@@ -22,14 +23,22 @@ from ros2cc_extract.findings.waits.waits import (
     who_waits,
 )
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import ENDLESS_LOOP, OUTSIDE, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import (
+    ENDLESS_LOOP,
+    NOT_FOLLOWED,
+    OUTSIDE,
+    TIME,
+    UNKNOWN_WAIT,
+    WORKING_LOOP,
+    Blocking,
+)
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 from ros2cc_extract.verify.results.caveats import open_ends
 from ros2cc_extract.verify.results.results import Verdict
 
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
-_FOREIGN = frozenset({'await', 'unknown wait'})
+_FOREIGN = frozenset({'await', UNKNOWN_WAIT, NOT_FOLLOWED})
 _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
     'only a thread ends it, which wakes no executor: it goes on once something else does so'
@@ -77,8 +86,23 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _for_messages(context):
             waits.append(wait)
             reasons[id(wait)] = ''
-    for alike in at_one_place(waits):
+    cut = [wait for wait in waits if wait.block.call == NOT_FOLLOWED]
+    for reason in dict.fromkeys(_why(wait.block) for wait in cut):
+        yield _of_cut([wait for wait in cut if _why(wait.block) == reason], reason)
+    for alike in at_one_place(wait for wait in waits if wait.block.call != NOT_FOLLOWED):
         yield _hit(alike, reasons[id(alike[0])], context, is_outside=is_outside)
+
+
+def _of_cut(waits: Sequence[AnyWait], why: str) -> Hit:
+    """One line for all that was not followed for one reason."""
+    return Hit(
+        place=waits[0].place,
+        message=f'not decided: {shown(wait.caller for wait in waits)} may wait in {NOT_FOLLOWED}: '
+        f'{why}',
+        help='check the program alone, or with a higher limit',
+        subjects=callers_of(waits),
+        cause=NOT_FOLLOWED,
+    )
 
 
 def _for_messages(context: Context) -> Iterator[AnyWait]:
@@ -104,11 +128,22 @@ def _open(
 
 
 def _reason(block: Blocking) -> str:
+    why = _why(block)
+    return f'{_UNKNOWN_END}: {why}' if why else _UNKNOWN_END
+
+
+def _why(block: Blocking) -> str:
     if block.escapes is not None:
-        return f'{_UNKNOWN_END}: {block.escapes.reason}'
-    if isinstance(block.on, Unknown):
-        return f'{_UNKNOWN_END}: {block.on.reason}'
-    return _UNKNOWN_END
+        return block.escapes.reason
+    return block.on.reason if isinstance(block.on, Unknown) else ''
+
+
+def _call_and_reason(wait: AnyWait, reason: str) -> tuple[str, str]:
+    """Where it waits, and why that is open: the reason of an unknown call begins with the call."""
+    call, colon, why = _why(wait.block).partition(': ')
+    if wait.block.call != UNKNOWN_WAIT or not colon or not reason.endswith(why):
+        return waits_in(wait), reason
+    return call, f'{reason.removesuffix(f"{call}: {why}")}{why}'
 
 
 def _ends_outside(block: Blocking) -> bool:
@@ -233,10 +268,11 @@ def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
 
 def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside: bool) -> Hit:
     wait = waits[0]
+    call, reason = _call_and_reason(wait, reason)
     what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
     named = f' for {what}' if what else ''
-    verb = 'waits' if len(callers_of(waits)) == 1 else 'wait'
-    start = f'{who_waits(waits)} in {waits_in(wait)}{named}'
+    verb = 'waits' if are_one(waits) else 'wait'
+    start = f'{who_waits(waits)} in {call}{named}'
     ends = f'and {verb} forever unless {_others(wait)} ends it'
     if wait.block.answer_to is not None and is_outside:
         topic = wait.block.answer_to
@@ -328,8 +364,9 @@ OUTSIDE_WAIT = Rule(
     what='A callback, `main` or a thread waits without a time-out for something outside: a '
     'process, a socket, a serial port or a person; another executor or program; the answer of '
     'another program to a message that was published before; or a message that nothing in this '
-    'program publishes during the wait, because its publishers are in the same group. The '
-    'verdicts assume that the wait ends. If it does not, a callback keeps its thread and its '
+    'program publishes during the wait, because its publishers are in the same group. '
+    'Commands that end at once, as `pkill` and `mkdir`, are no waits. The verdicts assume that '
+    'the wait ends. If it does not, a callback keeps its thread and its '
     'mutually exclusive group forever, and a thread keeps the process alive.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
     'side acts. Sources: Python 3.11, library reference, `subprocess`, `socket`, `input`; '

@@ -2,32 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import made_at, served_at
+from ros2cc_extract.findings.base.wording import made_at, served_at, shown
 from ros2cc_extract.findings.rules.deadlocks.nested_spin import is_executor_call, is_global
-from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.waits.waits import (
+    Wait,
+    WaitKind,
+    are_one,
+    at_one_place,
+    callers_of,
+    waits_of,
+    ways_of_others,
+)
 from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE
 
 
 def find(context: Context) -> Iterator[Hit]:
-    executor = context.unit.executor
+    waits = (
+        wait
+        for wait in waits_of(context)
+        if wait.kind is WaitKind.SPIN and _is_of_this_executor(wait, context)
+    )
+    for alike in at_one_place(waits):
+        yield _hit(alike, context)
+
+
+def _hit(waits: Sequence[Wait], context: Context) -> Hit:
+    """One for all callbacks that come to this line: mended there, it is mended for all."""
+    wait, executor = waits[0], context.unit.executor
     refused = SPIN_REFUSED_TWICE.holds(context.unit.rclpy)
-    for wait in waits_of(context):
-        if wait.kind is WaitKind.SPIN and _is_of_this_executor(wait, context):
-            yield Hit(
-                place=wait.place,
-                message=f'{wait.caller.display_name} calls {wait.block.call} on the executor '
-                f'that runs it: {_consequence(refused)}',
-                help='do not spin in a callback: use call_async and continue in a done-callback, '
-                'or await in a coroutine callback, with what it awaits in another group',
-                severity=Severity.ERROR if refused else None,
-                subjects=(wait.caller.name, executor.name),
-                chain=wait.chain,
-                related=(*made_at(wait.caller), *served_at(executor, wait.place)),
-            )
+    calls, them = ('calls', 'it') if are_one(waits) else ('call', 'them')
+    return Hit(
+        place=wait.place,
+        message=f'{shown(each.caller for each in waits)} {calls} {wait.block.call} on the '
+        f'executor that runs {them}: {_consequence(refused)}',
+        help='do not spin in a callback: use call_async and continue in a done-callback, '
+        'or await in a coroutine callback, with what it awaits in another group',
+        severity=Severity.ERROR if refused else None,
+        subjects=(*callers_of(waits), executor.name),
+        chain=wait.chain,
+        related=(
+            *made_at(wait.caller),
+            *served_at(executor, wait.place),
+            *dict.fromkeys(ways_of_others(waits)),
+        ),
+    )
 
 
 def _consequence(refused: bool | None) -> str:

@@ -76,8 +76,8 @@ SHUT_DOWN_IN_CALLBACK = Rule(
     severity=Severity.NOTE,
     title='Shutdown inside a callback',
     what='A callback calls `rclpy.shutdown()` under `rclpy.spin`, or `shutdown()` of the '
-    'single-threaded executor that runs it. Done-callbacks of requests and goals and execute '
-    'callbacks run as tasks, for which no shutdown waits.',
+    'single-threaded executor that runs it, without a time-out. Done-callbacks of requests and '
+    'goals and execute callbacks run as tasks, for which no shutdown waits.',
     why='On Humble (rclpy 3.3) the shutdown waits until all callbacks of entities have ended, '
     'including the one that calls it. Later releases do not wait. Measured: 3.3.21 hangs in a '
     'timer and ends in a done-callback, rclpy 7.1.6 and 9.1.2 end. Sources: 3.3.21, '

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.wording import called, shown
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.races.races import RaceKind, Use, races_of, uses_cleared
 from ros2cc_extract.findings.rules.races.lost_update import hit_of
 from ros2cc_extract.findings.waits.overlap import is_quick, overlaps_itself
 from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback
 
 HELP = (
@@ -21,32 +23,48 @@ HELP = (
 
 
 def find(context: Context) -> Iterator[Hit]:
-    told: set[tuple[str, str]] = set()
+    told: set[tuple[str, str | Place]] = set()
     for race in races_of(context):
         if race.kind is RaceKind.CLEARED_IN_USE:
             told |= {(race.first.doer.name, name) for name in race.names}
+            told |= {(name, race.first.place) for name in race.names}
             hit = hit_of(race, help_text=HELP)
             yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
+    alike: dict[tuple[str, Place, Severity | None], list[Use]] = {}
+    for use in _of_themselves(context):
+        name = use.access.name
+        if not told & {(use.doer.name, name), (name, use.place)}:
+            alike.setdefault((name, use.place, _severity(use, context)), []).append(use)
+    for (_, _, severity), uses in alike.items():
+        yield _of_itself(uses, severity, context)
+
+
+def _of_themselves(context: Context) -> Iterator[Use]:
+    """The first use of each object that another run of the same callback may clear."""
     for callback in shared_by(context):
         if overlaps_itself(callback, context):
-            uses = {
-                use.access.name: use for use, _ in reversed([*uses_cleared(callback, callback)])
-            }
-            for name, use in uses.items():
-                if (callback.name, name) not in told:
-                    yield _of_itself(callback, use, context)
+            cleared = reversed([*uses_cleared(callback, callback)])
+            yield from {use.access.name: use for use, _ in cleared}.values()
 
 
-def _of_itself(callback: Callback, use: Use, context: Context) -> Hit:
-    name = use.access.name
+def _severity(use: Use, context: Context) -> Severity | None:
+    is_quickly = isinstance(use.doer, Callback) and is_quick(use.doer, context)
+    return Severity.NOTE if is_quickly or not use.access.later else None
+
+
+def _of_itself(uses: Sequence[Use], severity: Severity | None, context: Context) -> Hit:
+    """One for all callbacks that come to this line."""
+    use, doers = uses[0], [use.doer for use in uses]
+    is_one = len({called(doer) for doer in doers}) == 1
+    verbs, whose = (('tests', 'uses'), 'it') if is_one else (('test', 'use'), 'one of them')
     return Hit(
         place=use.place,
-        message=f'{callback.display_name} tests {name} and then uses it, and another run of it '
-        'may set it to None in between: then the use raises an exception',
+        message=f'{shown(doers)} {verbs[0]} {use.access.name} and then {verbs[1]} it, and another '
+        f'run of {whose} may set it to None in between: then the use raises an exception',
         help=HELP,
-        severity=Severity.NOTE if is_quick(callback, context) or not use.access.later else None,
-        subjects=(callback.name, name),
-        run=refuting_run(SELF_OVERLAP, context, callback),
+        severity=severity,
+        subjects=(*(doer.name for doer in doers), use.access.name),
+        run=refuting_run(SELF_OVERLAP, context, use.doer),
     )
 
 

@@ -8,7 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.races.flag_locks import shared_by
-from ros2cc_extract.findings.races.race_texts import IN_ONE_PIECE
+from ros2cc_extract.findings.races.joined_self_races import JoinedRaces, joined, message_of
 from ros2cc_extract.findings.races.races import LOSING, RaceKind, races_of
 from ros2cc_extract.findings.races.self_races import (
     SelfRace,
@@ -26,13 +26,7 @@ from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
-from ros2cc_extract.spec.model import Activity, Callback, EntityKind
-
-_TWICE = {
-    EntityKind.TIMER: 'when a run lasts longer than the period',
-    EntityKind.ACTION_EXECUTE: 'when there are two goals at a time',
-    EntityKind.DONE_CALLBACK: 'when two answers arrive together',
-}
+from ros2cc_extract.spec.model import Activity, Callback
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -42,13 +36,15 @@ def find(context: Context) -> Iterator[Hit]:
     losing = list(_losing(context))
     worse = set(_told_of_others(context, LOSING[:2])) if losing else set()
     any_told = worse | set(_told_of_others(context, LOSING)) if losing else set()
-    for race in losing:
-        if race.callback in late:
-            continue
-        name, callback = race.use.access.name, race.callback.name
-        told = any_told if race.is_whole else worse
-        if not told & {(name, race.use.place), (name, callback)}:
-            yield _hit(race, context)
+    left = (
+        race
+        for race in losing
+        if race.callback not in late
+        and not (any_told if race.is_whole else worse)
+        & {(race.use.access.name, race.use.place), (race.use.access.name, race.callback.name)}
+    )
+    for joint in joined(left, lambda race: _severity(race, context)):
+        yield _hit(joint, context)
 
 
 def _runs_again(callback: Callback, context: Context) -> bool:
@@ -115,21 +111,23 @@ def _told_of_others(
                 yield from ((name, use.doer.name) for use in race.others)
 
 
-def _hit(race: SelfRace, context: Context) -> Hit:
-    callback, name = race.callback, race.use.access.name
-    default = 'when messages come together'
-    when = _TWICE.get(callback.entity, default) if callback.entity else default
+def _severity(race: SelfRace, context: Context) -> Severity | None:
     is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and not race.waits)
-    what = _UPDATES_WHOLE if race.is_whole else _WHAT[race.kind]
+    return Severity.NOTE if is_less or is_quick(race.callback, context) else None
+
+
+def _hit(joint: JoinedRaces, context: Context) -> Hit:
+    """One for the callbacks that come to one line, and for what they do at others."""
+    callbacks, race = joint.callbacks, joint.first
+    made = (each for one in callbacks for each in made_at(one, context.group_of(one)))
     return Hit(
         place=race.use.place,
-        message=f'{callback.display_name} may overlap itself {when}, and '
-        + what.format(name=name),
+        message=message_of(joint),
         help=_help(race),
-        severity=Severity.NOTE if is_less or is_quick(callback, context) else None,
-        subjects=(callback.name, name),
-        related=tuple(made_at(callback, context.group_of(callback))),
-        run=refuting_run(SELF_OVERLAP, context, callback),
+        severity=_severity(race, context),
+        subjects=(*(callback.name for callback in callbacks), *joint.names),
+        related=(*joint.related(), *dict.fromkeys(made)),
+        run=refuting_run(SELF_OVERLAP, context, race.callback),
     )
 
 
@@ -143,15 +141,6 @@ def _help(race: SelfRace) -> str:
     return f'{_HELP_OUTSIDE[race.kind]}, or {group}'
 
 
-_UPDATES_WHOLE = f'updates {{name}} from its old value without a lock: {IN_ONE_PIECE}'
-_WHAT = {
-    SelfRaceKind.LOST_UPDATE: 'updates {name} from its old value without a lock: one of the '
-    'changes can get lost',
-    SelfRaceKind.STALE_READ: 'writes {name} because of what it has read of it before, without '
-    'one lock around both: that may no longer hold',
-    SelfRaceKind.OVERWRITTEN: 'writes {name}, waits, and reads it here: the other run may have '
-    'written it meanwhile',
-}
 _HELP_OUTSIDE = {
     SelfRaceKind.LOST_UPDATE: 'hold a lock around the update',
     SelfRaceKind.STALE_READ: 'hold one lock from the read to the write',
@@ -174,7 +163,8 @@ RULE = Rule(
     'and its write (`self.n += 1`, see CC301), for a timer whose runs are known to be shorter '
     'than its period, for a done-callback that one such timer alone requests, once in a run, and '
     'for a test that is followed by the write without a wait in between. Where another callback '
-    'may lose the same update, CC301 or CC303 is reported instead.',
+    'may lose the same update, CC301 or CC303 is reported instead. There is one finding for all '
+    'callbacks that come to one line, and for all attributes of one callback.',
     why='The executor may take an entity again as soon as its data was taken; a reentrant group '
     'refuses nothing, so one subscription runs on several threads at once. Source: rclpy 7.1.6 '
     'and 9.1.2, `executors.py` (`_make_handler`), `callback_groups.py` '

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at, served_at
-from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_of
+from ros2cc_extract.findings.waits.waits import (
+    Wait,
+    WaitKind,
+    at_one_place,
+    callers_of,
+    waits_of,
+    ways_of_others,
+    who_waits,
+)
 from ros2cc_extract.findings.waits.workers import is_one_thread
 
 SHORT_S = 0.1
@@ -17,12 +25,14 @@ SHORT_S = 0.1
 def find(context: Context) -> Iterator[Hit]:
     if not is_one_thread(context.unit.executor):
         return
-    for wait in waits_of(context):
-        if wait.kind is WaitKind.TRANSFORM and wait.needs:
-            yield _hit(wait, context)
+    waits = (wait for wait in waits_of(context) if wait.kind is WaitKind.TRANSFORM and wait.needs)
+    for alike in at_one_place(waits):
+        yield _hit(alike, context)
 
 
-def _hit(wait: Wait, context: Context) -> Hit:
+def _hit(waits: Sequence[Wait], context: Context) -> Hit:
+    """One for all callbacks that come to this line."""
+    wait = waits[0]
     seconds = wait.block.seconds
     wasted, severity = '', None
     if isinstance(seconds, float):
@@ -30,17 +40,18 @@ def _hit(wait: Wait, context: Context) -> Hit:
         severity = Severity.NOTE if seconds < SHORT_S else None
     return Hit(
         place=wait.place,
-        message=f'{wait.caller.display_name} waits in {wait.block.call} on the only thread of the '
+        message=f'{who_waits(waits)} in {wait.block.call} on the only thread of the '
         f'{context.unit.executor.kind or "executor"}, which must also take what comes on /tf: a '
         f'transform that is not there yet does not come meanwhile, and everything waits{wasted}',
         help='leave the time-out out and come back by a timer, or serve the node with '
         'MultiThreadedExecutor(num_threads=2) or more',
         severity=severity,
-        subjects=(wait.caller.name, *(needed.name for needed in wait.needs)),
+        subjects=(*callers_of(waits), *(needed.name for needed in wait.needs)),
         chain=wait.chain,
         related=(
             *made_at(wait.caller, *wait.needs),
             *served_at(context.unit.executor, wait.place),
+            *dict.fromkeys(ways_of_others(waits)),
         ),
     )
 

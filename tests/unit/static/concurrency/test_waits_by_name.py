@@ -48,3 +48,9 @@ def test_what_is_called_a_wait_is_one(call: str, waits: list[str]) -> None:
 def test_a_number_is_its_time_out() -> None:
     (unit,) = scan_text(PROGRAM.replace('CALL', 'wait_for_connection(5)')).units
     assert [block.seconds for each in unit.callbacks for block in each.blocking] == [5]
+
+
+@pytest.mark.parametrize('name', ['timeout', 'timeout_sec', 'time_to_wait'])
+def test_a_time_out_has_several_names(name: str) -> None:
+    (unit,) = scan_text(PROGRAM.replace('CALL', f'wait_for_service({name}=0.5)')).units
+    assert [block.seconds for each in unit.callbacks for block in each.blocking] == [0.5]

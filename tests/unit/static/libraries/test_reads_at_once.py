@@ -46,3 +46,51 @@ def test_a_read_waits_unless_it_is_told_or_asked_before(does: str, waits: list[s
     units = scan_text(PROGRAM.replace('DOES', does)).units
     found = [block.call for unit in units for each in unit.callbacks for block in each.blocking]
     assert found == waits
+
+
+KEYS = """\
+import select
+import sys
+import rclpy
+from rclpy.node import Node
+
+class Keys(Node):
+    def __init__(self):
+        super().__init__('keys')
+        self.create_timer(0.1, self.on_timer)
+
+    def has_key(self):
+        return select.select([sys.stdin], [], [], 0) == ([sys.stdin], [], [])
+
+    def is_open(self):
+        return sys.stdin.isatty()
+
+    def key(self):
+        return sys.stdin.read(1)
+
+    def key_if_any(self):
+        return self.key() if self.has_key() else None
+
+    def on_timer(self):
+        DOES
+
+rclpy.init()
+rclpy.spin(Keys())
+"""
+
+
+@pytest.mark.parametrize(
+    ('does', 'waits'),
+    [
+        ('if self.has_key():\n            print(sys.stdin.read(1))', []),
+        ('if not self.has_key():\n            return\n        print(sys.stdin.read(1))', []),
+        ('print(self.key_if_any())', []),
+        ('if self.is_open():\n            print(sys.stdin.read(1))', ['sys.stdin.read']),
+        ('self.has_key()\n        print(sys.stdin.read(1))', ['sys.stdin.read']),
+        ('print(self.key())', ['sys.stdin.read']),
+    ],
+)
+def test_another_function_may_have_asked(does: str, waits: list[str]) -> None:
+    units = scan_text(KEYS.replace('DOES', does)).units
+    found = [block.call for unit in units for each in unit.callbacks for block in each.blocking]
+    assert found == waits

@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.scan import guarded_runs
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import close
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import NOT_FOLLOWED, Blocking
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
@@ -57,7 +57,7 @@ def test_what_is_not_followed_may_wait_for_anything(
         if (each.function or '').endswith(function)
     )
     why = Unknown(guarded_runs.TOO_LONG, place)
-    assert doer.blocking == (Blocking(call='unknown wait', source=place, on=why, escapes=why),)
+    assert doer.blocking == (Blocking(call=NOT_FOLLOWED, source=place, on=why, escapes=why),)
 
 
 def test_its_claims_are_undecided(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -82,7 +82,7 @@ def words(block: Blocking) -> str:
         ({'first': 'self.drive.wait_for_server()'}, ['wait_for_server: outside']),
         ({'then': 'input()'}, ['input: outside']),
         ({'then': 'free = threading.Semaphore(2)\n    free.acquire()'}, ['Semaphore.acquire: ']),
-        ({'then': "subprocess.run(['ls'])"}, ['subprocess.run: outside']),
+        ({'then': "subprocess.run(['gcc'])"}, ['subprocess.run: outside']),
         (
             {
                 'then': 'future = node.client.call_async(Trigger.Request())\n'
@@ -134,8 +134,8 @@ def test_waits_of_the_set_up_are_told_with_who_ends_them(
     [
         (
             {'then': 'doors.open().wait()'},
-            'not decided: main waits in unknown wait, and it is not known what ends it: '
-            'doors.open().wait: result of plant.doors.open, which is not scanned',
+            'not decided: main waits in doors.open().wait, and it is not known what ends it: '
+            'result of plant.doors.open, which is not scanned',
         ),
     ],
 )

@@ -74,7 +74,7 @@ def waits(wait: str, handed: str, last: str) -> list[str]:
         ('self.home.wait_for_service()', 'wait_for_service'),
         ('self.worker.join()', 'Thread.join'),
         ('self.pressed.wait_for_a_key()', 'unknown wait'),
-        ("subprocess.run(['true'])", 'subprocess.run'),
+        ("subprocess.run(['gcc'])", 'subprocess.run'),
         ('if self.seen.pose:\n            self.home.call(Trigger.Request())', 'client.call'),
     ],
 )

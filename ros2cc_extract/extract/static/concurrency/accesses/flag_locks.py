@@ -25,7 +25,14 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import FLAG, FOUND_FALSE, FOUND_NONE, FOUND_OTHER, FOUND_THIS
+from ros2cc_extract.spec.effects import (
+    FLAG,
+    FOUND_FALSE,
+    FOUND_NONE,
+    FOUND_OTHER,
+    FOUND_THIS,
+    FOUND_TRUE,
+)
 
 _THEN, _ELSE, _AFTER = 0, 1, -1
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
@@ -61,6 +68,10 @@ def note_test(
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)
             reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
+    for attribute, up_if in _found_up(test):
+        meant = names.get(attribute, [])
+        for step in steps[up_if] if len(meant) == 1 else ():
+            reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = FOUND_TRUE
 
 
 def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
@@ -78,6 +89,18 @@ def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
         yield from (asked for asked in parts if asked[1] is down_if)
         return
     yield from _asked(test, constant)
+
+
+def _found_up(test: ast.expr) -> Iterator[tuple[str, bool]]:
+    """The flags that are up where all of ``test`` holds, or where nothing of it does."""
+    if isinstance(test, ast.BoolOp):
+        up_if = isinstance(test.op, ast.And)
+        parts = [found for value in test.values for found in _found_up(value)]
+        yield from (found for found in parts if found[1] is up_if)
+    elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        yield from ((name, not up_if) for name, up_if in _found_up(test.operand))
+    elif _name_of(test) is not None:
+        yield _name_of(test) or '', True
 
 
 def _asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:

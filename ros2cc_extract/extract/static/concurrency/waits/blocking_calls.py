@@ -24,7 +24,6 @@ from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
     sent_before_clear,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
-from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import NAME as UNKNOWN_WAIT
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     timeout_of,
     unknown_wait,
@@ -61,7 +60,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import TURN, Blocking, Needs
+from ros2cc_extract.spec.effects import TURN, UNKNOWN_WAIT, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 

@@ -9,9 +9,6 @@ from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.values import Call, Const, Mystery, Value
 from ros2cc_extract.source_locations import Unknown
 
-NAME = 'unknown wait'
-"""How they are called in a specification."""
-
 _ALWAYS = frozenset(
     ['wait', 'wait_for', 'communicate', 'recv', 'recvfrom', 'recv_multipart', 'accept', 'acquire']
 )
@@ -19,7 +16,9 @@ _WITHOUT_VALUES = frozenset(['join', 'get'])
 _OF_FUTURES = frozenset(['result', 'exception'])
 _WAIT = 'wait_'
 _TIMEOUT_FIRST = frozenset(['wait', 'join', 'result', 'exception'])
-_KEYWORDS = frozenset(['timeout', 'block', 'blocking'])
+_LIMITS = ('timeout', 'timeout_sec', 'timeout_s', 'time_to_wait')
+"""What a time-out is called, as in rclpy."""
+_KEYWORDS = frozenset([*_LIMITS, 'block', 'blocking'])
 # What has a ``get`` or ``wait`` that does not wait, or waits for a person that looks at it.
 _OTHERS = ('tkinter', 'Tk', 'argparse', 'mock', 'Mock', 'contextvars', 'launch')
 _AT_ONCE = frozenset(['NOBLOCK', 'DONTWAIT', 'MSG_DONTWAIT'])  # pyzmq, ``socket``
@@ -53,7 +52,8 @@ def timeout_of(call: Call) -> Value | None:
     name = called_name(call)
     may_be_first = name in _TIMEOUT_FIRST or name.startswith(_WAIT)
     first = call.args[0] if call.args and may_be_first else None
-    return call.keywords.get('timeout', first if _is_number(first) else None)
+    named = (call.keywords[name] for name in _LIMITS if name in call.keywords)
+    return next(named, first if _is_number(first) else None)
 
 
 def _waits(name: str, call: Call, trees: list[ast.Module]) -> bool:

@@ -10,7 +10,15 @@ from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.spec.effects import OUTSIDE, TIME, TURN, WORKING_LOOP, Needs
+from ros2cc_extract.spec.effects import (
+    NOT_FOLLOWED,
+    OUTSIDE,
+    TIME,
+    TURN,
+    UNKNOWN_WAIT,
+    WORKING_LOOP,
+    Needs,
+)
 
 SPIN_UNTIL = 'spin_until_future_complete'
 """How code that no callback runs waits for a future, and spins meanwhile."""
@@ -70,7 +78,8 @@ WAITS: dict[str, WaitRow] = {
     'Executor.map': _FUTURE,
     'Executor.shutdown': _row(Word.SET, Word.END),
     'asyncio await': _FUTURE,
-    'unknown wait': _row(Word.END),
+    UNKNOWN_WAIT: _row(Word.END),
+    NOT_FOLLOWED: _row(Word.END),
     'await': _FUTURE,
     'busy wait': _FUTURE,
     SPIN_UNTIL: _FUTURE,

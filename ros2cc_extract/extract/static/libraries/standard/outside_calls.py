@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_names import (
 )
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
+from ros2cc_extract.extract.static.libraries.standard.short_commands import is_short
 from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
@@ -65,8 +66,9 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
         is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
-        is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
+        is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
+        is_at_once = is_at_once or is_short(name, call)
         if not is_at_once and not _is_there(machine, name):
             machine.note_blocking(name, None, timeout, call.place)
         if name == child_pipes.WAIT and timeout in (None, NONE):
@@ -115,12 +117,19 @@ def _is_there(machine: ConcurrentMachine, name: str) -> bool:
 
     ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
     a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` or
-    ``fcntl`` has changed give what there is.
+    ``fcntl`` has changed give what there is. A function may have another one ask,
+    or its caller does: ``if self.has_key():``.
     """
     if not name.rpartition('.')[2].startswith(('read', 'recv')):
         return False
     asking = machine.stack[-1].node if machine.stack else None
     if asking is not None and noted_on(asking, 'asks_first', _asks_first):
+        return True
+    nodes = [each.node for each in machine.stack[-2:]]
+    called = {
+        name for node in nodes for name in noted_on(node, 'called_in_tests', _called_in_tests)
+    }
+    if any(not called.isdisjoint(noted_on(t, 'askers', _askers)) for t in machine.world.trees):
         return True
     trees = machine.world.trees if name == _READ else ()
     return any(noted_on(tree, 'never_blocks', _never_blocks) for tree in trees)
@@ -135,6 +144,28 @@ def _asks_first(function: ast.AST) -> bool:
     return any(
         isinstance(part, ast.Attribute) and part.attr in _ASKS_FIRST for part in walk(function)
     )
+
+
+def _called_in_tests(function: ast.AST) -> frozenset[str]:
+    """The functions and methods that a test calls, by name."""
+    calls = (
+        part.func
+        for branch in walk(function)
+        if isinstance(branch, (ast.If, ast.While, ast.IfExp))
+        for part in walk(branch.test)
+        if isinstance(part, ast.Call)
+    )
+    return frozenset(
+        called.attr if isinstance(called, ast.Attribute) else called.id
+        for called in calls
+        if isinstance(called, (ast.Attribute, ast.Name))
+    )
+
+
+def _askers(tree: ast.Module) -> frozenset[str]:
+    """The functions of a file that ask whether something is there, by name."""
+    functions = (part for part in walk(tree) if isinstance(part, ast.FunctionDef))
+    return frozenset(each.name for each in functions if noted_on(each, 'asks_first', _asks_first))
 
 
 def _never_blocks(tree: ast.Module) -> bool:

@@ -19,7 +19,13 @@ def note_arms(
     *,
     is_opposite: bool = False,
 ) -> None:
-    """An ``if`` at ``place`` is open, because a parameter decides: its first arm is number 0."""
+    """
+    An ``if`` at ``place`` is open, because a parameter decides: its first arm is number 0.
+
+    What an earlier round of a loop, or an earlier call, has found there holds no longer.
+    """
+    for arm in (0, 1):
+        machine.world.conditions.pop((place, arm), None)
     if not isinstance(asked, Mystery) or asked.default is None:
         return
     holds = machine.truth(asked.default)

@@ -2,15 +2,17 @@
 Which item of a container is meant: ``self.counts['left']``, ``self.counts[name]``.
 
 A name counts where it is a parameter that nothing stores to: a function that was made for one
-item, or called with it, means that one in all its rounds.
+item, or called with it, means that one in all its rounds. So does a constant of the module, which
+is bound once in its file.
 """
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
+from ros2cc_extract.extract.static.program.module_constants import module_constants
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from, constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -35,15 +37,19 @@ def note_item(machine: Machine, container: ast.expr, key: ast.expr, frame: Frame
 
 
 def _given(machine: Machine, key: ast.expr, frame: Frame) -> str | None:
-    """The text of what a parameter was given, if that is one value in every run."""
-    if not isinstance(key, ast.Name) or not _is_one_by_one(machine.world.current):
+    """The text of what a parameter or constant was given, if that is one value in every run."""
+    if not isinstance(key, ast.Name):
         return None
-    held, item = _held(key.id, frame), None
+    held, item, trees = _held(key.id, frame), None, machine.world.trees
     if isinstance(held, Const) and type(held.value) in (str, int):
         item = repr(held.value)
     elif isinstance(held, Mystery):
         item = _beginning(held.node) or _beginning_in(held.text)
-    return item if item and _is_parameter(key, machine.world.trees) else None
+    if item is None:
+        return None
+    if _is_one_by_one(machine.world.current) and _is_among(key, trees, _kept_parameters):
+        return item
+    return item if _is_among(key, trees, module_constants) else None
 
 
 def _beginning(key: ast.expr | None) -> str | None:
@@ -72,11 +78,14 @@ def _held(name: str, frame: Frame) -> Value | None:
             value: Value = scope.slots[name]
             return value
         scope = scope.parent
-    return None
+    bound = frame.module.slots.get(name)
+    return bound if isinstance(bound, Value) else None
 
 
-def _is_parameter(key: ast.Name, trees: Sequence[ast.Module]) -> bool:
-    return any(id(key) in noted_on(tree, 'kept_parameters', _kept_parameters) for tree in trees)
+def _is_among(
+    key: ast.Name, trees: Sequence[ast.Module], uses: Callable[[ast.Module], frozenset[int]]
+) -> bool:
+    return any(id(key) in noted_on(tree, uses.__name__, uses) for tree in trees)
 
 
 def _kept_parameters(tree: ast.Module) -> frozenset[int]:

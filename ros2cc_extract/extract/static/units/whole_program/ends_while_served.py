@@ -91,7 +91,7 @@ def _waits_for_itself(end: End, doer: EntityState, world: RosWorld) -> bool:
     ``executors.py`` (``_make_handler`` alone enters the work tracker); run on 3.3.21.
     """
     executor = executor_of(doer.node)
-    if doer.kind in _TASKS:
+    if doer.kind in _TASKS or end.is_limited:
         return False
     if executor is None or executor.state.kind != _SINGLE or not _spins_of(executor, world):
         return False

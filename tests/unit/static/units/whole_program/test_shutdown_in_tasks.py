@@ -63,3 +63,15 @@ def test_a_done_callback_of_a_call_does_not() -> None:
 
 def test_behind_a_method_that_timers_have_not_nothing_runs() -> None:
     assert told('self.timer.shutdown()\n        rclpy.shutdown()') == []
+
+
+@pytest.mark.parametrize(
+    ('limit', 'slug'),
+    [('', 'shut-down-in-callback'), ('-1', 'shut-down-in-callback'), ('0.1', 'served-no-more')],
+)
+def test_a_shutdown_with_a_limit_goes_on(limit: str, slug: str) -> None:
+    """The executor ends all the same."""
+    text = PROGRAM.format(tick=f'self.executor.shutdown({limit})', done='pass')
+    own = 'executor = rclpy.executors.SingleThreadedExecutor()\nexecutor.add_node(Brief())\n'
+    text = text.replace('rclpy.spin(Brief())\n', f'{own}executor.spin()\n')
+    assert [each.slug for each in scan_text(text).diagnostics] == [slug]

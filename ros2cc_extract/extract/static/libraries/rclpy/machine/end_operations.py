@@ -65,6 +65,8 @@ def note_end(
     what: Instance | EntityState | None,
     place: Place,
     text: str = '',
+    *,
+    is_limited: bool = False,
 ) -> None:
     """A callback, or a thread of the program's own, ends something."""
     world = machine.world
@@ -75,7 +77,9 @@ def note_end(
         behind = world.effects.behind if world.effects is not None else None
         over = tuple(one for one in world.over if is_behind(one.path, world.path))
         joins = tuple(join for join in world.timed_joins if is_behind(join.path, world.path))
-        world.ends.append(End(kind, what, doer, place, text, behind, world.held, over, joins))
+        world.ends.append(
+            End(kind, what, doer, place, text, behind, world.held, over, joins, is_limited)
+        )
 
 
 def note_raised(machine: RosMachine, error: ast.expr, place: Place) -> None:

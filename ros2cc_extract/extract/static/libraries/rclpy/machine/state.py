@@ -275,6 +275,7 @@ class End:
     :param behind: the last wait of ``doer`` before it, see ``EffectLog.behind``.
     :param locks: held at that place.
     :param over: what the program has ended by then.
+    :param is_limited: it waits for the callbacks that run, but not for ever.
     """
 
     kind: str
@@ -286,6 +287,7 @@ class End:
     locks: tuple[str, ...] = ()
     over: tuple[Over, ...] = ()
     timed_joins: tuple[TimedJoin, ...] = ()
+    is_limited: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -349,11 +349,20 @@ def _shut_down(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """Spins that go on in other threads end."""
     world = machine.world
     if isinstance(receiver, Instance):
-        note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place)
+        is_limited = not _is_for_ever(call.argument(0, 'timeout_sec'))
+        note_end(machine, SHUTDOWN_EXECUTOR, receiver, call.place, is_limited=is_limited)
     if not world.in_callback and not world.in_thread:
         world.spins_over = len(world.spins)
         note_over(world, receiver)
     return NONE
+
+
+def _is_for_ever(timeout: Value | None) -> bool:
+    """``None`` and negative seconds are no limit. Source: rclpy 7.1.6, ``Executor.shutdown``."""
+    if timeout is None or timeout == NONE:
+        return True
+    seconds = timeout.value if isinstance(timeout, Const) else None
+    return isinstance(seconds, int | float) and seconds < 0
 
 
 EXECUTOR_METHODS: dict[str, Handler] = {
