@@ -184,11 +184,17 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
         return Unknown(f'package {package} is not in sight', launched.source)
     found = started.packages.executable(package, name)
     if found is None:
-        why = f'executable {name} was not found among what package {package} installs'
-        return Unknown(why, launched.source)
+        return Unknown(_not_found(package, name, started), launched.source)
     if found.file is None:
         return Unknown(f'executable {name} of package {package} is no Python', launched.source)
     return found
+
+
+def _not_found(package: str, name: str, started: Launch) -> str:
+    """Why an executable is not in sight: nothing declares it, or that could not be read."""
+    why = f'executable {name} was not found among what package {package} installs'
+    unread = started.packages.unread(package)
+    return f'{why}, of which not all could be read: {unread[0]}' if unread else why
 
 
 def _of_command(launched: Launched, started: Launch) -> Executable | Unknown:

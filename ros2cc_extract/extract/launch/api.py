@@ -57,7 +57,7 @@ def launch(path: Path, arguments: Mapping[str, str], *, root: Path, files: Files
     :param arguments: ``name:=value`` of the command line.
     :param root: places are shown relative to it.
     """
-    packages = Packages(files, path)
+    packages = Packages(files, path, lambda file: shown_path(file, root))
 
     def load(file: Path, context: Context) -> Sequence[Action]:
         if file.suffix in (XML, *YAML, '.launch'):
