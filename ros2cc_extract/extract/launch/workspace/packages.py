@@ -24,6 +24,7 @@ _SKIPPED = frozenset({'build', 'log', 'node_modules', 'venv', '__pycache__'})
 _LEVELS, _DEPTH = 6, 6
 _MOST_FOLDERS = 20_000
 MOST_BYTES = 1_000_000
+Known = dict[Path, dict[str, Path]]
 
 
 @dataclass(frozen=True)
@@ -45,16 +46,24 @@ class Packages:
 
     :param start: the launch file.
     :param shown: how a path is shown to the user.
+    :param known: packages by the folder below which they were looked for, which this adds to.
     """
 
     def __init__(
-        self, files: Files, start: Path, shown: Callable[[Path], str] = lambda path: str(path)
+        self,
+        files: Files,
+        start: Path,
+        shown: Callable[[Path], str] = lambda path: str(path),
+        known: Known | None = None,
     ) -> None:
         self._files = files
         self._shown = shown
         self._declared: dict[Path, Declarations] = {}
         own, root = _root(files, start.absolute().parent)
-        self._found = dict(self._search(root))
+        known = {} if known is None else known
+        if root not in known:
+            known[root] = dict(self._search(root))
+        self._found = dict(known[root])
         if own is not None:
             self._found[self._name_of(own)] = own
 
