@@ -35,9 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         '--output-format',
-        choices=['yaml', 'json', 'mermaid', 'dot'],
+        choices=['yaml', 'json', 'html', 'mermaid', 'dot'],
         default='yaml',
-        help='the specification, or a picture (default %(default)s)',
+        help='the specification, a page, or a picture (default %(default)s)',
     )
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
     add_running_arguments(parser)
@@ -89,12 +89,15 @@ def _joined(sides: Sequence[Side], stderr: TextIO) -> System:
 
 
 def _written(systems: Sequence[System], form: str, side: Side) -> str:
+    from ros2cc_extract.report.html.system_page import system_page
     from ros2cc_extract.report.system_pictures import dot, mermaid
     from ros2cc_extract.spec.system.system_yaml import system_data, write_systems
 
     if form in ('mermaid', 'dot'):
         system = systems[0] if len(systems) == 1 else side.only
         return mermaid(system) if form == 'mermaid' else dot(system)
+    if form == 'html':
+        return system_page(systems)
     if form == 'json':
         data = [system_data(system) for system in systems]
         return json.dumps(data[0] if len(data) == 1 else data, indent=2) + '\n'
