@@ -26,6 +26,8 @@ from ros2cc_extract.spec.model import (
 )
 
 DEFAULT_COUNT = 'default_cpu_count'
+NOT_KNOWN = 'not known'
+"""What stands for a name that one side could not find out."""
 _FLOAT_ERROR_NS = 1e-3
 Fact = TypeVar('Fact')
 

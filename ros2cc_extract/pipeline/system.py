@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.launch.api import Launch, launch
-from ros2cc_extract.extract.launch.workspace.packages import Executable
+from ros2cc_extract.extract.launch.workspace.packages import Executable, Known
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Unknown, shown_name
@@ -40,6 +40,14 @@ class Scanned:
     paths: tuple[Path, ...]
 
 
+@dataclass
+class Kept:
+    """What several systems of one workspace share: its packages, and scans of its files."""
+
+    packages: Known = field(default_factory=dict)
+    scans: dict[object, Extraction] = field(default_factory=dict)
+
+
 def divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
     """Paths and ``name:=value`` of a command line."""
     paths, arguments = [], {}
@@ -53,16 +61,23 @@ def divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
 
 
 def scan_system(
-    files_of_launch: Sequence[Path], arguments: Mapping[str, str], scan: Scan, files: Files
+    files_of_launch: Sequence[Path],
+    arguments: Mapping[str, str],
+    scan: Scan,
+    files: Files,
+    kept: Kept | None = None,
 ) -> Scanned:
     """
     Follow launch files, and scan what they start.
 
     :param scan: scans files under the parameters that are set for them.
     """
-    root = Path.cwd()
-    launches = [launch(path, arguments, root=root, files=files) for path in files_of_launch]
-    builder = _Builder(scan, root)
+    root, kept = Path.cwd(), kept or Kept()
+    launches = [
+        launch(path, arguments, root=root, files=files, known=kept.packages)
+        for path in files_of_launch
+    ]
+    builder = _Builder(scan, root, kept.scans)
     processes = [p for each in launches for p in builder.processes(each)]
     noticed = tuple(d for each in launches for d in each.noticed)
     outside = tuple(_told(p) for p in processes if p.outside is not None)
@@ -71,7 +86,7 @@ def scan_system(
         name=', '.join(shown_name(path.name) for path in files_of_launch),
         processes=tuple(processes),
         sources=sources,
-        unresolved=tuple(_unresolved(processes, noticed)),
+        unresolved=tuple(unresolved_of(processes, noticed)),
     )
     return Scanned(system, builder.extraction([*noticed, *outside], sources), builder.paths)
 
@@ -79,11 +94,11 @@ def scan_system(
 class _Builder:
     """Makes processes, and keeps what was scanned for them."""
 
-    def __init__(self, scan: Scan, root: Path) -> None:
+    def __init__(self, scan: Scan, root: Path, scans: dict[object, Extraction]) -> None:
         self._scan = scan
         self._root = root
         self._names: dict[str, int] = {}
-        self._scans: dict[object, Extraction] = {}
+        self._scans = scans
         self._kept: dict[int, Extraction] = {}
         self._paths: dict[Path, None] = {}
 
@@ -184,11 +199,17 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
         return Unknown(f'package {package} is not in sight', launched.source)
     found = started.packages.executable(package, name)
     if found is None:
-        why = f'executable {name} was not found among what package {package} installs'
-        return Unknown(why, launched.source)
+        return Unknown(_not_found(package, name, started), launched.source)
     if found.file is None:
         return Unknown(f'executable {name} of package {package} is no Python', launched.source)
     return found
+
+
+def _not_found(package: str, name: str, started: Launch) -> str:
+    """Why an executable is not in sight: nothing declares it, or that could not be read."""
+    why = f'executable {name} was not found among what package {package} installs'
+    unread = started.packages.unread(package)
+    return f'{why}, of which not all could be read: {unread[0]}' if unread else why
 
 
 def _of_command(launched: Launched, started: Launch) -> Executable | Unknown:
@@ -237,9 +258,10 @@ def _told(process: Process) -> Diagnostic:
     )
 
 
-def _unresolved(
+def unresolved_of(
     processes: Sequence[Process], noticed: Sequence[Diagnostic]
 ) -> Iterator[Unresolved]:
+    """What of processes and of the files that start them could not be found out."""
     for diagnostic in noticed:
         yield Unresolved(
             subject='launch', fact='action', reason=diagnostic.message, source=diagnostic.place

@@ -14,7 +14,7 @@ from ros2cc_extract.extract.launch.api import is_launch_file
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
-from ros2cc_extract.pipeline.system import Scanned, as_one, scan_system
+from ros2cc_extract.pipeline.system import Kept, Scanned, as_one, scan_system
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.system.joined_processes import circles_of
 from ros2cc_extract.spec.system.model import System
@@ -85,10 +85,12 @@ def scan_launch_files(
     lists_builtin: bool = False,
     files: Files = DISK,
     patience: Patience = PATIENT,
+    kept: Kept | None = None,
 ) -> Scanned:
     """
     Scan what launch files start.
 
+    :param kept: what other systems of the same workspace have left.
     :raises InputError: for a path that is no launch file.
     """
     for path in paths:
@@ -109,4 +111,4 @@ def scan_launch_files(
             patience=patience,
         )
 
-    return scan_system(paths, arguments, scan, files)
+    return scan_system(paths, arguments, scan, files, kept)

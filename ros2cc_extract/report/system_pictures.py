@@ -8,14 +8,13 @@ arrow from who sends or asks to who takes or answers. What a circle of waits goe
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.joined_processes import circles_in, service_waits
+from ros2cc_extract.report.shared.system_circles import in_circles
+from ros2cc_extract.report.shared.system_layout import FROM
 from ros2cc_extract.spec.system.model import Connection, Process, System
 
-_FROM = (EndpointKind.PUBLISHER, EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT)
 _SHAPES = {'topic': ('([', '])'), 'service': ('{{', '}}'), 'action': ('[[', ']]')}
 _DOT_SHAPES = {'topic': 'ellipse', 'service': 'hexagon', 'action': 'box3d'}
 _RED = '#c62828'
@@ -38,17 +37,11 @@ class _Picture:
             for number, _ in enumerate(process.nodes):
                 self.nodes[process.name, number] = f'n{len(self.nodes)}'
         self.connections = [(f'c{n}', each) for n, each in enumerate(system.connections)]
-        self._red = {
-            (wait.what, wait.name)
-            for circle in circles_in(system)
-            for process in circle
-            for wait in service_waits(process)
-            if isinstance(wait.name, str) and _is_offered_by(wait.what, wait.name, circle, system)
-        }
+        self._red = in_circles(system)
 
-    def is_red(self, connection: Connection) -> bool:
-        """Whether a circle of waits goes through it."""
-        return (connection.what, connection.name) in self._red
+    def is_red(self, connection: Connection, process: Process) -> bool:
+        """Whether a circle of waits goes from it to the process, or back."""
+        return process.name in self._red.get((connection.what, connection.name), ())
 
     def arrows(self) -> Iterator[_Arrow]:
         """Each once."""
@@ -57,21 +50,10 @@ class _Picture:
             for end in connection.ends:
                 number = next(n for n, each in enumerate(end.process.nodes) if each is end.node)
                 node = self.nodes[end.process.name, number]
-                is_from = end.endpoint.kind in _FROM
+                is_from = end.endpoint.kind in FROM
                 pair = (node, name) if is_from else (name, node)
-                found[_Arrow(*pair, self.is_red(connection))] = None
+                found[_Arrow(*pair, self.is_red(connection, end.process))] = None
         yield from found
-
-
-def _is_offered_by(what: str, name: str, circle: Collection[Process], system: System) -> bool:
-    kinds = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
-    return any(
-        end.process in circle
-        for each in system.connections
-        if (each.what, each.name) == (what, name)
-        for kind in kinds
-        for end in each.of_kind(kind)
-    )
 
 
 def mermaid(system: System) -> str:

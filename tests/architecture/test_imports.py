@@ -100,8 +100,10 @@ ALLOWED = {
         'extract',
         'spec',
     },
+    'extract.static.packaging': {'extract.static.program', 'extract.static.python'},
     'extract.static.scan': {
         'extract.static.program',
+        'extract.static.packaging',
         'extract.static.python',
         'extract.static.concurrency',
         'extract.static.libraries',
@@ -111,7 +113,12 @@ ALLOWED = {
     },
     'extract.live': {'spec', 'extract'},
     # Launch files are Python that the interpreter follows, with a table of their own.
-    'extract.launch': {'extract.static.program', 'extract.static.python', 'spec'},
+    'extract.launch': {
+        'extract.static.program',
+        'extract.static.packaging',
+        'extract.static.python',
+        'spec',
+    },
     'live': {'extract.live'},
 }
 STATIC = f'{PACKAGE}.extract.static'
@@ -128,6 +135,7 @@ DOORS = {
     'concurrency': ('',),
     'libraries': ('model', 'standard.', 'rclpy.'),
     'units': ('units', 'entity_aliases', 'whole_program.'),
+    'packaging': ('api', 'declarations'),
     'scan': ('scanning',),
 }
 """How the modules begin that others may import of a room of the scanner."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -111,4 +112,24 @@ def test_confirm_starts_no_system() -> None:
     assert main(['confirm', '--no-cache', str(RELAYS)], io.StringIO(), err) == 2
     assert 'a launch file is not started; name the Python file of one of its nodes' in (
         err.getvalue()
+    )
+
+
+def test_a_program_whose_entry_point_is_put_together_is_in_sight(tmp_path: Path) -> None:
+    """A process whose ``setup.py`` joins texts was outside."""
+    code = Path(__file__).parents[1] / 'scanner_cases' / 'd16_scripts_put_together'
+    home = tmp_path / 'arm'
+    shutil.copytree(code, home)
+    (home / 'launch').mkdir()
+    launch = home / 'launch' / 'a.launch.xml'
+    nodes = ('fast', 'node', 'other', 'more')
+    text = ''.join(f'<node pkg="arm" exec="arm_{name}"/>' for name in nodes)
+    launch.write_text(f'<launch>{text}</launch>')
+    *known, more = system_of(launch)['system']['processes']
+    entries = [each['entry'].removeprefix(f'{home}/') for each in known]
+    assert entries == ['arm/node.py:fast', 'arm/node.py:ros_main', 'arm/other.py:ros_main']
+    assert more['outside'] == (
+        'executable arm_more was not found among what package arm installs, of which not all '
+        'could be read: an entry point: an expression that could not be folded '
+        f'({home}/setup.py:15:13) ({launch}:1:109)'
     )

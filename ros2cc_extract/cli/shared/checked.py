@@ -27,5 +27,6 @@ def checked_of(outcome: Outcome, job: Job, *, with_verdicts: bool = False) -> Ch
         package=job.root.name,
         docs_url=job.config.docs_url,
         with_verdicts=with_verdicts,
+        system=outcome.system,
         more={shards.KEY: shards.shard_data(shard, outcome.answers)} if shard else {},
     )

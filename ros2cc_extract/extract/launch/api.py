@@ -12,7 +12,7 @@ from ros2cc_extract.extract.launch.language.actions import Action
 from ros2cc_extract.extract.launch.language.context import Context
 from ros2cc_extract.extract.launch.markup.files import XML, YAML, read_frontend
 from ros2cc_extract.extract.launch.python.files import read_python
-from ros2cc_extract.extract.launch.workspace.packages import Packages
+from ros2cc_extract.extract.launch.workspace.packages import Known, Packages
 from ros2cc_extract.files import Files
 from ros2cc_extract.spec.system.launched import Launched
 
@@ -50,14 +50,22 @@ def is_launch_file(path: Path, files: Files) -> bool:
     return any(mark in data for mark in _MARKS)
 
 
-def launch(path: Path, arguments: Mapping[str, str], *, root: Path, files: Files) -> Launch:
+def launch(
+    path: Path,
+    arguments: Mapping[str, str],
+    *,
+    root: Path,
+    files: Files,
+    known: Known | None = None,
+) -> Launch:
     """
     Follow a launch file.
 
     :param arguments: ``name:=value`` of the command line.
     :param root: places are shown relative to it.
+    :param known: packages that were found for other launch files.
     """
-    packages = Packages(files, path)
+    packages = Packages(files, path, lambda file: shown_path(file, root), known)
 
     def load(file: Path, context: Context) -> Sequence[Action]:
         if file.suffix in (XML, *YAML, '.launch'):

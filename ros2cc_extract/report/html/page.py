@@ -21,7 +21,8 @@ from ros2cc_extract.report.html.findings import (
 )
 from ros2cc_extract.report.html.parts import SEVERITY_WORDS, tag
 from ros2cc_extract.report.html.runs import Runs
-from ros2cc_extract.report.html.units import MOST_OPEN, index, unit_section
+from ros2cc_extract.report.html.system_picture import system_section, unit_key
+from ros2cc_extract.report.html.units import MOST_OPEN, anchor, index, unit_section
 from ros2cc_extract.report.html.verdicts import verdict_table
 from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.report.shared.finding_units import is_about
@@ -50,13 +51,21 @@ def html_report(checked: Checked) -> str:
     )
     body = (
         _header(findings, checked.summary),
+        _system(checked, rows),
         index(rows, own),
         cards,
         tag('section', sections, class_='units'),
         rules_section(findings),
         excerpts.section(),
     )
-    return _page(''.join(body), runs.data())
+    return page(''.join(body), runs.data())
+
+
+def _system(checked: Checked, rows: Sequence[Row]) -> str:
+    """The picture of what launch files start."""
+    if checked.system is None:
+        return ''
+    return system_section(checked.system, {unit_key(row.unit): anchor(row) for row in rows})
 
 
 def _about(row: Row, findings: Numbered, units: Sequence[Spec]) -> Numbered:
@@ -95,7 +104,8 @@ def _header(findings: Numbered, summary: Mapping[str, int]) -> str:
     )
 
 
-def _page(body: str, data: str) -> str:
+def page(body: str, data: str) -> str:
+    """The whole page around finished HTML."""
     return f"""\
 <!DOCTYPE html>
 <html lang="en">

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.promises import Judgement
 from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.verify.results.results import Verification
 
 
@@ -24,6 +25,7 @@ class Checked:
     :param package: name of the test suite.
     :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
     :param with_verdicts: people want to see the table of queries of each unit too.
+    :param system: what launch files among the paths start.
     :param more: what else the JSON holds, such as where a result comes from.
     """
 
@@ -38,4 +40,5 @@ class Checked:
     package: str = 'ros2cc'
     docs_url: str = ''
     with_verdicts: bool = False
+    system: System | None = None
     more: Mapping[str, object] = field(default_factory=dict)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from rich.console import Console
 
-from ros2cc_extract.compare.merge import Difference
+from ros2cc_extract.compare.merge import NOT_KNOWN, Difference, Kind
 from ros2cc_extract.report.text.style import table
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.text_escaping import printable
@@ -34,6 +34,30 @@ def print_differences(
     faults = sum(not difference.marked for difference in differences)
     noun = 'difference' if faults == 1 else 'differences'
     console.print(f'{faults} {noun}, {len(differences) - faults} announced')
+
+
+def difference_lines(differences: Sequence[Difference], names: tuple[str, str]) -> Iterator[str]:
+    """One line for each difference of two sides that are joined, those first that are faults."""
+    differences, names = printable(differences), printable(names)
+    for each in sorted(differences, key=lambda difference: difference.marked):
+        place = each.left_place or each.right_place
+        where = f'{place}: ' if place else ''
+        of_unit = '' if each.subject == each.unit else f'{each.unit}: '
+        about = 'note' if each.marked else 'warning'
+        yield f'{where}{about}: {of_unit}{_told(each, names)}'
+
+
+def _told(each: Difference, names: tuple[str, str]) -> str:
+    subject = f'{each.fact} {each.subject}' if each.subject == each.unit else each.subject
+    if each.kind in (Kind.ONLY_LEFT, Kind.ONLY_RIGHT):
+        here, there = names if each.kind is Kind.ONLY_LEFT else names[::-1]
+        return f'{subject} is in {here} and not in {there}'
+    if not each.right:
+        return f'{subject} is {each.left}'
+    other = f' ({each.right_place})' if each.right_place else ''
+    what = f'{each.left} in {names[0]}, {each.right} in {names[1]}{other}'
+    kept = 'the second is taken' if each.left == NOT_KNOWN else 'the first is kept'
+    return f'{each.fact} of {each.subject}: {what}; {kept}'
 
 
 def _side(value: str, place: Place | None) -> str:

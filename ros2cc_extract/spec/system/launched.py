@@ -10,6 +10,8 @@ from ros2cc_extract.spec.system.names import Remap
 Fact = str | Unknown
 """A text, or why it could not be told."""
 ANY_NODE = '/**'
+ENTRY, RECORDED, RUNNING = 'entry', 'recorded', 'running'
+"""Kinds of processes that no launch file starts."""
 TIMER, START_OF_PROCESS = 'timer', 'start of a process'
 _BESIDE = ('', TIMER, START_OF_PROCESS)
 
@@ -33,7 +35,8 @@ class Launched:
     """
     One process, or one node that a container loads.
 
-    :param kind: ``node``, ``lifecycle``, ``process``, ``container``, ``composable``.
+    :param kind: ``node``, ``lifecycle``, ``process``, ``container``, ``composable``; ``ENTRY`` of
+        code, ``RECORDED`` of a recording, ``RUNNING`` of the graph.
     :param package: ``None`` for what is started by its file.
     :param name: that the launch gives to every node of the process; ``None`` where the code does.
     :param namespace: likewise.

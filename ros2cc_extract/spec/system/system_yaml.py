@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from importlib.resources import files
 from typing import Any
@@ -19,7 +19,12 @@ _COMMENT = '# System specification of ros2cc-extract, see docs/system.md.\n'
 
 def write_system(system: System) -> str:
     """The system as YAML."""
-    return _COMMENT + written([system_data(system)])
+    return write_systems([system])
+
+
+def write_systems(systems: Iterable[System]) -> str:
+    """One YAML document for each."""
+    return _COMMENT + written([system_data(system) for system in systems])
 
 
 def system_schema() -> str:

@@ -8,6 +8,7 @@ import pytest
 
 from ros2cc_extract.extract.launch.workspace.packages import Executable, Packages
 from ros2cc_extract.files import DISK
+from ros2cc_extract.source_locations import Place, Unknown
 from tests.unit.launch.following import package
 
 
@@ -18,7 +19,16 @@ def packages(home: Path) -> Packages:
 @pytest.mark.parametrize(
     ('file', 'text'),
     [
-        ('setup.py', "setup(entry_points={'console_scripts': ['talk = robot.talker:main']})"),
+        (
+            'setup.py',
+            'from setuptools import setup\n'
+            "setup(entry_points={'console_scripts': ['talk = robot.talker:main']})",
+        ),
+        (
+            'setup.py',
+            "from setuptools import setup\np = 'robot'\n"
+            "setup(entry_points={'console_scripts': ['talk = ' + p + '.talker:main']})",
+        ),
         ('setup.cfg', '[options.entry_points]\nconsole_scripts =\n    talk = robot.talker:main\n'),
         ('pyproject.toml', '[project.scripts]\ntalk = "robot.talker:main"\n'),
     ],
@@ -68,3 +78,15 @@ def test_an_installed_package_has_its_programs_in_lib(tmp_path: Path) -> None:
     program.parent.mkdir(parents=True)
     program.write_text('#!/usr/bin/python3\n')
     assert packages(home).executable('robot', 'talk') == Executable(program)
+
+
+def test_what_of_a_setup_file_is_not_known_is_told(tmp_path: Path) -> None:
+    home = package(tmp_path)
+    (home / 'setup.py').write_text(
+        'from setuptools import setup\nimport mine\n'
+        "setup(entry_points={'console_scripts': mine.scripts})"
+    )
+    place = Place(str(home / 'setup.py'), 3, 1)
+    why = 'console scripts: mine.scripts is not followed'
+    assert packages(home).unread('robot') == (Unknown(why, place),)
+    assert packages(home).unread('elsewhere') == ()

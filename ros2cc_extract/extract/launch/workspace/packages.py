@@ -8,22 +8,23 @@ is installed to ``lib/PACKAGE`` is an executable of the package); setuptools (``
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.extract.launch.workspace.cmake import installed_programs, targets_of
-from ros2cc_extract.extract.static.program.entry_points import script_files
+from ros2cc_extract.extract.static.packaging.api import declarations
+from ros2cc_extract.extract.static.packaging.declarations import Declarations
 from ros2cc_extract.files import Files
+from ros2cc_extract.source_locations import Unknown
 
 _MANIFEST = 'package.xml'
 _NAME = re.compile(r'<name>\s*([\w.\-]+)\s*</name>')
-_SCRIPT = re.compile(r'["\']?\s*([\w.\-]+)\s*=\s*["\']?([\w.]+):([\w.]+)')
-_TEXTS = re.compile(r'["\']([^"\'\n]+)["\']')
 _SKIPPED = frozenset({'build', 'log', 'node_modules', 'venv', '__pycache__'})
 _LEVELS, _DEPTH = 6, 6
 _MOST_FOLDERS = 20_000
 MOST_BYTES = 1_000_000
+Known = dict[Path, dict[str, Path]]
 
 
 @dataclass(frozen=True)
@@ -44,12 +45,25 @@ class Packages:
     The packages around a launch file.
 
     :param start: the launch file.
+    :param shown: how a path is shown to the user.
+    :param known: packages by the folder below which they were looked for, which this adds to.
     """
 
-    def __init__(self, files: Files, start: Path) -> None:
+    def __init__(
+        self,
+        files: Files,
+        start: Path,
+        shown: Callable[[Path], str] = lambda path: str(path),
+        known: Known | None = None,
+    ) -> None:
         self._files = files
+        self._shown = shown
+        self._declared: dict[Path, Declarations] = {}
         own, root = _root(files, start.absolute().parent)
-        self._found = dict(self._search(root))
+        known = {} if known is None else known
+        if root not in known:
+            known[root] = dict(self._search(root))
+        self._found = dict(known[root])
         if own is not None:
             self._found[self._name_of(own)] = own
 
@@ -97,15 +111,22 @@ class Packages:
         match = _NAME.search(self.text(folder / _MANIFEST))
         return match.group(1) if match else folder.name
 
+    def declared(self, folder: Path) -> Declarations:
+        """What the package in ``folder`` says that it installs; read once."""
+        if folder not in self._declared:
+            self._declared[folder] = declarations(self._files, [folder], self._shown)
+        return self._declared[folder]
+
+    def unread(self, package: str) -> tuple[Unknown, ...]:
+        """Why a package may install more programs than are in sight."""
+        folder = self._found.get(package)
+        return () if folder is None else self.declared(folder).unread
+
     def _console_script(self, folder: Path, name: str) -> Executable | None:
-        for path, data in script_files(self._files, [folder]):
-            text = data.decode(errors='replace')
-            lines = _TEXTS.findall(text) if path.suffix == '.py' else text.splitlines()
-            for match in filter(None, map(_SCRIPT.match, lines)):
-                if match.group(1) == name:
-                    file = self._module(folder, match.group(2))
-                    if file is not None:
-                        return Executable(file, match.group(3))
+        for script in self.declared(folder).scripts:
+            file = self._module(folder, script.module) if script.name == name else None
+            if file is not None:
+                return Executable(file, script.function)
         return None
 
     def _module(self, folder: Path, name: str) -> Path | None:
@@ -118,11 +139,9 @@ class Packages:
 
     def _script(self, folder: Path, name: str) -> Executable | None:
         """``scripts`` and ``data_files`` of ``setup.py``: files by their names."""
-        for path, data in script_files(self._files, [folder]):
-            if path.suffix == '.py':
-                for text in _TEXTS.findall(data.decode(errors='replace')):
-                    if text.rpartition('/')[2] == name and self._files.is_file(folder / text):
-                        return self._as_python(folder / text)
+        for program in self.declared(folder).programs:
+            if program.name == name and self._files.is_file(folder / program.path):
+                return self._as_python(folder / program.path)
         return None
 
     def _program(self, folder: Path, name: str) -> Executable | None:

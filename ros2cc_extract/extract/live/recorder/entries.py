@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .frames import Creation, FunctionName, RawPlace, class_name, name_function
+from .interfaces import PublisherRecord, qos_of, type_of
 from .timings import Timings
 
 _KINDS = {
@@ -86,6 +87,8 @@ class NodeRecord:
         self.stays: list[Stay] = []
         # Functions that services of rclpy call: kind, function, number of the group.
         self.called: list[tuple[str, FunctionName, int]] = []
+        # By what is the same for the same publisher, whether it still exists or not.
+        self.publishers: dict[str, PublisherRecord] = {}
 
     def enter(self, executor: int) -> bool:
         """Note that the node is in an executor now; whether it has never been there before."""
@@ -211,6 +214,8 @@ class EntityRecord:
         self.cls = class_name(entity)
         self.key: str | None = None
         self.resolved_key: str | None = None
+        self.type: str | None = None
+        self.qos: dict[str, Any] | None = None
         self.period_ns: int | None = None
         self.function: FunctionName | None = None
         # What an action server runs as a task, in no group.
@@ -286,9 +291,24 @@ def fill_node(record: NodeRecord, node: Any) -> None:
             return
 
 
+def note_publishers(record: NodeRecord, node: Any) -> bool:
+    """Note the publishers of a node; whether one is new."""
+    found = {}
+    for publisher in list(getattr(node, 'publishers', ())):
+        try:
+            each = PublisherRecord(publisher)
+        except Exception:  # a destroyed one raises InvalidHandle, which cannot be imported here
+            continue
+        found[f'{each.resolved_key or each.key} {each.type}'] = each
+    new = {key: each for key, each in found.items() if key not in record.publishers}
+    record.publishers.update(new)
+    return bool(new)
+
+
 def fill_entity(record: EntityRecord, entity: Any) -> None:
     creation = record.creation or Creation()
     _fill_key(record, entity, creation)
+    record.type, record.qos = type_of(entity), qos_of(entity)
     record.function = _function_of(entity) or name_function(creation.callback)
     given = creation.execute_callback or getattr(entity, '_execute_callback', None)
     record.execute = name_function(given)

@@ -27,6 +27,7 @@ from .entries import (
     fill_entity,
     fill_node,
     has_waited,
+    note_publishers,
     thread_count,
 )
 from .events import BEGIN, END, SIZE, Fields, unpack
@@ -309,6 +310,8 @@ class Recorder:
                     fill_entity(known, entity)
                 present.add(known.number)
         self._note_called(owner, node)
+        if note_publishers(owner, node):
+            self.changes += 1
         self._note_destroyed(owner, present)
 
     def _note_called(self, owner: NodeRecord, node: Any) -> None:

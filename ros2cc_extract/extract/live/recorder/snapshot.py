@@ -115,6 +115,7 @@ def _node(record: NodeRecord) -> dict[str, Any]:
             {'kind': kind, 'function': _function(function), 'group': group}
             for kind, function, group in record.called
         ],
+        'publishers': [each.describe() for each in record.publishers.values()],
         'stays': [
             {
                 'executor': stay.executor,
@@ -148,6 +149,8 @@ def _entity(record: EntityRecord) -> dict[str, Any]:
         'group': record.group,
         'key': record.key,
         'resolved_key': record.resolved_key,
+        'type': record.type,
+        'qos': record.qos,
         'period_s': None if record.period_ns is None else record.period_ns / 1e9,
         'function': _function(record.function),
         'execute': _function(record.execute),

@@ -7,7 +7,7 @@ little old, because it is only ever replaced as a whole.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from ros2cc_extract.json_text import read_json
 from ros2cc_extract.plain_data import Packer
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Distribution, Measured
+from ros2cc_extract.spec.node_graph import Qos
 
 FORMAT = 'ros2cc live recording'
 VERSION = 1
@@ -67,12 +68,23 @@ class RecordedCalled:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RecordedPublisher:
+    key: str | None
+    resolved_key: str | None
+    type: str | None
+    qos: Qos | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class RecordedNode:
+    """A node; ``publishers`` is ``None`` in a recording of an earlier version."""
+
     number: int
     name: str | None
     namespace: str | None
     stays: tuple[Stay, ...]
     called: tuple[RecordedCalled, ...] = ()
+    publishers: tuple[RecordedPublisher, ...] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,6 +119,8 @@ class RecordedEntity:
     in_configure: bool
     created: Place | None
     measured: Measured
+    type: str | None = None
+    qos: Qos | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,6 +238,7 @@ class _Reader:
             namespace=row['namespace'],
             stays=stays,
             called=tuple(map(self._called, row.get('called', ()))),
+            publishers=_publishers(row.get('publishers')),
         )
 
     def _called(self, row: Mapping[str, Any]) -> RecordedCalled:
@@ -263,6 +278,8 @@ class _Reader:
             in_configure=row['in_configure'],
             created=self._place(row['created']),
             measured=_measured(row['measured']),
+            type=row.get('type'),
+            qos=_qos(row.get('qos')),
         )
 
     def _task(self, row: Mapping[str, Any]) -> RecordedTask:
@@ -293,6 +310,24 @@ class _Reader:
         except ValueError:
             shown = file
         return Place(shown, line, column)
+
+
+def _publishers(rows: Sequence[Mapping[str, Any]] | None) -> tuple[RecordedPublisher, ...] | None:
+    if rows is None:
+        return None
+    return tuple(
+        RecordedPublisher(
+            key=row['key'],
+            resolved_key=row['resolved_key'],
+            type=row['type'],
+            qos=_qos(row['qos']),
+        )
+        for row in rows
+    )
+
+
+def _qos(row: Mapping[str, Any] | None) -> Qos | None:
+    return None if row is None else Qos(**row)
 
 
 def _measured(row: Mapping[str, Any]) -> Measured:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import contextlib
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +13,6 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Place
 
-_SCRIPT = re.compile(r'^\s*["\']?[\w.\-]+["\']?\s*=\s*["\']?([\w.]+):([\w.]+)')
 _SCRIPT_FILES = ('setup.py', 'setup.cfg', 'pyproject.toml')
 _SPINS = frozenset({'spin', 'spin_once', 'spin_until_future_complete'})
 
@@ -135,19 +133,3 @@ def script_files(files: Files, folders: Iterable[Path]) -> Iterator[tuple[Path, 
             if files.is_file(path):
                 with contextlib.suppress(OSError):
                     yield path, files.read(path, SIZE_LIMIT_BYTES)
-
-
-def console_scripts(files: Files, folders: set[Path]) -> frozenset[tuple[str, str]]:
-    """Module and function of every script that ``setup.py`` and the like declare."""
-    return frozenset(
-        script
-        for path, data in script_files(files, folders)
-        for script in _scripts_in(path, data.decode(errors='replace'))
-    )
-
-
-def _scripts_in(path: Path, text: str) -> set[tuple[str, str]]:
-    pieces = re.findall(r'["\']([^"\'\n]+)["\']', text) if path.suffix == '.py' else []
-    lines = pieces or text.splitlines()
-    matches = (_SCRIPT.match(line) for line in lines)
-    return {(match.group(1), match.group(2)) for match in matches if match}

@@ -207,6 +207,10 @@ class Project:
         shown = self._shown(path, Path(os.path.abspath(path)))  # noqa: PTH100
         self.barred.append(unreadable_folder(error, shown))
 
+    def shown(self, path: Path) -> str:
+        """A path as it is shown to the user."""
+        return self._shown(path, Path(os.path.abspath(path)))  # noqa: PTH100
+
     def _shown(self, path: Path, full: Path) -> str:
         is_below = full.is_relative_to(self._root)
         return shown_name((full.relative_to(self._root) if is_below else path).as_posix())

@@ -18,7 +18,8 @@ from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
-from ros2cc_extract.extract.static.program.entry_points import console_scripts, entries_of
+from ros2cc_extract.extract.static.packaging.api import declarations, told
+from ros2cc_extract.extract.static.program.entry_points import entries_of
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.relevance import replaces_rclpy
 from ros2cc_extract.extract.static.program.relevant_files import scanned_files
@@ -138,7 +139,9 @@ class _Worker:
     def __init__(self, project: Project, files: Sequence[SourceFile]) -> None:
         self._project = project
         self._files = files
-        self._scripts = console_scripts(project.disk, project.script_folders())
+        installed = declarations(project.disk, project.script_folders(), project.shown)
+        self._scripts = frozenset((each.module, each.function) for each in installed.scripts)
+        self.unread_programs = told(installed.unread)
 
     def answer(self, piece: Piece) -> Answer:
         """Follow a piece."""
@@ -240,6 +243,7 @@ class _Scan:
         noticed = [d for pair in every for found in pair for d in found.noticed]
         cut = [found.cut or other.cut for found, other in every]
         noticed.extend(self._told_as_cut(cut))
+        noticed.extend(self._worker.unread_programs)
         unread = (*self._project.barred, *(d for each in read for d in each.unread))
         extraction = Extraction(
             units=each_once([unit for pair in every for found in pair for unit in found.units]),

@@ -91,6 +91,8 @@ def _power(left: Any, right: Any) -> Const | None:
 
 
 def _percent(template: str, right: Value) -> Const | None:
+    if isinstance(right, Mapping):
+        return _percent_of_names(template, right)
     items = right.items if isinstance(right, Sequence) and right.kind == 'tuple' else (right,)
     if not all(isinstance(item, Const) for item in items) or '*' in template:
         return None
@@ -98,6 +100,16 @@ def _percent(template: str, right: Value) -> Const | None:
         return None
     values = tuple(item.value for item in items if isinstance(item, Const))
     return _guarded(lambda: template % values) if len(template) < _TEXT_LIMIT else None
+
+
+def _percent_of_names(template: str, right: Mapping) -> Const | None:
+    entries = right.entries.items()
+    values = {
+        k.value: v.value for k, v in entries if isinstance(k, Const) and isinstance(v, Const)
+    }
+    if len(values) < len(right.entries) or right.rest is not None or is_wide(template):
+        return None
+    return _guarded(lambda: template % values) if '*' not in template else None
 
 
 def is_wide(template: str) -> bool:
