@@ -117,6 +117,26 @@ def test_locks_that_wait_for_each_other_are_a_deadlock(rclpy_python: str) -> Non
     assert (verdict, both) == ('deadlock', {('move', 'CC111'), ('stop', 'CC111')})
 
 
+def test_lock_of_a_statement_with_two_is_named(rclpy_python: str) -> None:
+    """Until Python 3.11 both stand at the same place."""
+    nested = 'with self.plan:\n            time.sleep(0.3)\n            with self.motor:'
+    one = 'with self.plan, self.slow(), self.motor:'
+    slow = """    @contextlib.contextmanager
+    def slow(self):
+        time.sleep(0.3)
+        yield
+
+    def move"""
+    text = LOCKS.replace(nested, one).replace('    def move', slow)
+    text = 'import contextlib\n' + text.replace('                pass', '            pass', 1)
+    with program(rclpy_python, text, Path('locks.py')) as process:
+        explanation = judged(explain_process(process.pid))
+    verdict, stand = told(explanation)
+    assert explanation.proof == 'proven by the model'
+    both = {(function, code) for function, _, code in stand}
+    assert (verdict, both) == ('deadlock', {('move', 'CC111'), ('stop', 'CC111')})
+
+
 def test_locks_in_one_order_are_none(rclpy_python: str) -> None:
     with program(rclpy_python, SAME_ORDER, Path('locks.py')) as process:
         assert told(explain_process(process.pid))[1] == []

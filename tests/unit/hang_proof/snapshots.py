@@ -63,6 +63,7 @@ def stands(
         line=1,
         at=1,
         position=None,
+        item=None,
         objects={},
         endless=True,
         entity=of,

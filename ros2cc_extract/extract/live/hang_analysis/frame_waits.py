@@ -138,10 +138,7 @@ def _asked(frame: Frame) -> Iterator[tuple[ast.expr, ast.Call | None]]:
     """What is entered by ``with``, or called by a method, where the frame stands."""
     for node in ast.walk(_tree(frame.file)):
         if isinstance(node, (ast.With, ast.AsyncWith)):
-            for item in node.items:
-                # The place is that of the item, or of the whole statement (Python 3.11).
-                if _is_at(item.context_expr, frame) or _is_at(node, frame):
-                    yield item.context_expr, None
+            yield from ((item.context_expr, None) for item in _entering(node, frame))
         elif isinstance(node, ast.Call) and _is_at(node, frame):
             if isinstance(node.func, ast.Attribute) and node.func.attr in ('acquire', 'sleep'):
                 yield node.func.value, node
@@ -183,10 +180,15 @@ def _is_around(node: ast.With, frame: Frame) -> bool:
 def _entered(node: ast.With, frame: Frame) -> list[ast.withitem]:
     if frame.line >= node.body[0].lineno and frame.line > node.items[-1].context_expr.lineno:
         return node.items
-    for index, item in enumerate(node.items):
-        if frame.position is not None and _is_at(item.context_expr, frame):
-            return node.items[:index]
-    return []
+    entering = _entering(node, frame)
+    return node.items[: node.items.index(entering[0])] if len(entering) == 1 else []
+
+
+def _entering(node: ast.With | ast.AsyncWith, frame: Frame) -> list[ast.withitem]:
+    """The item of which the frame stands at the beginning; several where it is not known."""
+    whole = _is_at(node, frame)  # all items have the place of the statement in Python 3.11
+    here = [item for item in node.items if whole or _is_at(item.context_expr, frame)]
+    return here if frame.item is None else here[frame.item : frame.item + 1]
 
 
 @functools.cache

@@ -9,7 +9,9 @@ only. It changes nothing; what the looks mean is decided outside. Sources: rclpy
 from __future__ import annotations
 
 import contextlib
+import dis
 import gc
+import itertools
 import json
 import os
 import sys
@@ -23,6 +25,7 @@ APART_S = 0.2
 PATIENCE_S = 10.0
 FIRST_SUFFIX = '.first'
 MOST_FRAMES = 60
+_ENTERS = ('BEFORE_WITH', 'BEFORE_ASYNC_WITH', 'SETUP_WITH', 'SETUP_ASYNC_WITH')
 _KINDS = ('timers', 'subscriptions', 'services', 'clients', 'guards', 'waitables')
 # Of an action client: the futures of requests that are not answered (``action/client.py``).
 _GOALS = ('_pending_goal_requests', '_pending_cancel_requests', '_pending_result_requests')
@@ -136,6 +139,7 @@ def _frame(frame: FrameType, objects: dict[int, dict[str, Any]]) -> dict[str, An
         'line': frame.f_lineno,
         'at': frame.f_lasti,
         'position': _position(frame),
+        'item': _item(frame),
         'objects': {
             name: _object(value, objects) for name, value in values.items() if _of_interest(value)
         },
@@ -169,6 +173,32 @@ def _position(frame: FrameType) -> list[int] | None:
         if index == frame.f_lasti // 2:
             return None if None in found else list(found)
     return None
+
+
+def _item(frame: FrameType) -> int | None:
+    """
+    Which item of its `with` a frame is entering, where positions do not tell.
+
+    Until Python 3.11 all items of a statement have the place of the statement, or only its line.
+    """
+    if sys.version_info >= (3, 12) or frame.f_lasti < 0:
+        return None
+    steps = frame.f_code.co_code
+    # Most frames stand elsewhere, and are not worth more.
+    if dis.opname[steps[frame.f_lasti]] not in _ENTERS:
+        return None
+    before = (at for at in range(0, frame.f_lasti, 2) if dis.opname[steps[at]] in _ENTERS)
+    here = _place_of(frame, frame.f_lasti)
+    return sum(_place_of(frame, at) == here for at in before)
+
+
+def _place_of(frame: FrameType, offset: int) -> object:
+    """The position of an instruction, or its line."""
+    positions = getattr(frame.f_code, 'co_positions', None)
+    if positions is not None:
+        return next(itertools.islice(positions(), offset // 2, None), None)
+    lines = frame.f_code.co_lines()
+    return next((line for start, end, line in lines if start <= offset < end), None)
 
 
 def _of_interest(value: Any) -> bool:

@@ -20,6 +20,7 @@ class Frame:
     One call of a stack.
 
     :param called: the function with its class where Python tells it, as ``Navigator.drive``.
+    :param item: which item of its `with` it is entering, of those that stand at its place.
     :param objects: locks, events, clients … that the frame names, by name, as object numbers.
     :param endless: no time-out was given, as far as the frame tells.
     :param entity: whose callback it runs, for the one frame of rclpy that does.
@@ -33,6 +34,7 @@ class Frame:
     line: int
     at: int
     position: tuple[int, ...] | None
+    item: int | None
     objects: Mapping[str, int]
     endless: bool
     entity: int | None
@@ -223,6 +225,7 @@ def _frame(row: Mapping[str, Any]) -> Frame:
         line=int(row['line'] or 0),
         at=int(row['at']),
         position=tuple(map(int, row['position'])) if row['position'] else None,
+        item=None if row['item'] is None else int(row['item']),
         objects={str(name): int(number) for name, number in row['objects'].items()},
         endless=bool(row['endless']),
         entity=row['entity'],
