@@ -164,6 +164,8 @@ def _run_again(machine: RosInterpreter, entity: EntityState) -> None:
 def _run_callbacks_of(
     machine: RosInterpreter, entity: EntityState, *, again: bool = False
 ) -> EffectLog:
+    if entity.is_set_up and entity.effects is not None:
+        return entity.effects
     entity.effects = EffectLog()
     machine.world.met = machine.world.met_by[id(entity)] = {}
     functions = _functions(entity)

@@ -23,6 +23,7 @@ from ros2cc_extract.findings.waits.one_shot_timers import (
 )
 from ros2cc_extract.findings.waits.overlap import interleaves, is_quick, overlaps_itself
 from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
+from ros2cc_extract.findings.waits.remedies import LOCK_OF_LOOP, is_on_loop
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
@@ -125,7 +126,7 @@ def _hit(race: SelfRace, context: Context) -> Hit:
         place=race.use.place,
         message=f'{callback.display_name} may overlap itself {when}, and '
         + what.format(name=name),
-        help=_help(race),
+        help=LOCK_OF_LOOP if is_on_loop(context.unit.executor) else _help(race),
         severity=Severity.NOTE if is_less or is_quick(callback, context) else None,
         subjects=(callback.name, name),
         related=tuple(made_at(callback, context.group_of(callback))),

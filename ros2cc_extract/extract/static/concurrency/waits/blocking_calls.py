@@ -61,7 +61,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import TURN, Blocking, Needs
+from ros2cc_extract.spec.effects import AWAIT, TURN, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -84,6 +84,8 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """A call that can hold its thread."""
         world, effects = self.world, self.world.effects
+        if seconds in (None, NONE) and name.startswith(AWAIT):
+            seconds = world.limit
         row: WaitRow = self.model.waits.get(name, NO_ROW)
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
@@ -91,6 +93,8 @@ class Waits(ConcurrentMachine):
         if effects is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
+        elif world.is_set_up_on_loop:
+            outside_waits.note_cancelled(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if effects is None:
             values_during_waits.note_met(world, thing)

@@ -103,6 +103,9 @@ class Doer:
         """Whether it takes answers that somebody else must give."""
         return False
 
+    is_set_up: bool = False
+    """Whether it is what the set-up does beside the callbacks."""
+
     @property
     def is_on_loop(self) -> bool:
         """Whether a loop of asyncio runs it, and no thread is held by what it awaits."""
