@@ -30,5 +30,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
+# observed: hangs
 # warned of: nothing
+# broken: nothing
+# undecided: every wait ends, no starvation

@@ -40,5 +40,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: loses
+# warned of: CC109, CC123
+# broken: no deadlock, every wait ends
+# undecided: nothing

@@ -39,5 +39,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: loses
+# warned of: CC304
+# broken: no data race
+# undecided: nothing

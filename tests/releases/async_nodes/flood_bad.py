@@ -40,5 +40,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC207
+# broken: no starvation
+# undecided: nothing

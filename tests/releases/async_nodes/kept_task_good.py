@@ -38,5 +38,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
+# observed: goes on
 # warned of: nothing
+# broken: nothing
+# undecided: nothing

@@ -40,5 +40,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: loses
+# warned of: CC301
+# broken: no data race
+# undecided: nothing

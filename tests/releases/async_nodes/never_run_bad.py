@@ -24,5 +24,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC405
+# broken: no starvation, settings have an effect
+# undecided: no deadlock, every wait ends, no data race

@@ -29,5 +29,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC109
+# broken: no deadlock, every wait ends
+# undecided: nothing

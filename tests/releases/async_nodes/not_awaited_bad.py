@@ -38,5 +38,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: loses
+# warned of: CC123
+# broken: nothing
+# undecided: nothing

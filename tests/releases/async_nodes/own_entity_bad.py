@@ -36,3 +36,5 @@ asyncio.run(main())
 
 # observed: hangs
 # warned of: nothing
+# broken: nothing
+# undecided: no deadlock, every wait ends, no starvation

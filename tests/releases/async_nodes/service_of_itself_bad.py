@@ -35,5 +35,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC104
+# broken: no deadlock, every wait ends, no starvation
+# undecided: nothing

@@ -35,5 +35,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: late
+# warned of: CC201
+# broken: no starvation
+# undecided: nothing

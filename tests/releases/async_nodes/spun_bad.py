@@ -19,5 +19,7 @@ rclpy.init()
 print('asks', flush=True)
 rclpy.spin(Robot('robot'))
 
-# observed: 
-# warned of: nothing
+# observed: raises
+# warned of: CC405
+# broken: no starvation, settings have an effect
+# undecided: nothing

@@ -33,5 +33,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC119
+# broken: no data race
+# undecided: nothing

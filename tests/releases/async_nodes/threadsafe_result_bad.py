@@ -31,5 +31,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
-# warned of: nothing
+# observed: hangs
+# warned of: CC102
+# broken: no deadlock, every wait ends, no starvation
+# undecided: nothing

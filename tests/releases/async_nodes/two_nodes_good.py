@@ -36,5 +36,7 @@ async def main():
 
 asyncio.run(main())
 
-# observed: 
+# observed: goes on
 # warned of: nothing
+# broken: nothing
+# undecided: nothing

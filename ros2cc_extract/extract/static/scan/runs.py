@@ -44,6 +44,9 @@ from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
+from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
+    note_endless_readers,
+)
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
 from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
 from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
@@ -86,6 +89,7 @@ def run_entry(project: Project, entry: Entry) -> RosInterpreter:
     note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
+    note_endless_readers(machine.world)
     return machine
 
 

@@ -38,6 +38,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         'other member of the group runs again',
         f'give {shut_out.display_name} a callback group of its own or a reentrant one',
     )
+    made = () if is_on_loop(context.unit.executor) else (group,)
     if is_on_loop(context.unit.executor):
         message = (
             f'{caller} awaits {waits_for(wait)}, which only its own next run gives, and its runs '
@@ -51,7 +52,7 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
         severity=Severity.WARNING if is_open else None,
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, shut_out, group)),
+        related=tuple(made_at(*dict.fromkeys((wait.caller, shut_out, *made)))),
         run=run_in_which_one_hangs([wait], context),
     )
 

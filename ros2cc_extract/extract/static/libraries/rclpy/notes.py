@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
-from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations
+from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations, lost_tasks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
     CLOCKS,
@@ -31,7 +31,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     make_node,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import add_task, note_its_end
-from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import IN_TASK
+from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import (
+    IN_TASK,
+    STARTED,
+    coroutine_of,
+)
 from ros2cc_extract.extract.static.libraries.standard.context_exits import StandardBlocks
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
@@ -40,6 +44,7 @@ from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOO
 from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.objects.library_calls import is_standard
 from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
     Call,
     Class,
     Const,
@@ -182,11 +187,18 @@ class RosNotes(StandardBlocks, RosMachine):
         beside = inside.get(IN_TASK)
         if isinstance(beside, Native):
             self.call(beside, Call(place))
-            return self.future(place, 'task of a loop')
+            # As long as the program is meant to run, it is awaited.
+            task = coroutine_of('task', lambda machine, receiver, call: NONE, Call(place))
+            task.slots[STARTED] = NONE
+            return task
         add_task(self, node, inside.get(AWAITED, coroutine), place)
         task = self.future(place, OF_LOOP if loop is None else OF_POOL)
         note_its_end(self, task, place)
         return task
+
+    def note_discarded(self, value: Value, place: Place) -> None:
+        """A coroutine or a task may be lost."""
+        lost_tasks.note_discarded(self.world, value, place)
 
     def note_raised(self, error: ast.expr, place: Place) -> None:
         """What a callback raises may end the spin that runs it."""

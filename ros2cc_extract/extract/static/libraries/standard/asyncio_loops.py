@@ -46,6 +46,8 @@ _ASKED = -1
 
 IN_TASK = '__in_task__'
 """Slot of a coroutine of a library that others run beside: what it does as a task."""
+STARTED = '__started__'
+"""Slot of a task that is no future of its own."""
 LOOSE = '__loose__'
 """Slot of a task that nobody keeps but who has made it."""
 
