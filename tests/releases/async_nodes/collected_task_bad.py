@@ -18,7 +18,7 @@ class Robot(AsyncNode):
 
     async def ask(self):
         print('asks', flush=True)
-        asyncio.create_task(self.work())
+        asyncio.create_task(self.work())  # noqa: RUF006
 
     def collect(self):
         left = [task for task in asyncio.all_tasks() if task.get_coro().__name__ == 'work']

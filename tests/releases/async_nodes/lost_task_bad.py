@@ -16,7 +16,7 @@ class Robot(AsyncNode):
 
     async def ask(self):
         print('asks', flush=True)
-        asyncio.create_task(self.work())
+        asyncio.create_task(self.work())  # noqa: RUF006
         print('loses', flush=True)
 
     async def finished(self):

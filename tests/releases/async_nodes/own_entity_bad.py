@@ -35,6 +35,6 @@ async def main():
 asyncio.run(main())
 
 # observed: hangs
-# warned of: nothing
-# broken: nothing
-# undecided: no deadlock, every wait ends, no starvation
+# warned of: CC109
+# broken: no deadlock, every wait ends
+# undecided: nothing

@@ -1,7 +1,5 @@
 """A node of asyncio is spun by an executor."""
 
-import asyncio
-
 import rclpy
 from rclpy.experimental.async_node import AsyncNode
 

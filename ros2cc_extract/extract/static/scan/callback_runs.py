@@ -175,6 +175,14 @@ def _run_callbacks_of(
     return entity.effects
 
 
+def run_once_more(machine: RosInterpreter, entity: EntityState) -> EffectLog:
+    """What a callback does when it is followed from what is stored now."""
+    log = EffectLog()
+    for callback in _functions(entity):
+        _run_callback(machine, entity, callback, log, again=True)
+    return log
+
+
 def _run_callback(
     machine: RosInterpreter,
     entity: EntityState,

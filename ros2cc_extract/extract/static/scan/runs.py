@@ -39,6 +39,7 @@ from ros2cc_extract.extract.static.scan.callback_runs import (
     is_closing,
     run_callbacks,
 )
+from ros2cc_extract.extract.static.scan.first_runs import follow_first_runs, stored_by_set_up
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
@@ -78,9 +79,11 @@ def run_entry(project: Project, entry: Entry) -> RosInterpreter:
         run_exit_hooks(machine)
 
     guarded(machine, follow, place, entry.source.tree)
+    stored = stored_by_set_up(machine.world)
     _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
+    follow_first_runs(machine, stored)
     take_back(machine.world)
     note_kept_locks(machine.world)
     note_unanswered(machine.world)

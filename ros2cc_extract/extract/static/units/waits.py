@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     uncalled_wakers,
 )
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
@@ -250,6 +250,11 @@ class UnitWaits(DataWriters):
         elif row.ended_by and escapes is None:
             unknown = Unknown('what is waited for is not known', raw.source)
             escapes = raw.on if isinstance(raw.on, Unknown) else unknown
+        if isinstance(doer, EntityState) and way_of(raw) in doer.surely_waits:
+            # The others of its branches are those of later runs, which never begin.
+            behind = self._kept[id(doer)].places.get(way_of(raw), 0)
+            wakers = [replace(waker, after=max(waker.after or 0, behind)) for waker in wakers]
+            named = replace(named, conditional=False)
         if escapes is None and not _ends_by_itself(wakers) and not named.initial:
             named = replace(named, unsent=self._unsent(raw, doer))
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)

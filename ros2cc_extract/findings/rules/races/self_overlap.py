@@ -22,8 +22,8 @@ from ros2cc_extract.findings.waits.one_shot_timers import (
     may_cancel_too_late,
 )
 from ros2cc_extract.findings.waits.overlap import interleaves, is_quick, overlaps_itself
-from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.waits.remedies import LOCK_OF_LOOP, is_on_loop
+from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act

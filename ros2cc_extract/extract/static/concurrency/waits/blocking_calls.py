@@ -295,6 +295,8 @@ class Waits(ConcurrentMachine):
             activity.wakes.append((thing, word, place))  # it may be followed once more
             return
         for option in options_of(thing):
+            if world.effects is not None:
+                world.effects.woken.setdefault(id(option), len(world.effects.blocking))
             wakings = world.wakings.setdefault(id(option), [])
             waking = self._waking(option, word, place, is_sign=is_sign)
             if not any(_is_same_waking(waking, other) for other in wakings):

@@ -18,7 +18,10 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
-from ros2cc_extract.extract.static.libraries.rclpy.tables.async_nodes import loop_node, node_of_loop
+from ros2cc_extract.extract.static.libraries.rclpy.tables.async_nodes import (
+    loop_node,
+    node_of_loop,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     UNKNOWN_CLIENT,
     result_of,

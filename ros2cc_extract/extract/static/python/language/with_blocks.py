@@ -20,7 +20,6 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.source_locations import Place
 
-
 _PLAIN, _ASYNC = ('__enter__', '__exit__'), ('__aenter__', '__aexit__')
 
 

@@ -34,7 +34,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP
+from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 Doer = EntityState | ActivityState
@@ -56,9 +56,7 @@ _DOES = {
 }
 
 
-def why_in_another_run(
-    wait: Blocking, wakings: Sequence[Waking], doer: Doer
-) -> Unknown | None:
+def why_in_another_run(wait: Blocking, wakings: Sequence[Waking], doer: Doer) -> Unknown | None:
     """
     Why another run of ``doer`` itself may end its wait, or wait there too.
 

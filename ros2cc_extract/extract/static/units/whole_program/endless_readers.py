@@ -41,10 +41,11 @@ def _gives_no_way(entity: EntityState) -> bool:
 
 def _sends_to_itself(entity: EntityState) -> Iterator[Place]:
     key = entity.key.value if isinstance(entity.key, Const) else None
-    written = (entity.effects or EffectLog()).written
-    for (topic, place), (_, may_skip) in written.items():
-        if topic == key and not may_skip and place is not None:
-            yield place
+    log = entity.effects or EffectLog()
+    for act in log.publishes:
+        _, may_skip = log.written.get((act.name, act.source), (None, True))
+        if act.name == key and not may_skip and act.source is not None:
+            yield act.source
 
 
 def _endless(entity: EntityState, place: Place) -> Diagnostic:

@@ -38,8 +38,9 @@ def _told(value: Value, place: Place) -> Diagnostic | None:
     if LOOSE in value.slots:
         return _never_kept(place)
     awaited = value.slots.get(AWAITED)
-    is_lost = isinstance(awaited, Native) and STARTED not in value.slots
-    return _never_awaited(awaited.name, place) if is_lost else None
+    if isinstance(awaited, Native) and STARTED not in value.slots:
+        return _never_awaited(awaited.name, place)
+    return None
 
 
 def _never_awaited(name: str, place: Place) -> Diagnostic:

@@ -139,6 +139,7 @@ class EntityState(Doer, LibraryState):
     :param restarted: somebody starts it, or starts it again.
     :param is_set_up: it is what the set-up does beside the callbacks, on their loop, and is
         followed where it stands.
+    :param surely_waits: waits of its first run which only later runs could end.
     """
 
     is_one_of_many = True
@@ -162,6 +163,7 @@ class EntityState(Doer, LibraryState):
     dormant: Place | None = None
     restarted: bool = False
     is_set_up: bool = False
+    surely_waits: set[object] = field(default_factory=set)
     label: str | None = None
     extra_callbacks: tuple[Value, ...] = ()
     ran: int = -1

@@ -94,7 +94,7 @@ def _enter(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _leave(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """The node is destroyed behind the block; with the first one all that ran beside it is over."""
+    """The node is destroyed behind the block; with the first one all beside it is over."""
     world = machine.world
     current = world.current
     if isinstance(current, EntityState) and current.is_set_up and current.node is receiver:
@@ -125,10 +125,9 @@ def _run(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 def _run_beside(machine: RosMachine, node: Instance, how: str, place: Place) -> None:
     world = machine.world
-    key = world.loop or id(node)
-    executor = world.loops.setdefault(key, node.slots.get('__executor__') or NONE)
-    if not isinstance(executor, Instance):
-        executor = world.loops[key] = _new_loop(machine, place)
+    key, own = world.loop or id(node), node.slots.get('__executor__')
+    executor = world.loops.get(key) or (own if isinstance(own, Instance) else None)
+    executor = world.loops[key] = executor or _new_loop(machine, place)
     add_node(machine, executor, node)
     spins = (spin for spin in world.spins.values() if spin.executor is executor)
     spin = next(spins, None)

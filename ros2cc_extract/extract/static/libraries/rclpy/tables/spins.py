@@ -160,12 +160,13 @@ def _warn_of_theft(
 
 
 def _refused(how: str, place: Place) -> Diagnostic:
-    """Source: rclpy 10.0.10: an ``AsyncNode`` has no list of entities that an executor asks for."""
+    """Source: rclpy 10.0.10: an ``AsyncNode`` lacks what an executor asks a node for."""
     return Diagnostic(
         severity=Severity.WARNING,
         slug='executor-not-spun',
         place=place,
-        message=f'rclpy.{how} of an AsyncNode raises AttributeError: only a loop of asyncio runs it',
+        message=f'rclpy.{how} of an AsyncNode raises AttributeError: only a loop of asyncio '
+        'runs it',
         help='`asyncio.run(node.run())`',
     )
 
