@@ -52,10 +52,11 @@ def warned_of(shown: str) -> str:
 
 def promises(shown: str, mark: str) -> str:
     """The promises that have a mark."""
-    line = next(line for line in shown.splitlines() if Promise.SETTINGS.value in line)
-    found = re.findall(r'([✓✗?]) ([a-z ]+?)(?=  |$)', line)
-    assert [name for _, name in found] == [promise.value for promise in Promise]
-    return ', '.join(name for sign, name in found if sign == mark) or NOTHING
+    names = '|'.join(promise.value for promise in Promise)
+    first = {name: sign for sign, name in reversed(re.findall(rf'([✓✗?]) ({names})', shown))}
+    assert first.keys() == {promise.value for promise in Promise}
+    having = (promise.value for promise in Promise if first[promise.value] == mark)
+    return ', '.join(having) or NOTHING
 
 
 @every_node
