@@ -32,6 +32,5 @@ class Arm(AsyncNode):
         async with asyncio.TaskGroup() as tasks:
             tasks.create_task(self.move(msg))
 """,
-    mend='Await a coroutine. Keep a task in an attribute or a set and await it at some time, or '
-    'start it in an `asyncio.TaskGroup`, which awaits it and raises what it raises.',
+    mend='Await a coroutine. Keep a task and await it, or start it in an `asyncio.TaskGroup`.',
 )
