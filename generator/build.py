@@ -187,7 +187,8 @@ def _queries_of(unit: Unit, profile: Profile) -> tuple[Query, ...]:
 
 def _least_freedom(unit: Unit) -> Freedom:
     """Where several runs of a callback matter, one begins while another is suspended."""
-    return Freedom(suspended=2 if unit.has_arrivals_of_their_own else 1)
+    several = unit.has_arrivals_of_their_own or unit.has_concurrent_awaits
+    return Freedom(suspended=2 if several else 1)
 
 
 def queries_of(
@@ -236,7 +237,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
     """What of the executor's text a unit needs; the rest would only make more states."""
     ranks = [callback.rank for callback in unit.callbacks]
     tasks = ranks.count(TASK_RANK)
-    has_executor_laps = unit.kind is not ExecutorKind.EVENTS
+    has_executor_laps = unit.kind.has_laps
     has_pool = unit.kind is ExecutorKind.MULTI_THREADED
     has_guards = GUARD_RANK in ranks
     pool_spins = has_pool and unit.has_own_spins

@@ -9,11 +9,17 @@ from ros2cc_extract.spec.releases.table import TASKS_OLDEST_FIRST
 
 
 class ExecutorKind(Enum):
-    """The executors of rclpy, by class name."""
+    """The executors of rclpy, by class name; a loop of asyncio by that of the nodes it runs."""
 
     SINGLE_THREADED = 'SingleThreadedExecutor'
     MULTI_THREADED = 'MultiThreadedExecutor'
     EVENTS = 'EventsExecutor'
+    ASYNCIO = 'AsyncNode'
+
+    @property
+    def has_laps(self) -> bool:
+        """Whether it waits, collects what is ready, and serves that before it waits again."""
+        return self in (ExecutorKind.SINGLE_THREADED, ExecutorKind.MULTI_THREADED)
 
 
 _OF_NAME = {kind.value: kind for kind in ExecutorKind}

@@ -170,7 +170,7 @@ def _spun(block: Blocking, callback: Callback, spec: Spec) -> Spun | None:
         return None
     if moves_to or not _is_global(spec):
         # Which executor goes on with a coroutine of a node that moves is not modelled.
-        awaits = any(b.call == 'await' for c in spec.callbacks for b in c.blocking)
+        awaits = any(b.suspends for c in spec.callbacks for b in c.blocking)
         return None if awaits else Spun.GLOBAL
     return None if NODE_STAYS.holds(spec.rclpy) is False else Spun.OWN
 

@@ -66,7 +66,7 @@ def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[Nam
     """Give the waits that stand for one; several where every waker is needed."""
     if block.seconds is not None or _ends_by_itself(block):
         return
-    is_await = block.call == 'await' and isinstance(callback, Callback)
+    is_await = block.suspends and isinstance(callback, Callback)
     kind = WaitKind.AWAITED if is_await else WaitKind.HELD
     known = _known(spec)
     is_open = _is_open(block, spec)

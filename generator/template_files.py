@@ -68,7 +68,10 @@ _EXECUTOR_FILE = {
     ExecutorKind.SINGLE_THREADED: 'single_threaded',
     ExecutorKind.MULTI_THREADED: 'multi_threaded',
     ExecutorKind.EVENTS: 'events',
+    ExecutorKind.ASYNCIO: 'asyncio',
 }
+# The thread of a loop begins and suspends callbacks as that of an executor does which spins.
+_THREAD_FILE = {**_EXECUTOR_FILE, ExecutorKind.ASYNCIO: 'single_threaded'}
 
 
 def choose_sources(profile: Profile, text: Text, unit: Unit) -> Sources:
@@ -86,7 +89,7 @@ def choose_sources(profile: Profile, text: Text, unit: Unit) -> Sources:
             'rclpy/callback.xml.j2',
             _GROUP,
             *beside,
-            f'rclpy/{executor}_thread.xml.j2',
+            f'rclpy/{_THREAD_FILE[unit.kind]}_thread.xml.j2',
             f'rclpy/{executor}_executor.xml.j2',
         ),
     )

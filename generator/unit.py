@@ -196,6 +196,16 @@ class Unit:
         return any(wait.frees_thread for wait in self.waits)
 
     @property
+    def has_concurrent_awaits(self) -> bool:
+        """True when a loop of asyncio begins runs of a callback while others are suspended."""
+        return self.kind is ExecutorKind.ASYNCIO and any(
+            wait.frees_thread
+            for callback in self.callbacks
+            if self.group_of(callback).type != 'EXCLUSIVE' and not callback.is_one_shot
+            for wait in callback.waits
+        )
+
+    @property
     def waits(self) -> tuple[UnitWait, ...]:
         """All steps of all callbacks."""
         return tuple(wait for actor in self.actors for wait in actor.waits)

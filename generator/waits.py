@@ -128,19 +128,28 @@ def _waits_for_callbacks(block: Blocking, callback: Actor, spec: Spec) -> Iterat
             callback.name, WaitKind.HELD, resource=resource, may_skip=True, is_open=True
         )
         return
-    if is_foreign(block, spec) and isinstance(callback, Callback):
+    is_callback = isinstance(callback, Callback)
+    if is_callback and (is_foreign(block, spec) or _gives_way(block)):
         yield NamedWait(callback.name, WaitKind.FOREIGN)
     elif goes_by_wakers(block, spec):
         yield from resource_waits(block, callback, spec)
         return
     if needed is None or block.seconds is not None or asks_the_graph(block):
         return
-    is_await = block.call == 'await' and isinstance(callback, Callback)
-    kind = WaitKind.AWAITED if is_await else WaitKind.HELD
+    kind = WaitKind.AWAITED if block.suspends and is_callback else WaitKind.HELD
     client = client_before(needed, spec.callbacks)
     if client is not None and client.name in others:
         yield NamedWait(client.name, kind)
     yield NamedWait(needed.name, kind)
+
+
+def _gives_way(block: Blocking) -> bool:
+    """
+    Tell whether others run meanwhile, though time ends it.
+
+    That matters where they are kept out of something.
+    """
+    return block.suspends and block.is_timed and bool(block.held)
 
 
 def _with_locks(
@@ -204,7 +213,7 @@ def _held_locks(block: Blocking, callback: Actor, spec: Spec) -> tuple[Lock, ...
     none, and which thread goes on after an ``await``, or runs what a nested spin finds, is open.
     """
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
-    keeps_out = has_pool and block.call != 'await' and not _is_of_spin(block, callback)
+    keeps_out = has_pool and not block.suspends and not _is_of_spin(block, callback)
     return tuple(_locks_of(block.held, callback, keeps_out))
 
 
@@ -260,10 +269,12 @@ def foreign_wakes(spec: Spec) -> bool:
     """
     Tell whether a thread of the user's own that makes a future done wakes the executor.
 
-    Before, a lap asks every coroutine whether it can go on, and nothing but a lap (``task.py``,
+    A loop of asyncio, to which the thread has to hand it over, is always woken. Before, a lap of
+    an executor asks every coroutine whether it can go on, and nothing but a lap (``task.py``,
     ``Future.__await__``, of 7.1.6 and 9.1.2; then of 3.3.21, 7.1.9 and 9.1.5).
     """
-    return FUTURE_YIELDS_ITSELF.holds(spec.rclpy) is True
+    is_loop = executor_kind(spec) is ExecutorKind.ASYNCIO
+    return is_loop or FUTURE_YIELDS_ITSELF.holds(spec.rclpy) is True
 
 
 def is_absent(block: Blocking, spec: Spec) -> bool:

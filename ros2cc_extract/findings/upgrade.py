@@ -81,7 +81,7 @@ def _events(unit: Spec) -> Iterator[Place | None]:
 def _awaits(unit: Spec) -> Iterator[Place | None]:
     if unit.executor.kind == SINGLE:
         for callback in unit.callbacks:
-            if any(block.call == 'await' for block in callback.blocking):
+            if any(block.suspends for block in callback.blocking):
                 yield callback.defined or callback.source
 
 

@@ -41,6 +41,9 @@ POLLING_LOOP = 'polling loop'
 TURN = 'yield'
 """A coroutine lets the executor run others, and goes on by itself."""
 
+AWAIT = 'await'
+"""How a coroutine waits; with a blank and a name behind it, in an operation of asyncio."""
+
 ENDLESS_LOOP = 'endless loop'
 """A loop that nothing in sight leaves."""
 
@@ -130,6 +133,16 @@ class Blocking:
     at_end: Place | None = None
     repeats: bool = False
     times: int = 1
+
+    @property
+    def suspends(self) -> bool:
+        """An ``await``: the thread is free meanwhile, and the group stays closed."""
+        return self.call == AWAIT or self.call.startswith(f'{AWAIT} ')
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it ends after some time in any case."""
+        return self.seconds is not None or any(waker.by == TIME for waker in self.wakers)
 
 
 RE_ENTRANT = ' (re-entrant)'

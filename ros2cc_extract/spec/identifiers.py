@@ -58,6 +58,7 @@ gathering more_runs task_list task_count
 task_place drop_task MAX_TASKS WaitId MAX_SUSPENDED MAX_QUEUED PoolEntry POOL_DEPTH cb_resuming
 cb_unfinished CB_IN_PLAY num_cb_in_play related_in_play
 cb_waiting cb_queued cb_runs cb_all_served pool_queue pool_size event_queue event_count hurry
+NUM_READY ready_queue ready_count group_is_exclusive cb_is_serial cb_is_queued make_ready
 Callback CallbackGroup Thread Executor
 """
 

@@ -214,7 +214,7 @@ def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> 
 
 def _awaits(callbacks: Iterable[Callback]) -> bool:
     """Whether one gives its thread back while its own group stays closed."""
-    return any(block.call == 'await' for each in callbacks for block in each.blocking)
+    return any(block.suspends for each in callbacks for block in each.blocking)
 
 
 def _free(name: str, taken: set[str]) -> str:

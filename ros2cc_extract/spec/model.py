@@ -331,6 +331,9 @@ class CallbackGroup:
         return 'the default group' if self.default else f'group {self.name!r}'
 
 
+OF_LOOP = 'asyncio'
+"""The library of groups that nobody makes: each is an entity that a loop serves run by run."""
+
 NO_EXECUTOR = 'no executor or spin found for this node'
 """The reason why an executor is unknown where none is in sight."""
 

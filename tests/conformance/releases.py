@@ -25,17 +25,22 @@ WHEELS = {'humble': 'jazzy', 'jazzy': 'jazzy'}
 """Whose wheel a release is built over; that of Kilted where none is named."""
 
 
+def record_of(release: str, folder: Path) -> Path:
+    """What is there when a release is built; by this name the hook asks for its version."""
+    return folder / release / f'ros_rclpy-{release}.dist-info'
+
+
 def built(release: str, checkout: Path, folder: Path) -> tuple[str, Release]:
     """Build a release unless it is there; give the interpreter to run it by, too."""
     line = line_of(release)
     wheel = WHEELS.get(line.distro if line else '', 'kilted')
     python, target = str(ROOT / f'.venv-{wheel}/bin/python'), folder / release
-    record = target / f'ros_rclpy-{release}.dist-info'
+    record = record_of(release, folder)
     if not record.is_dir():
         command = [str(checkout / 'build'), python, release, str(target)]
         subprocess.run(command, check=True, stdout=sys.stderr)
         record.mkdir()
-        # By this name the hook asks for the version, and finds that of the wheel otherwise.
+        # Otherwise the hook finds the version of the wheel.
         text = f'Metadata-Version: 2.1\nName: ros-rclpy\nVersion: {release}\n'
         (record / 'METADATA').write_text(text)
     return python, Release(release, target.resolve())

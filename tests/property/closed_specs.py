@@ -11,6 +11,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.close import ClosedSpec, close
 from ros2cc_extract.spec.effects import RE_ENTRANT, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
+    OF_LOOP,
     Activity,
     ActivityKind,
     Callback,
@@ -241,3 +242,23 @@ def _signalled(names: list[str], random: Random) -> Blocking:
         conditional=random.random() < 0.15,
         held=random.choice(((), (), ('other',))),
     )
+
+
+def random_loop_unit(random: Random, *, callbacks: int, threads: int = 1) -> ClosedSpec:
+    """Draw a unit that a loop of asyncio runs: each callback serial, or concurrent with itself."""
+    draw = random.choice((random_rclpy_unit, random_locking_unit, random_waking_unit))
+    spec = draw(random, callbacks=callbacks, groups=2, threads=threads).spec
+    groups = tuple(
+        CallbackGroup(
+            name=f'{callback.name}_group',
+            type=random.choice((GroupType.EXCLUSIVE, GroupType.EXCLUSIVE, GroupType.REENTRANT)),
+            library=OF_LOOP,
+        )
+        for callback in spec.callbacks
+    )
+    served = tuple(
+        replace(callback, group=group.name)
+        for callback, group in zip(spec.callbacks, groups, strict=True)
+    )
+    executor = replace(spec.executor, kind='AsyncNode')
+    return close(replace(spec, callbacks=served, groups=groups, executor=executor))

@@ -31,11 +31,12 @@ if __name__ == '__main__':
     asyncio.run(main())
 
 # expect:
-# unit a: unknown executor, main
-#   group asyncio REENTRANT library=asyncio
-#   timer tick in asyncio every 0.1 coroutine
-#   service on_a in asyncio key=a coroutine
+# unit a: asyncio_loop=AsyncNode x1 AsyncNode.run, main
+#   group b_client_group EXCLUSIVE library=asyncio
+#   group on_a_group EXCLUSIVE library=asyncio
+#   group tick_group EXCLUSIVE library=asyncio
+#   timer tick in tick_group every 0.1 coroutine
+#     blocks await asyncio.sleep 0.01 s @22
+#   service on_a in on_a_group key=a coroutine
 #     blocks await on b_client @19
-#   client b_client in asyncio key=b
-#   ? asyncio_loop executor
-#   ? asyncio_loop executor
+#   client b_client in b_client_group key=b

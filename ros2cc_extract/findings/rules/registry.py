@@ -27,6 +27,7 @@ from ros2cc_extract.findings.rules.executor_use import (
     events_coroutine,
     executor_spun_twice,
     foreign_loop,
+    lost_task,
     set_up,
     shutdown,
 )
@@ -40,6 +41,7 @@ from ros2cc_extract.findings.rules.races import (
 from ros2cc_extract.findings.rules.reading import diagnostics, requirements, unresolved
 from ros2cc_extract.findings.rules.starvation import (
     absent_service,
+    endless_reader,
     execute_holds_thread,
     group_overload,
     long_sleep,
@@ -78,12 +80,14 @@ RULES: tuple[Rule, ...] = (
     undecided_wait.UNDECIDED,
     undecided_wait.OUTSIDE_WAIT,
     diagnostics.MESSAGE_TAKEN,
+    lost_task.RULE,
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,
     absent_service.RULE,
     transform_wait.RULE,
     timeout_harvest.RULE,
+    endless_reader.RULE,
     lost_update.RULE,
     unordered_write.RULE,
     outside_groups.RULE,

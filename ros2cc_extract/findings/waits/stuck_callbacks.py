@@ -118,8 +118,11 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     waiting = [each for each in others if each.doer in enders and each is not stuck]
     if waiting:
         return listing(_waits_too(each) for each in waiting)
+    if is_for_itself(stuck):
+        return 'only another run of it ends that wait, and its runs are one by one'
     served = [ender for ender in enders if isinstance(ender, Callback)]
-    holder = next((each.doer for each in others if isinstance(each.doer, Callback)), None)
+    holding = (each for each in others if not each.wait.block.suspends)
+    holder = next((each.doer for each in holding if isinstance(each.doer, Callback)), None)
     if served and holder is not None and is_one_thread(context.unit.executor):
         on_it = stuck.doer if isinstance(stuck.doer, Callback) else holder
         keeps = f'{called(on_it)} holds the only thread of the executor'
@@ -137,6 +140,11 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     if stuck.wait.block.needs is not Needs.EACH:
         early = 'is not sure to come'
     return f'what {_names(enders)} does for it {early}'
+
+
+def is_for_itself(stuck: Stuck) -> bool:
+    """Whether a coroutine awaits what only another run of it could do."""
+    return stuck.wait.block.suspends and stuck.enders == (stuck.doer.name,)
 
 
 def shut_out_for(stuck: Stuck, others: Sequence[Stuck], context: Context) -> list[str]:

@@ -8,6 +8,7 @@ from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.hangs import show_hang
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait
 from ros2cc_extract.spec.display_names import display_names
+from ros2cc_extract.spec.model import OF_LOOP
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult, Verdict
 
@@ -67,10 +68,12 @@ def rests_on_absent_service(run: Evidence) -> bool:
 
 
 def _exclusive(context: Context) -> dict[str, str]:
+    """Groups that keep others out; that of an entity of a loop has no other member."""
+    groups = {each.name: context.exclusive_group(each) for each in context.unit.callbacks}
     return {
-        callback.name: callback.group
-        for callback in context.unit.callbacks
-        if context.exclusive_group(callback) is not None
+        name: group.name
+        for name, group in groups.items()
+        if group is not None and group.library != OF_LOOP
     }
 
 

@@ -61,7 +61,6 @@ _KINDS = {
     BUSY_WAIT: WaitKind.SIGNAL,
     'Rate.sleep': WaitKind.RATE,
     SPIN_FOR_FUTURE: WaitKind.SPUN_FUTURE,
-    'await': WaitKind.AWAIT,
     'time.sleep': WaitKind.SLEEP,
     'wait_for_service': WaitKind.PRESENCE,
     'wait_for_server': WaitKind.PRESENCE,
@@ -114,6 +113,8 @@ class Wait(AnyWait):
 
 def kind_of(block: Blocking) -> WaitKind:
     """Classify a blocking call by its name."""
+    if block.suspends:
+        return WaitKind.AWAIT
     known = _KINDS.get(block.call)
     if known is not None:
         return known

@@ -2,7 +2,8 @@
 How many callbacks an executor can run at once, as far as that is known.
 
 Source: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``SingleThreadedExecutor``,
-``MultiThreadedExecutor``) and ``experimental/events_executor.py``.
+``MultiThreadedExecutor``) and ``experimental/events_executor.py``; 10.0.10 and 11.0.0,
+``experimental/async_node.py``.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from ros2cc_extract.spec.model import Executor
 SINGLE = 'SingleThreadedExecutor'
 MULTI = 'MultiThreadedExecutor'
 EVENTS = 'EventsExecutor'
+ASYNCIO = 'AsyncNode'
+"""The loop of asyncio that runs such nodes."""
 DEFAULT_COUNT = 'default_cpu_count'
 
 
@@ -37,7 +40,7 @@ def workers_of(executor: Executor) -> Workers | Unknown:
         return kind
     if executor.unresolved is not None:
         return executor.unresolved
-    if kind in (SINGLE, EVENTS):
+    if kind in (SINGLE, EVENTS, ASYNCIO):
         return Workers(1)
     if kind in (None, MULTI) or executor.assumed:
         return Workers(len(executor.threads), executor.threads_source == DEFAULT_COUNT)

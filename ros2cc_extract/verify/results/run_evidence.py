@@ -19,7 +19,7 @@ from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import actors_of, waits_of
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.display_names import display_names
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.model import OF_LOOP, Spec
 from ros2cc_extract.verify.results.events import WORDS, Event
 from ros2cc_extract.verify.results.evidence import Evidence, Moment, Sentence
 
@@ -30,6 +30,7 @@ class Names:
     What stands for the n-th callback or activity, thread and group of a model.
 
     :param said: words for names, as a reader knows them.
+    :param unsaid: groups that a reader does not know.
     :param resources: what is waited for, each with the names of those who end waits for it.
     """
 
@@ -39,6 +40,7 @@ class Names:
     executor: str = 'executor'
     places: Mapping[str, Place] = field(default_factory=dict)
     said: Mapping[str, str] = field(default_factory=dict)
+    unsaid: frozenset[str] = frozenset()
     resources: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     @staticmethod
@@ -54,6 +56,7 @@ class Names:
             spec.executor.name,
             {name: place for name, place in places.items() if place is not None},
             display_names(spec),
+            frozenset(group.name for group in spec.groups if group.library == OF_LOOP),
             tuple(
                 (resource.name, tuple(n for n, own in steps.items() if gives(own, resource)))
                 for resource in resources_of(steps)
@@ -139,7 +142,8 @@ def _spoken(
         annotation = _annotation_of(edge)
         if annotation is not None:
             event = _evaluated(annotation, edge.process, before, after, names)
-            yield Sentence.of(edge.process, event, names.said)
+            if event.group not in names.unsaid:
+                yield Sentence.of(edge.process, event, names.said)
 
 
 def _evaluated(

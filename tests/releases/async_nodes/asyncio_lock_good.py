@@ -39,3 +39,5 @@ asyncio.run(main())
 
 # observed: goes on
 # warned of: nothing
+# broken: nothing
+# undecided: nothing

@@ -42,3 +42,5 @@ asyncio.run(main())
 
 # observed: goes on
 # warned of: nothing
+# broken: nothing
+# undecided: no deadlock, every wait ends, no starvation

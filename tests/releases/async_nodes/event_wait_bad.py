@@ -36,4 +36,6 @@ async def main():
 asyncio.run(main())
 
 # observed: hangs
-# warned of: nothing
+# warned of: CC102
+# broken: no deadlock, every wait ends, no starvation
+# undecided: nothing

@@ -35,4 +35,6 @@ async def main():
 asyncio.run(main())
 
 # observed: hangs
-# warned of: nothing
+# warned of: CC109
+# broken: no deadlock, every wait ends
+# undecided: nothing

@@ -36,3 +36,5 @@ asyncio.run(main())
 
 # observed: goes on
 # warned of: nothing
+# broken: nothing
+# undecided: nothing

@@ -34,3 +34,5 @@ asyncio.run(main())
 
 # observed: raises
 # warned of: nothing
+# broken: nothing
+# undecided: nothing

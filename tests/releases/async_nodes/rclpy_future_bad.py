@@ -37,3 +37,5 @@ asyncio.run(main())
 
 # observed: raises
 # warned of: CC114
+# broken: every wait ends
+# undecided: nothing

@@ -13,7 +13,11 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     lost_notifications,
     torn_updates,
 )
-from ros2cc_extract.extract.static.concurrency.accesses.held_locks import is_counter, lock_of
+from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
+    is_counter,
+    lock_of,
+    taking_of,
+)
 from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
 from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
@@ -315,7 +319,7 @@ class Effects(Waits):
     def note_entered(self, value: Instance, place: Place) -> None:
         """Locks are held inside of a ``with``."""
         if _is_semaphore(value):
-            self.note_blocking('Semaphore.acquire', value, None, place)
+            self.note_blocking(taking_of(self.world, value), value, None, place)
         elif is_counter(self.world, value):
             self.note_blocking('Lock.acquire', value, None, place)
         self.note_acquire(value, place)

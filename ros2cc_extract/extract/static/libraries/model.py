@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.values import parameters, qos
 from ros2cc_extract.extract.static.libraries.standard import (
+    asyncio_blocks,
     asyncio_loops,
     futures,
     outside_calls,
@@ -94,6 +95,7 @@ def model() -> LibraryModel:
             threads.TABLE,
             futures.TABLE,
             asyncio_loops.TABLE,
+            asyncio_blocks.TABLE,
             servers.TABLE,
             queues.TABLE,
             outside_calls.TABLE,

@@ -164,6 +164,8 @@ def _run_again(machine: RosInterpreter, entity: EntityState) -> None:
 def _run_callbacks_of(
     machine: RosInterpreter, entity: EntityState, *, again: bool = False
 ) -> EffectLog:
+    if entity.is_set_up and entity.effects is not None:
+        return entity.effects
     entity.effects = EffectLog()
     machine.world.met = machine.world.met_by[id(entity)] = {}
     functions = _functions(entity)
@@ -171,6 +173,14 @@ def _run_callbacks_of(
     for callback in functions:
         _run_callback(machine, entity, callback, entity.effects, again=again)
     return entity.effects
+
+
+def run_once_more(machine: RosInterpreter, entity: EntityState) -> EffectLog:
+    """What a callback does when it is followed from what is stored now."""
+    log = EffectLog()
+    for callback in _functions(entity):
+        _run_callback(machine, entity, callback, log, again=True)
+    return log
 
 
 def _run_callback(

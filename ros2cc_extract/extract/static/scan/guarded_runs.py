@@ -57,6 +57,7 @@ def guarded(
         world.shutting_down = False
         world.in_thread, world.when, world.thread = False, When.START, 0
         world.activity, world.again, world.retelling = None, False, False
+        world.limit = None
         machine.store.reset()
     if why:
         note_cut(world, place, why)

@@ -39,11 +39,15 @@ from ros2cc_extract.extract.static.scan.callback_runs import (
     is_closing,
     run_callbacks,
 )
+from ros2cc_extract.extract.static.scan.first_runs import follow_first_runs, stored_by_set_up
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
+from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
+    note_endless_readers,
+)
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
 from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
 from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
@@ -75,9 +79,11 @@ def run_entry(project: Project, entry: Entry) -> RosInterpreter:
         run_exit_hooks(machine)
 
     guarded(machine, follow, place, entry.source.tree)
+    stored = stored_by_set_up(machine.world)
     _run_escaped(machine)
     run_callbacks(machine)
     run_rest_of_instances(machine)
+    follow_first_runs(machine, stored)
     take_back(machine.world)
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
@@ -86,6 +92,7 @@ def run_entry(project: Project, entry: Entry) -> RosInterpreter:
     note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
+    note_endless_readers(machine.world)
     return machine
 
 

@@ -88,8 +88,7 @@ class UnitBuilder:
         """The specification."""
         names = self._name_nodes()
         name = self._taken.take(names[0] if len(names) == 1 else _unit_label(names))
-        numbers = range(self._unit.number_of_threads)
-        threads = tuple(self._taken.take(f'thread_{number}') for number in numbers)
+        threads = tuple(map(self._taken.take, self._unit.thread_names))
         entities = self._entities()
         facts = [self._facts_of(entity) for entity in entities]
         labels = unique_names(

@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ros2cc_extract.extract.static.concurrency.machine.state import SetUpWait
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, Spin
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    LOOP_KIND,
+    ExecutorState,
+    Spin,
+)
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.python.values.values import Class, Instance
 from ros2cc_extract.source_locations import Unknown
@@ -45,6 +49,13 @@ class Unit:
         return ASSUMED_THREADS if number is None else number
 
     @property
+    def thread_names(self) -> tuple[str, ...]:
+        """What those threads are called; that of a loop of asyncio is the loop."""
+        if self.state is not None and self.state.kind == LOOP_KIND:
+            return ('loop',)
+        return tuple(f'thread_{number}' for number in range(self.number_of_threads))
+
+    @property
     def executor_label(self) -> str:
         """What the program calls the executor."""
         return (self.executor.hint if self.executor and self.state else None) or 'executor'
@@ -66,7 +77,7 @@ def executor_of(unit: Unit, name: str, threads: tuple[str, ...], entry: str | No
         threads=threads,
         kind=state.unknown or elsewhere or state.kind,
         threads_source=_threads_source(state),
-        in_thread=spin.in_thread if spin else False,
+        in_thread=spin.in_thread and state.kind != LOOP_KIND if spin else False,
         spun=spin.how if spin else None,
         alternative=unit.mark[0],
         branch=unit.mark[1],

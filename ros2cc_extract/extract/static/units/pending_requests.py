@@ -80,6 +80,6 @@ def _threads(unit: Spec, clients: Iterable[Callback]) -> Iterator[int]:
     names = {client.name for client in clients}
     doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
     blocks = [block for doer in doers for block in doer.blocking if block.on in names]
-    is_held = not unit.activities and all(block.call != 'await' for block in blocks)
+    is_held = not unit.activities and all(not block.suspends for block in blocks)
     if is_held and isinstance(unit.executor.kind, str):
         yield len(unit.executor.threads)

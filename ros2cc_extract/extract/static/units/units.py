@@ -6,7 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin, nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    LOOP_KIND,
+    RosWorld,
+    Spin,
+    nodes_of,
+)
 from ros2cc_extract.extract.static.python.machine.world import Cut
 from ros2cc_extract.extract.static.python.values.exclusive_paths import Branches, exclusive
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, options_of
@@ -82,6 +87,8 @@ def _not_told(cut: Cut) -> Diagnostic:
 
 
 def _not_spun(executor: Instance) -> Diagnostic:
+    if executor.state.kind == LOOP_KIND:
+        return _not_run(executor)
     name = executor.hint or 'executor'
     return Diagnostic(
         severity=Severity.WARNING,
@@ -89,6 +96,17 @@ def _not_spun(executor: Instance) -> Diagnostic:
         place=executor.place,
         message=f'{name} has nodes, and no call in sight spins it',
         help=f'call {name}.spin()',
+    )
+
+
+def _not_run(loop: Instance) -> Diagnostic:
+    """Source: rclpy 10.0.10, ``experimental/async_node.py`` (``__aenter__`` starts the tasks)."""
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='executor-not-spun',
+        place=loop.place,
+        message='no call in sight runs this AsyncNode: none of its callbacks ever runs',
+        help='enter it by `async with node:`, or `await node.run()`',
     )
 
 

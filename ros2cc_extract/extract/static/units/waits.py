@@ -22,8 +22,8 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, RosWorld
+from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
@@ -51,6 +51,7 @@ from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     forgets,
     is_unheard,
     why_gone,
+    why_in_another_run,
     why_lost,
     why_unspun,
 )
@@ -150,7 +151,7 @@ class UnitWaits(DataWriters):
     def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
         """Whether who takes a semaphore gives it back too, so that it is a lock."""
         reference = raw.resource
-        if raw.call != 'Semaphore.acquire' or not isinstance(reference, ResourceRef):
+        if raw.call not in TAKES_PERMIT or not isinstance(reference, ResourceRef):
             return False
         wakings = wakings_of(self._world, reference)
         given = [waking for waking in wakings if waking.word is Word.RELEASE]
@@ -249,6 +250,11 @@ class UnitWaits(DataWriters):
         elif row.ended_by and escapes is None:
             unknown = Unknown('what is waited for is not known', raw.source)
             escapes = raw.on if isinstance(raw.on, Unknown) else unknown
+        if isinstance(doer, EntityState) and way_of(raw) in doer.surely_waits:
+            # The others of its branches are those of later runs, which never begin.
+            behind = self._kept[id(doer)].places.get(way_of(raw), 0)
+            wakers = [replace(waker, after=max(waker.after or 0, behind)) for waker in wakers]
+            named = replace(named, conditional=False)
         if escapes is None and not _ends_by_itself(wakers) and not named.initial:
             named = replace(named, unsent=self._unsent(raw, doer))
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
@@ -317,8 +323,9 @@ class UnitWaits(DataWriters):
             if barriers.is_in_vain(reference, visits, mine):
                 return [], self._why_open(mine, reference)
             mine = barriers.of_its_round(raw, doer, visits, mine)
-        found = [waker for waking in mine for waker in self._wakers(waking, reference, doer)]
+        found = [waker for waking in mine for waker in self._wakers(waking, reference, doer, raw)]
         unsure = uneven or self._why_unsure(raw, reference, mine, doer)
+        unsure = unsure or why_in_another_run(raw, mine, doer)
         unsure = unsure or why_no_thread(mine, doer, self._name)
         if unsure is not None:
             found = list(_unsure(found))
@@ -395,7 +402,9 @@ class UnitWaits(DataWriters):
             )
         return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
-    def _wakers(self, waking: Waking, reference: ResourceRef, doer: Doer) -> Iterator[Waker]:
+    def _wakers(
+        self, waking: Waking, reference: ResourceRef, doer: Doer, raw: Blocking
+    ) -> Iterator[Waker]:
         by, place = waking.by, waking.place
         if by is None:
             if ends_for_good(waking, reference, self._world):
@@ -411,12 +420,12 @@ class UnitWaits(DataWriters):
             by=name,
             source=place,
             after=after,
-            conditional=self._may_fail(waking, reference, doer, stays=stays),
+            conditional=self._may_fail(waking, reference, doer, raw, stays=stays),
             held=waking.held,
         )
 
     def _may_fail(
-        self, waking: Waking, reference: ResourceRef, doer: Doer, *, stays: bool
+        self, waking: Waking, reference: ResourceRef, doer: Doer, raw: Blocking, *, stays: bool
     ) -> bool:
         """Whether ``waking`` perhaps does not come, or not while ``doer`` waits."""
         if waking.conditional and not (stays and waking.unless_done):
@@ -425,7 +434,7 @@ class UnitWaits(DataWriters):
             return True
         if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
             return True  # it notifies before it waits itself
-        return is_kept_out(waking, reference, doer, self._doers)
+        return is_kept_out(waking, reference, doer, self._doers, raw)
 
     def _ended_last(self, reference: ResourceRef) -> Place | None:
         """Where the program ends a wait when its spin is over."""

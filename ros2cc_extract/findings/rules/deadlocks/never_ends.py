@@ -18,8 +18,10 @@ from ros2cc_extract.findings.rules.deadlocks import (
     rate_on_one_thread,
 )
 from ros2cc_extract.findings.waits.exhausted_permits import kept_for, used_up
+from ros2cc_extract.findings.waits.remedies import AWAIT_IT, BE_CONCURRENT, is_on_loop
 from ros2cc_extract.findings.waits.stuck_callbacks import (
     Stuck,
+    is_for_itself,
     shut_out_for,
     stuck_in,
     together_with,
@@ -246,7 +248,11 @@ def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
             f'break the circle of {listing(called(each.doer) for each in together)}: '
             'one of them must not wait'
         )
-    if served and is_one_thread(context.unit.executor):
+    if is_on_loop(context.unit.executor) and is_for_itself(first):
+        return BE_CONCURRENT
+    if is_on_loop(context.unit.executor) and not first.wait.block.suspends:
+        return AWAIT_IT
+    if served and not first.wait.block.suspends and is_one_thread(context.unit.executor):
         return (
             f'use MultiThreadedExecutor(num_threads=2) or more, with {listing(served)} in '
             'another group, or look from a timer instead of waiting'

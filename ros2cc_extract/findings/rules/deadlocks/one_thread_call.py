@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import BLOCKING, shut_out_by, what
+from ros2cc_extract.findings.waits.remedies import AWAIT_IT, is_on_loop
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import (
     Wait,
@@ -62,6 +63,8 @@ def _names(waits: Sequence[Wait]) -> Iterator[str]:
 
 
 def _help(wait: Wait, is_answer: bool, context: Context) -> str:
+    if is_on_loop(context.unit.executor):
+        return AWAIT_IT
     shut_out = shut_out_by(wait, context)
     group = f' and give {what(shut_out)} a group of its own' if shut_out else ''
     other = 'call_async and go on in a done-callback' if is_answer else 'look from a timer'

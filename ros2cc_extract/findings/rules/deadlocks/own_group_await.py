@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
+from ros2cc_extract.findings.waits.remedies import BE_CONCURRENT, is_on_loop
 from ros2cc_extract.findings.waits.verdicts import run_in_which_one_hangs, surely_ends
 from ros2cc_extract.findings.waits.waits import Wait, WaitKind, waits_for, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups
@@ -31,16 +32,27 @@ def _hit(wait: Wait, shut_out: Callback, context: Context) -> Hit:
     group = context.group_of(shut_out)
     is_open = isinstance(context.unit.executor.kind, Unknown)
     where = ' on every executor but the EventsExecutor' if is_open else ''
-    return Hit(
-        place=wait.place,
-        message=f'{caller} awaits {waits_for(wait)} while it keeps {group.display_name} closed, '
+    message, mend = (
+        f'{caller} awaits {waits_for(wait)} while it keeps {group.display_name} closed, '
         f'and {shut_out.display_name} is in that group: it never resumes{where}, and no '
         'other member of the group runs again',
-        help=f'give {shut_out.display_name} a callback group of its own or a reentrant one',
+        f'give {shut_out.display_name} a callback group of its own or a reentrant one',
+    )
+    made = () if is_on_loop(context.unit.executor) else (group,)
+    if is_on_loop(context.unit.executor):
+        message = (
+            f'{caller} awaits {waits_for(wait)}, which only its own next run gives, and its runs '
+            'are one by one: it never resumes, and it is never run again'
+        )
+        mend = BE_CONCURRENT
+    return Hit(
+        place=wait.place,
+        message=message,
+        help=mend,
         severity=Severity.WARNING if is_open else None,
         subjects=(wait.caller.name, shut_out.name),
         chain=wait.chain,
-        related=tuple(made_at(wait.caller, shut_out, group)),
+        related=tuple(made_at(*dict.fromkeys((wait.caller, shut_out, *made)))),
         run=run_in_which_one_hangs([wait], context),
     )
 

@@ -8,6 +8,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.races.race_texts import describe
 from ros2cc_extract.findings.races.races import Race, RaceKind, races_of
+from ros2cc_extract.findings.waits.remedies import LOCK_OF_LOOP, is_on_loop
 
 HELP = 'hold one lock around both, or put the callbacks into one mutually exclusive group'
 OF_OTHER_RULES = (RaceKind.LAST_WRITE_WINS, RaceKind.CLEARED_IN_USE)
@@ -17,7 +18,8 @@ HELP_OUTSIDE_GROUPS = 'hold one lock around both; a callback group cannot help'
 def find(context: Context) -> Iterator[Hit]:
     for race in races_of(context):
         if race.kind not in OF_OTHER_RULES and not race.is_outside_groups:
-            yield hit_of(race)
+            is_loop = is_on_loop(context.unit.executor) and not race.has_threads
+            yield hit_of(race, help_text=LOCK_OF_LOOP if is_loop else '')
 
 
 def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:

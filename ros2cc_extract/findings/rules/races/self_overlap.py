@@ -22,6 +22,7 @@ from ros2cc_extract.findings.waits.one_shot_timers import (
     may_cancel_too_late,
 )
 from ros2cc_extract.findings.waits.overlap import interleaves, is_quick, overlaps_itself
+from ros2cc_extract.findings.waits.remedies import LOCK_OF_LOOP, is_on_loop
 from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
 from ros2cc_extract.source_locations import Place
@@ -123,7 +124,7 @@ def _hit(joint: JoinedRaces, context: Context) -> Hit:
     return Hit(
         place=race.use.place,
         message=message_of(joint),
-        help=_help(race),
+        help=LOCK_OF_LOOP if is_on_loop(context.unit.executor) else _help(race),
         severity=_severity(race, context),
         subjects=(*(callback.name for callback in callbacks), *joint.names),
         related=(*joint.related(), *dict.fromkeys(made)),

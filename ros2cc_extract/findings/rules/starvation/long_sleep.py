@@ -19,9 +19,10 @@ from ros2cc_extract.findings.base.wording import (
 )
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
+from ros2cc_extract.findings.waits.remedies import AWAIT_SLEEP, is_on_loop
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.model import Callback, EntityKind
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor
 from ros2cc_extract.verify.results.rates import least_slept_s, period_of
 
 LONG_SLEEP_S = 1.0
@@ -177,8 +178,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
         place=wait.place,
         message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
         f'holds {held}: {" and ".join(stopped)} of the node wait that long',
-        help='let a timer that cancels itself go on after the pause'
-        + ('' if is_one_thread(executor) else ', or give the callback a group of its own'),
+        help=_help(executor),
         severity=Severity.NOTE if _is_rare(wait, others) else None,
         subjects=(wait.caller.name,),
         chain=wait.chain,
@@ -189,6 +189,13 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
             *_listed(more),
         ),
     )
+
+
+def _help(executor: Executor) -> str:
+    if is_on_loop(executor):
+        return AWAIT_SLEEP
+    own = '' if is_one_thread(executor) else ', or give the callback a group of its own'
+    return f'let a timer that cancels itself go on after the pause{own}'
 
 
 def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:

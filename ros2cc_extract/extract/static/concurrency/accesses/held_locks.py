@@ -12,10 +12,11 @@ from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Const,
     Instance,
+    Library,
     Value,
     options_of,
 )
-from ros2cc_extract.spec.effects import RE_ENTRANT
+from ros2cc_extract.spec.effects import AWAIT, RE_ENTRANT
 
 GIVEN = '__given_lock__'
 """Slot of a condition for the lock that it was made with."""
@@ -39,6 +40,14 @@ def held_over(world: ConcurrentWorld, on: Value | None) -> tuple[str, ...]:
         for lock, kind in locks_named(name, world)
         if on is None or all(lock_of(option) is not lock for option in options_of(on))
     )
+
+
+def taking_of(world: ConcurrentWorld, thing: Instance) -> str:
+    """What the wait for a semaphore is called; a lock of asyncio is one, of one permit."""
+    names = (cls.name for cls in thing.mro if isinstance(cls, Library))
+    if not any(name.startswith('asyncio.') for name in names):
+        return 'Semaphore.acquire'
+    return f'{AWAIT} asyncio.Lock.acquire' if world.is_on_loop else 'asyncio.Lock.acquire'
 
 
 def is_counter(world: ConcurrentWorld, thing: Instance) -> bool:

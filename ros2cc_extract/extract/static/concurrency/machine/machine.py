@@ -65,6 +65,21 @@ class ConcurrentMachine(Machine, ABC):
     def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
 
+    @property
+    @abstractmethod
+    def runs_on_loop(self) -> bool:
+        """Whether a loop of asyncio runs what is followed, as it runs callbacks."""
+
+    @abstractmethod
+    def task_of_loop(
+        self, coroutine: Value, place: Place, loop: Value | None = None
+    ) -> Value | None:
+        """
+        The task by which that loop runs ``coroutine``; ``None`` where there is no such loop.
+
+        :param loop: to which somebody hands it over, who may block until it is done.
+        """
+
     @abstractmethod
     def add_task(self, future: Instance, callback: Value, place: Place) -> None:
         """Whoever takes the answer that ``future`` stands for runs ``callback`` then."""

@@ -198,6 +198,7 @@ class ConcurrentWorld(World):
     :param activities: all of them, in the order of their start.
     :param told: how many of them were followed for what they do.
     :param loop: where the loop of asyncio begins that runs the set-up.
+    :param limit: how long each wait of a coroutine may last where ``asyncio.timeout`` is entered.
     :param forked: where the program splits off a child that runs its own text.
     :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
     :param retelling: one is followed for what it does; what it makes is known already.
@@ -267,6 +268,7 @@ class ConcurrentWorld(World):
     on_loop: bool = False
     forked: Place | None = None
     loop: Place | None = None
+    limit: Value | None = None
     spins_over: int = 0
     thread: int = 0
     threads: int = 0
@@ -277,6 +279,21 @@ class ConcurrentWorld(World):
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
     left_callbacks: list[Any] = field(default_factory=list)
     completed: set[int] = field(default_factory=set)
+
+    @property
+    def own_loop(self) -> Place | None:
+        """Where the loop of asyncio begins that runs what is followed."""
+        return self.loop
+
+    @property
+    def is_on_loop(self) -> bool:
+        """Whether a loop of asyncio runs the callback that is followed."""
+        return self.in_callback and self.current is not None and self.current.is_on_loop
+
+    @property
+    def is_set_up_on_loop(self) -> bool:
+        """Whether that is the main program, which goes on beside the callbacks."""
+        return self.is_on_loop and self.current is not None and self.current.is_set_up
 
     @property
     def is_beside_others(self) -> bool:

@@ -60,7 +60,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import TURN, UNKNOWN_WAIT, Blocking, Needs
+from ros2cc_extract.spec.effects import AWAIT, TURN, UNKNOWN_WAIT, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -83,6 +83,8 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """A call that can hold its thread."""
         world, effects = self.world, self.world.effects
+        if seconds in (None, NONE) and name.startswith(AWAIT):
+            seconds = world.limit
         row: WaitRow = self.model.waits.get(name, NO_ROW)
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
@@ -90,6 +92,8 @@ class Waits(ConcurrentMachine):
         if effects is None or _is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
+        elif world.is_set_up_on_loop:
+            outside_waits.note_cancelled(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if effects is None:
             values_during_waits.note_met(world, thing)
@@ -290,6 +294,8 @@ class Waits(ConcurrentMachine):
             activity.wakes.append((thing, word, place))  # it may be followed once more
             return
         for option in options_of(thing):
+            if world.effects is not None:
+                world.effects.woken.setdefault(id(option), len(world.effects.blocking))
             wakings = world.wakings.setdefault(id(option), [])
             waking = self._waking(option, word, place, is_sign=is_sign)
             if not any(_is_same_waking(waking, other) for other in wakings):

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import AWAIT, Blocking
 from ros2cc_extract.spec.model import When
 
 JOIN = 'Thread.join'
@@ -96,6 +96,16 @@ def note_interruptible(world: ConcurrentWorld, name: str, on: Value | None) -> N
     if name != 'Event.wait' or not isinstance(on, Instance) or world.in_thread:
         return
     if world.tries or on.hint is None:
+        world.interruptible.add(id(on))
+
+
+def note_cancelled(world: ConcurrentWorld, name: str, on: Value | None) -> None:
+    """
+    Remember an event that the main program awaits, perhaps for the signal that ends it.
+
+    Source: CPython 3.12, ``asyncio/runners.py`` (SIGINT cancels the main task).
+    """
+    if name == f'{AWAIT} asyncio.Event.wait' and isinstance(on, Instance):
         world.interruptible.add(id(on))
 
 

@@ -361,7 +361,7 @@ def _is_told(
     """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
     inside = effects.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(machine, block.call)]
-    if any(block.call in ('busy wait', 'await') or 'spin' in block.call for block in others):
+    if any(b.call == 'busy wait' or b.suspends or 'spin' in b.call for b in others):
         return True
     return bool(others) and machine.world.activity is None
 

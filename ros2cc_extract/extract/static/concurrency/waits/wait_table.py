@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.spec.effects import (
+    AWAIT,
     NOT_FOLLOWED,
     OUTSIDE,
     TIME,
@@ -66,6 +67,7 @@ WAITS: dict[str, WaitRow] = {
     'asyncio.Queue.put': _row(Word.GET, needs=Needs.EACH, unless_asked=True, rival=Word.PUT),
     'asyncio.Queue.join': _row(Word.DONE, needs=Needs.EACH),
     'asyncio.Event.wait': _row(Word.SET),
+    'asyncio.Lock.acquire': _row(Word.RELEASE, needs=Needs.EACH),
     'Barrier.wait': _row(Word.ARRIVE, needs=Needs.ALL),
     'Lock.acquire': _row(Word.RELEASE, needs=Needs.EACH),
     'Semaphore.acquire': _row(Word.RELEASE, needs=Needs.EACH),
@@ -90,5 +92,15 @@ WAITS: dict[str, WaitRow] = {
     **dict.fromkeys(CALLS, OF_OUTSIDE),
     **dict.fromkeys(READS_OF_CAMERAS, SLEEP),
 }
+# What a coroutine awaits in the loop that runs it holds no thread.
+WAITS |= {f'{AWAIT} {name}': row for name, row in WAITS.items() if name.startswith('asyncio.')}
+WAITS[f'{AWAIT} Clock.sleep'] = SLEEP
+WAITS[f'{AWAIT} AsyncClient.wait_for_service'] = OF_OUTSIDE
+WAITS[f'{AWAIT} AsyncNode.wait_for_node'] = OF_OUTSIDE
+
+TAKES_PERMIT = frozenset(
+    {'Semaphore.acquire', 'asyncio.Lock.acquire', f'{AWAIT} asyncio.Lock.acquire'}
+)
+"""Waits for something of which there is a number, and that is given back."""
 
 NO_ROW = WaitRow()

@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
-from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations
+from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations, lost_tasks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
 from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
     CLOCKS,
@@ -18,6 +18,10 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.tables.async_nodes import (
+    loop_node,
+    node_of_loop,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     UNKNOWN_CLIENT,
     result_of,
@@ -29,13 +33,21 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     ghost_node,
     make_node,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import add_task
+from ros2cc_extract.extract.static.libraries.rclpy.tables.tasks import add_task, note_its_end
+from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import (
+    IN_TASK,
+    STARTED,
+    coroutine_of,
+)
 from ros2cc_extract.extract.static.libraries.standard.context_exits import StandardBlocks
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
+from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP, OF_POOL
 from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.objects.library_calls import is_standard
 from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
     Call,
     Class,
     Const,
@@ -161,6 +173,35 @@ class RosNotes(StandardBlocks, RosMachine):
         task = add_task(self, node, callback, place, EntityKind.DONE_CALLBACK, key)
         if task is not None:
             task.argument = future
+
+    @property
+    def runs_on_loop(self) -> bool:
+        """Whether a loop of asyncio runs what is followed, as it runs callbacks."""
+        return loop_node(self.world) is not None
+
+    def task_of_loop(
+        self, coroutine: Value, place: Place, loop: Value | None = None
+    ) -> Value | None:
+        """A task of the loop that runs nodes."""
+        node = loop_node(self.world) if loop is None else node_of_loop(self.world, loop)
+        if node is None:
+            return None
+        inside = coroutine.slots if isinstance(coroutine, Instance) else {}
+        beside = inside.get(IN_TASK)
+        if isinstance(beside, Native):
+            self.call(beside, Call(place))
+            # As long as the program is meant to run, it is awaited.
+            task = coroutine_of('task', lambda machine, receiver, call: NONE, Call(place))
+            task.slots[STARTED] = NONE
+            return task
+        add_task(self, node, inside.get(AWAITED, coroutine), place)
+        task = self.future(place, OF_LOOP if loop is None else OF_POOL)
+        note_its_end(self, task, place)
+        return task
+
+    def note_discarded(self, value: Value, place: Place) -> None:
+        """A coroutine or a task may be lost."""
+        lost_tasks.note_discarded(self.world, value, place)
 
     def note_raised(self, error: ast.expr, place: Place) -> None:
         """What a callback raises may end the spin that runs it."""

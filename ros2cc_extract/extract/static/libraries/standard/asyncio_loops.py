@@ -37,10 +37,19 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import AWAIT
 from ros2cc_extract.spec.model import When
 
 _ASKED = -1
 """Among the identities of ``World.asked``: whether a loop runs."""
+
+IN_TASK = '__in_task__'
+"""Slot of a coroutine of a library that others run beside: what it does as a task."""
+STARTED = '__started__'
+"""Slot of a task that is no future of its own."""
+LOOSE = '__loose__'
+"""Slot of a task that nobody keeps but who has made it."""
 
 _LOOP = 'asyncio.AbstractEventLoop'
 _FUTURE = 'asyncio.Future'
@@ -92,10 +101,13 @@ def _note_run(machine: ConcurrentMachine, loop: Value) -> None:
         world.loop_runs.append(LoopRun(loop, world.thread))
 
 
-def _make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """The event loop runs it later: the callback that hands it over does none of it."""
     world = machine.world
     _note_touch(machine, receiver, 'create_task', call)
+    task = machine.task_of_loop(call.args[0], call.place) if call.args else None
+    if task is not None:
+        return task
     effects, held, holds = world.effects, world.held, world.holds
     if effects is None or (world.activity is not None and world.when is When.START):
         return _run_coroutine(machine, receiver, call)
@@ -107,16 +119,53 @@ def _make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
     return machine.mystery('a task of asyncio', call.place, 'asyncio task')
 
 
+def _create_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """Nobody keeps the task but who gets it here."""
+    task = make_task(machine, receiver, call)
+    if isinstance(task, Instance):
+        task.slots[LOOSE] = NONE
+    return task
+
+
+def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """All run at the same time, and all are awaited."""
+    tasks = [_as_task(machine, each, call.place) for each in call.args]
+    if call.more or not tasks or any(task is None for task in tasks):
+        return _run_coroutine(machine, receiver, call)
+
+    def wait(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
+        for task in tasks:
+            machine.await_value(task or NONE, inner.place)
+        return machine.mystery('results of asyncio.gather', inner.place, 'await gather(…)')
+
+    return coroutine_of('asyncio.gather', wait, call)
+
+
+def _as_task(machine: ConcurrentMachine, value: Value, place: Place) -> Value | None:
+    """A future, or what a library awaits by itself, is awaited as it is."""
+    is_made = isinstance(value, Instance) and IN_TASK not in value.slots
+    if is_made and machine.runs_on_loop:
+        return value
+    return machine.task_of_loop(value, place)
+
+
 def _asyncio_sleep(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    current = machine.world.current
-    if current is not None and current.is_on_loop:
-        return NONE
     delay = call.argument(0, 'delay')
+    if machine.world.is_on_loop:
+        return coroutine_of('asyncio.sleep', _sleeping(delay), call)
     if isinstance(delay, Const) and isinstance(delay.value, (int, float)) and delay.value <= 0:
         machine.note_turn(call.place)  # this asks for no loop
     else:
         machine.note_blocking('asyncio.sleep', None, delay, call.place)
     return NONE
+
+
+def _sleeping(delay: Value | None) -> Handler:
+    def sleep(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+        machine.note_blocking(f'{AWAIT} asyncio.sleep', None, delay, call.place)
+        return NONE
+
+    return sleep
 
 
 def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -173,25 +222,45 @@ def _awaitable(name: str, word: Word | None = None) -> Handler:
     """A coroutine that waits for ``receiver`` once somebody awaits it, and then does ``word``."""
 
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-        coroutine = _made('asyncio.coroutine', 'coroutine', call)
-
         def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
             if isinstance(receiver, Instance) and (name != _PUT or may_be_full(receiver)):
-                machine.note_blocking(name, receiver, None, inner.place)
+                called = f'{AWAIT} {name}' if machine.world.is_on_loop else name
+                machine.note_blocking(called, receiver, None, inner.place)
                 machine.world.awaited_of_loops.append(receiver)
             if word is not None:
                 machine.note_wake(receiver, word, inner.place)
             return machine.mystery(f'result of {name}', inner.place, f'await {name}(…)')
 
-        coroutine.slots[AWAITED] = Native(name, awaited)
-        return coroutine
+        return coroutine_of(name, awaited, call)
 
     return handler
+
+
+def coroutine_of(name: str, awaited: Handler, call: Call) -> Instance:
+    """What a coroutine function of a library gives: ``awaited`` happens when it is awaited."""
+    coroutine = _made('asyncio.coroutine', 'coroutine', call)
+    coroutine.slots[AWAITED] = Native(name, awaited)
+    return coroutine
+
+
+def _within(inner: Value, limit: Value) -> Handler:
+    def wait(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+        world = machine.world
+        outer, world.limit = world.limit, limit
+        try:
+            return machine.await_value(inner, call.place)
+        finally:
+            world.limit = outer
+
+    return wait
 
 
 def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A wait with a time-out ends in any case."""
     inner = call.argument(0, 'fut')
+    limit = call.argument(1, 'timeout')
+    if machine.world.is_on_loop and inner is not None and limit not in (None, NONE):
+        return coroutine_of('asyncio.wait_for', _within(inner, limit or NONE), call)
     if not isinstance(inner, Instance) or AWAITED not in inner.slots:
         reason = 'result of asyncio.wait_for, which is not scanned'
         return machine.mystery(reason, call.place, 'asyncio.wait_for(…)')
@@ -229,7 +298,7 @@ _EVENT = LibraryClass(
 _LOOP_METHODS: dict[str, Handler] = {
     'run_until_complete': _run_loop,
     'is_running': _is_running,
-    'create_task': _make_task,
+    'create_task': _create_task,
     'create_future': _create_future,
     'call_soon': _call_soon,
     'call_soon_threadsafe': _call_soon_threadsafe,
@@ -245,8 +314,9 @@ def _event_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Valu
 
 def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     loop = Instance(Name(_LOOP), call.place)
-    if machine.world.loop is not None:
-        loop.slots[LOOP] = machine.world.loop
+    begin = machine.world.own_loop
+    if begin is not None:
+        loop.slots[LOOP] = begin
     return loop
 
 
@@ -269,11 +339,11 @@ TABLE = Library(
     },
     functions={
         'asyncio.run': _run_loop,
-        'asyncio.gather': _run_coroutine,
+        'asyncio.gather': _gather,
         'asyncio.wait_for': _wait_for,
-        'asyncio.wait': _run_coroutine,
-        'asyncio.create_task': _make_task,
-        'asyncio.ensure_future': _make_task,
+        'asyncio.wait': _gather,
+        'asyncio.create_task': _create_task,
+        'asyncio.ensure_future': _create_task,
         'asyncio.sleep': _asyncio_sleep,
         'asyncio.get_event_loop': _own_loop,
         'asyncio.new_event_loop': _event_loop,

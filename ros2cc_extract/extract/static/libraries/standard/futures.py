@@ -89,6 +89,9 @@ def run_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     elif isinstance(coroutine, Instance):
         target = coroutine.slots.get(AWAITED, coroutine)
     loop = call.argument(1, 'loop')
+    task = machine.task_of_loop(coroutine, call.place, loop)
+    if task is not None:
+        return task
     turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
     begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
     may_be_done(machine, future)

@@ -153,7 +153,7 @@ def _others_have_run(world: World) -> bool:
 
 def note_attribute(machine: Machine, owner: Instance, name: str, held: Value | None) -> None:
     """``owner.name`` is read and gives ``held``."""
-    if not _others_have_run(machine.world):
+    if not _others_have_run(machine.world) or (owner, name) in machine.world.settled_now:
         return
     if isinstance(held, Collection) and _may_be_filled(machine, held):
         machine.world.changing += 1
@@ -170,6 +170,8 @@ def assigns_other(world: World, owner: Instance, name: str, held: Value | None) 
 
     That it holds since before anything else was at work.
     """
+    if (owner, name) in world.settled_now:
+        return False
     constant = held if isinstance(held, Const) and held != NONE else None  # set elsewhere
     if (owner, name) in world.stored_late:
         constant = None

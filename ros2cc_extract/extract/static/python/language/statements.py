@@ -147,10 +147,12 @@ def _without(writes: Writes, scope: Scope) -> Writes:
 
 def _expression(machine: Statements, node: ast.Expr, frame: Frame) -> int:
     if _is_of_own_name(node.value, frame):
-        machine.evaluate(node.value, frame)
-        return NEXT
-    with machine.world.reading.apart():
-        machine.evaluate(node.value, frame)
+        value = machine.evaluate(node.value, frame)
+    else:
+        with machine.world.reading.apart():
+            value = machine.evaluate(node.value, frame)
+    if isinstance(node.value, ast.Call):
+        machine.note_discarded(value, frame.place(node.value))
     return NEXT
 
 

@@ -14,25 +14,29 @@ from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Coroutine,
     Instance,
+    Native,
     Value,
     choice,
 )
 from ros2cc_extract.source_locations import Place
 
+_PLAIN, _ASYNC = ('__enter__', '__exit__'), ('__aenter__', '__aexit__')
+
 
 class Blocks(Machine):
     """What a block begins with."""
 
-    def enter_context(self, value: Value, place: Place) -> Value:
-        """What ``with value as x`` binds to ``x``."""
+    def enter_context(self, value: Value, place: Place, *, is_async: bool = False) -> Value:
+        """What ``with value as x`` binds to ``x``, or ``async with``."""
         if isinstance(value, Instance):
             if is_block(value):
                 self.note_entered(value, place)
                 return value
-            method = self.attribute(value, '__enter__', place)
-            if isinstance(method, Bound):
-                entered = self.call(method, Call(place))
-                self.note_lock_method(value, '__enter__')
+            name = _ASYNC[0] if is_async else _PLAIN[0]
+            method = self.attribute(value, name, place)
+            if isinstance(method, (Bound, Native)):
+                entered = self.run_if_coroutine(self.call(method, Call(place)), place)
+                self.note_lock_method(value, name)
                 return entered
             return value
         return self._enter_generator(value, place)
@@ -59,7 +63,7 @@ def is_block(value: Instance) -> bool:
 
 def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
     """Run a block, with what its objects do at its begin and its end."""
-    held = machine.world.held
+    held, is_async = machine.world.held, isinstance(node, ast.AsyncWith)
     entered_ones: list[tuple[Value, Value, Place]] = []
     try:
         for item in node.items:
@@ -67,26 +71,27 @@ def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> 
                 machine.evaluate(item.context_expr, frame),
                 frame.place(item.context_expr),
             )
-            entered = machine.enter_context(value, place)
+            entered = machine.enter_context(value, place, is_async=is_async)
             if item.optional_vars is not None:
                 machine.assign(item.optional_vars, entered, frame)
             entered_ones.append((value, entered, place))
         flow = machine.execute_block(node.body, frame)
         for value, entered, place in reversed(entered_ones):
             machine.note_left_block(entered, place)
-            _exit(machine, value, _end_of(node, place))
+            _exit(machine, value, _end_of(node, place), is_async=is_async)
         return flow
     finally:
         machine.world.held = machine.held_behind_block(held)
 
 
-def _exit(machine: Machine, value: Value, place: Place) -> None:
-    """What the ``__exit__`` of a class of the program does."""
+def _exit(machine: Machine, value: Value, place: Place, *, is_async: bool) -> None:
+    """What the ``__exit__`` of a class does."""
     if not isinstance(value, Instance) or is_block(value):
         return
-    method = machine.attribute(value, '__exit__', place)
-    if isinstance(method, Bound):
-        machine.call(method, Call(place, [NONE, NONE, NONE]))
+    method = machine.attribute(value, _ASYNC[1] if is_async else _PLAIN[1], place)
+    if isinstance(method, (Bound, Native)):
+        left = machine.call(method, Call(place, [NONE, NONE, NONE]))
+        machine.run_if_coroutine(left, place)
 
 
 def _end_of(node: ast.With | ast.AsyncWith, begin: Place) -> Place:

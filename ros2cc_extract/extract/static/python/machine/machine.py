@@ -134,8 +134,8 @@ class Machine(Observer, LibraryHooks, ABC):
         """What ``from module import name`` gives."""
 
     @abstractmethod
-    def enter_context(self, value: Value, place: Place) -> Value:
-        """What ``with value as x`` binds to ``x``."""
+    def enter_context(self, value: Value, place: Place, *, is_async: bool = False) -> Value:
+        """What ``with value as x`` binds to ``x``, or ``async with``."""
 
     @abstractmethod
     def changed_globals(self, module: Module) -> frozenset[str]:

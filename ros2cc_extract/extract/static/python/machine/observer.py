@@ -49,6 +49,9 @@ class Observer:
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over a collection, which nobody may change in size meanwhile."""
 
+    def note_discarded(self, value: Value, place: Place) -> None:
+        """A statement does nothing with the value of the call that it consists of."""
+
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
         """``function`` is called, with the arguments of ``node``."""
 

@@ -41,6 +41,8 @@ class EffectLog:
         before, see ``child_pipes.py``.
     :param loops: how many loops of several rounds, known ones, are followed now.
     :param order: messages, clears of events and waits for events, see ``cleared_events.py``.
+    :param woken: of what others may wait on, by its identity, how many waits came before its wait
+        was ended first.
     :param pieces: what is changed piece by piece, or published as a whole.
     :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
@@ -66,6 +68,7 @@ class EffectLog:
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)
     order: list[tuple[str, object]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
+    woken: dict[int, int] = field(default_factory=dict)
 
 
 def way_of(block: Blocking) -> object:
@@ -102,6 +105,9 @@ class Doer:
     def is_answered(self) -> bool:
         """Whether it takes answers that somebody else must give."""
         return False
+
+    is_set_up: bool = False
+    """Whether it is what the set-up does beside the callbacks."""
 
     @property
     def is_on_loop(self) -> bool:

@@ -78,6 +78,7 @@ class World:
     """
     One run.
 
+    :param settled_now: attributes that nobody else changes, so that they hold what is stored.
     :param current: the callback that is followed; ``activity`` the thread, or the part of the
         main program.
     :param path: the undecided branches we are in.
@@ -199,6 +200,7 @@ class World:
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
     activity: Doer | None = None
+    settled_now: frozenset[tuple[Instance, str]] = frozenset()
 
     @property
     def in_callback(self) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    LOOP_KIND,
     EntityState,
     ExecutorState,
     GroupState,
@@ -15,7 +16,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import GroupType
 
-_SINGLE = 'SingleThreadedExecutor'
+_ONE_THREAD = ('SingleThreadedExecutor', LOOP_KIND)
 
 
 def keeps_to_itself(doer: object, others: Collection[object]) -> bool:
@@ -66,13 +67,13 @@ def _lets_others_run(doer: EntityState) -> bool:
 
 
 def _gives_thread(block: Blocking) -> bool:
-    return block.call == 'await' or 'spin' in block.call
+    return block.suspends or 'spin' in block.call
 
 
 def _has_one_thread(state: object) -> bool:
     if not isinstance(state, ExecutorState) or state.unresolved is not None:
         return False
-    return state.kind == _SINGLE
+    return state.kind in _ONE_THREAD
 
 
 def _is_one_group(everybody: Collection[EntityState]) -> bool:

@@ -16,7 +16,8 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Re
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
-from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import may_not_overlap
+from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_out, may_not_overlap
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
@@ -24,14 +25,16 @@ Doer = EntityState | ActivityState
 _FOR_ONE = frozenset({Word.PUT, Word.GET, Word.RELEASE})
 
 
-def is_kept_out(waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer]) -> bool:
-    """Whether ``waking`` may not come while ``doer`` waits, or be for somebody else."""
+def is_kept_out(
+    waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer], wait: Blocking
+) -> bool:
+    """Whether ``waking`` may not come while ``doer`` is in ``wait``, or be for somebody else."""
     by = waking.by
     if by is doer:
         return False
     return (
         is_off_its_loop(by, doers)
-        or _is_begun_by_one_kept_out(by, doer, doers)
+        or _is_begun_by_one_kept_out(by, doer, doers, wait)
         or _takes_back(waking, reference)
     )
 
@@ -41,14 +44,20 @@ def is_off_its_loop(by: object, doers: Sequence[Doer]) -> bool:
     return isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers)
 
 
-def _is_begun_by_one_kept_out(by: object, doer: Doer, doers: Sequence[Doer]) -> bool:
+def _is_begun_by_one_kept_out(
+    by: object, doer: Doer, doers: Sequence[Doer], wait: Blocking
+) -> bool:
     if not isinstance(by, EntityState):
         return False
     if by.kind is EntityKind.ACTION_EXECUTE:
         servers = (each for each in doers if _accepts_for(each, by))
         return any(server is doer or may_not_overlap(server, doer) for server in servers)
     is_made = by.kind in (EntityKind.TASK, EntityKind.DONE_CALLBACK) and by.maker is not doer
-    return is_made and not _is_of_one_request(by, doer) and may_not_overlap(by.maker, doer)
+    if not is_made or _is_of_one_request(by, doer):
+        return False
+    if wait.suspends:
+        return keeps_out(doer, by.maker, wait)
+    return may_not_overlap(by.maker, doer)
 
 
 def _is_of_one_request(by: EntityState, doer: Doer) -> bool:

@@ -26,11 +26,16 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import
     SHUTDOWN,
     executor_of,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    End,
+    EntityState,
+    GroupState,
+    RosWorld,
+)
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP
-from ros2cc_extract.spec.model import EntityKind, When
+from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 Doer = EntityState | ActivityState
 Names = Callable[[object], str | None]
@@ -49,6 +54,22 @@ _DOES = {
     DESTROY_NODE: 'destroys the node of {}, which ends it',
     REMOVE_NODE: 'takes the node of {}, which ends it, out of the executor',
 }
+
+
+def why_in_another_run(wait: Blocking, wakings: Sequence[Waking], doer: Doer) -> Unknown | None:
+    """
+    Why another run of ``doer`` itself may end its wait, or wait there too.
+
+    It waits in one branch and ends waits in another one, and several of its runs go on at a time.
+    """
+    if not isinstance(doer, EntityState) or not wait.conditional:
+        return None
+    group = doer.group.state
+    is_serial = isinstance(group, GroupState) and group.type is GroupType.EXCLUSIVE
+    own = next((w for w in wakings if w.by is doer and w.conditional), None)
+    if own is None or is_serial:
+        return None
+    return Unknown('another run may end it, if it takes the other branch', own.place)
 
 
 def why_gone(

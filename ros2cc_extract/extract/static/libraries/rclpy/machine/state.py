@@ -19,6 +19,8 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
+LOOP_KIND = 'AsyncNode'
+"""Kind of the executor that stands for a loop of asyncio, by the nodes that it runs."""
 _MERGED = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 
 
@@ -135,6 +137,9 @@ class EntityState(Doer, LibraryState):
         ``None`` where it depends on the caller.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
+    :param is_set_up: it is what the set-up does beside the callbacks, on their loop, and is
+        followed where it stands.
+    :param surely_waits: waits of its first run which only later runs could end.
     """
 
     is_one_of_many = True
@@ -157,6 +162,8 @@ class EntityState(Doer, LibraryState):
     one_shot: bool = False
     dormant: Place | None = None
     restarted: bool = False
+    is_set_up: bool = False
+    surely_waits: set[object] = field(default_factory=set)
     label: str | None = None
     extra_callbacks: tuple[Value, ...] = ()
     ran: int = -1
@@ -317,6 +324,7 @@ class RosWorld(ConcurrentWorld):
     :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
     :param publishers: by node, place and topic.
     :param parameters: what a launch sets for the nodes.
+    :param loops: the executor that stands for a loop of asyncio, by where that begins.
     :param lists_builtin: whether ``builtins`` gets what rclpy makes by itself.
     """
 
@@ -341,12 +349,21 @@ class RosWorld(ConcurrentWorld):
     parameters: GivenParameters = NONE_GIVEN
     builtins: list[EntityState] = field(default_factory=list)
     global_executor: Instance | None = None
+    loops: dict[object, Instance] = field(default_factory=dict)
     groupless: Instance | None = None
 
     @property
     def has_let_others_run(self) -> bool:
         """Whether something has been spun."""
         return bool(self.spins)
+
+    @property
+    def own_loop(self) -> Place | None:
+        """That of the node whose callback is followed, or of the set-up."""
+        if self.is_on_loop and self.current is not None:
+            state = self.current.node.state
+            return state.loop if isinstance(state, NodeState) else None
+        return self.loop
 
     @property
     def spins_begun(self) -> int:

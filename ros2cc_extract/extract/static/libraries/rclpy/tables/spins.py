@@ -12,7 +12,11 @@ from typing import TypeGuard
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import is_handed_on
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, nodes_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    LOOP_KIND,
+    ExecutorState,
+    nodes_of,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     Awaited,
     add_node,
@@ -133,6 +137,9 @@ def _warn_of_theft(
             continue
         if machine.world.when is When.LATER and not _is_spun_then(machine, other):
             continue
+        if other.state.kind == LOOP_KIND:
+            machine.world.diagnostics.append(_refused(how, place))
+            continue
         name = other.hint or 'executor'
         machine.world.diagnostics.append(
             Diagnostic(
@@ -150,6 +157,18 @@ def _warn_of_theft(
                 help=_instead(machine, other, name, how),
             )
         )
+
+
+def _refused(how: str, place: Place) -> Diagnostic:
+    """Source: rclpy 10.0.10: an ``AsyncNode`` lacks what an executor asks a node for."""
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='executor-not-spun',
+        place=place,
+        message=f'rclpy.{how} of an AsyncNode raises AttributeError: only a loop of asyncio '
+        'runs it',
+        help='`asyncio.run(node.run())`',
+    )
 
 
 def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:

@@ -44,11 +44,11 @@ def create_task(machine: RosMachine, receiver: Value, call: Call) -> Value:
         task = Partial(task, tuple(call.args[1:]), dict(call.keywords))
     add_task(machine, nodes[0] if nodes else None, task, call.place)
     future = machine.future(call.place, 'task')
-    _note_its_end(machine, future, call.place)
+    note_its_end(machine, future, call.place)
     return future
 
 
-def _note_its_end(machine: RosMachine, future: Value, place: Place) -> None:
+def note_its_end(machine: RosMachine, future: Value, place: Place) -> None:
     """The future of a task is done when the task has ended, whoever asks for it."""
     world = machine.world
     world.kept.append(future)

@@ -1,0 +1,64 @@
+"""
+Coroutines that nobody awaits, and tasks that nobody keeps.
+
+Sources: CPython 3.12, library reference, *Coroutines and Tasks* (``create_task``: the loop keeps
+only weak references to tasks), ``asyncio/tasks.py``, ``asyncio/base_events.py``
+(``call_exception_handler``).
+"""
+
+from __future__ import annotations
+
+from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
+from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import LOOSE, STARTED
+from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
+from ros2cc_extract.extract.static.python.values.values import (
+    Coroutine,
+    Instance,
+    Native,
+    Value,
+)
+from ros2cc_extract.source_locations import Place
+
+
+def note_discarded(world: RosWorld, value: Value, place: Place) -> None:
+    """A statement does nothing with the value of its call."""
+    if world.retelling:
+        return
+    told = _told(value, place)
+    if told is not None and told not in world.diagnostics:
+        world.diagnostics.append(told)
+
+
+def _told(value: Value, place: Place) -> Diagnostic | None:
+    if isinstance(value, Coroutine):
+        return _never_awaited(value.function.name, place)
+    if not isinstance(value, Instance):
+        return None
+    if LOOSE in value.slots:
+        return _never_kept(place)
+    awaited = value.slots.get(AWAITED)
+    if isinstance(awaited, Native) and STARTED not in value.slots:
+        return _never_awaited(awaited.name, place)
+    return None
+
+
+def _never_awaited(name: str, place: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='lost-task',
+        place=place,
+        message=f'nobody awaits the coroutine {name}(): none of its code ever runs',
+        help='await it',
+    )
+
+
+def _never_kept(place: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='lost-task',
+        place=place,
+        message='nobody keeps this task: an exception in it is lost, and it may be collected '
+        'before it has ended',
+        help='keep it and await it, or start it in an `asyncio.TaskGroup`',
+    )
