@@ -25,8 +25,8 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
-from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
+from ros2cc_extract.extract.static.libraries.standard.processes import child_pipes
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits

@@ -23,9 +23,9 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_names import (
     WAIT_KEY,
     OutsideRow,
 )
-from ros2cc_extract.extract.static.libraries.standard import child_pipes
 from ros2cc_extract.extract.static.libraries.standard.exit_hooks import on_exit
-from ros2cc_extract.extract.static.libraries.standard.short_commands import is_short
+from ros2cc_extract.extract.static.libraries.standard.processes import child_pipes
+from ros2cc_extract.extract.static.libraries.standard.processes.short_commands import is_short
 from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
