@@ -14,9 +14,11 @@ from ros2cc_extract.explore.watching import Process, Seen
 
 A_PROCESS = 20
 """
-So many schedules run in one process, one after the other, as long as none of them hangs. Every
-other process runs a single one: what a program does at first it does but once.
+So many schedules run in one process, one after the other, as long as none of them hangs. The next
+processes run a single one each, as what a program does at first it does but once.
 """
+# Of so many processes one runs many schedules: the one after the plain run is the first.
+_CYCLE = 4
 PLAIN_S = 3.0
 # The same hang so often in a row: nothing else is reached any more.
 _MOST_ALIKE = 3
@@ -55,6 +57,7 @@ class Exploration:
     :param done: schedules that were run, without the plain one.
     :param processes: how often the program was started.
     :param why_ended: as the end of a sentence.
+    :param statement: what all of it says together, where it says more than each.
     """
 
     found: list[Found] = field(default_factory=list)
@@ -63,6 +66,7 @@ class Exploration:
     longest: int = 0
     begins: int = 0
     why_ended: str = ''
+    statement: str = ''
     last_words: str = ''
 
 
@@ -112,7 +116,7 @@ def explore(
     """
     alike, steps = 0, _FIRST_STEPS
     while not into.why_ended:
-        a_process = 1 if into.processes % 2 else budget.a_process
+        a_process = budget.a_process if into.processes % _CYCLE == 1 else 1
         count = min(a_process, budget.schedules - into.done)
         if count <= 0:
             into.why_ended = 'all schedules were run'

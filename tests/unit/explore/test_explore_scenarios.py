@@ -89,6 +89,13 @@ def test_a_failure_is_told_with_its_order_and_how_to_repeat_it() -> None:
     assert file_name(FOUND, 1) == '1-lost-update-arm-9.json'
 
 
+def test_of_a_long_order_both_ends_are_shown() -> None:
+    tail = tuple((f'a#{number}', 'begin') for number in range(40))
+    shown = found_as_text(replace(FOUND, tail=tail), None).splitlines()
+    assert shown[2] == '    a#0: begin' and shown[-1] == '    a#39: begin'
+    assert '    … 24 steps' in shown and len(shown) == 2 + 17
+
+
 def test_the_plain_run_has_no_order() -> None:
     plain = replace(FOUND, schedule={'number': 0, 'policy': 'plain'}, tail=(), choices=())
     assert 'when the program ran as it came' in found_as_text(plain, None)
