@@ -113,7 +113,8 @@ def twins(python: str, most: int) -> Iterator[str]:
         run = functools.partial(run_process, scenario, python=python)
         explore(run, Strategy.MIXED, 1, Budget(schedules=most), so_far)
         found = '; '.join(f'{_shown(each.failure)}: {each.failure.words}' for each in so_far.found)
-        yield f'{path.name}: {so_far.done} schedules, {so_far.begins} callbacks: {found or "nothing"}'
+        count = f'{so_far.done} schedules, {so_far.begins} callbacks'
+        yield f'{path.name}: {count}: {found or "nothing"}'
 
 
 def _shown(failure: Failure) -> str:
