@@ -153,7 +153,6 @@ def search(
         else:
             process = run([_row(into.done + 1, path, search_.steps)])
             note(process, into)
-            into.done += 1
             progress(into)
             if not process.schedules:
                 into.why_ended = 'the program did not get to a schedule'

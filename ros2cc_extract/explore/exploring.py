@@ -63,7 +63,6 @@ class Exploration:
     found: list[Found] = field(default_factory=list)
     done: int = 0
     processes: int = 0
-    longest: int = 0
     begins: int = 0
     why_ended: str = ''
     statement: str = ''
@@ -127,7 +126,6 @@ def explore(
             rows = [schedule_row(strategy, seed, first + each, steps) for each in range(count)]
             process = run(rows)
             news = note(process, into)
-            into.done += len(process.schedules)
             lengths = [len(each.choices) for each in process.schedules if each.choices]
             steps = round(statistics.mean(lengths)) if lengths else steps
             progress(into)
@@ -154,12 +152,16 @@ def _hangs(process: Process) -> bool:
 
 
 def note(process: Process, into: Exploration) -> bool:
-    """Add what a process has shown; whether any of it is new."""
+    """
+    Add what a process has shown; whether any of it is new.
+
+    :raises KeyboardInterrupt: after that, where the process was interrupted.
+    """
     news = False
     into.processes += 1
     into.last_words = process.said
     for seen in process.schedules:
-        into.longest = max(into.longest, len(seen.choices))
+        into.done += seen.row['policy'] != PLAIN
         into.begins += seen.begins
         for found in founds_of(seen):
             known = next(
@@ -170,6 +172,8 @@ def note(process: Process, into: Exploration) -> bool:
                 news = True
             else:
                 into.found[into.found.index(known)] = replace(known, times=known.times + 1)
+    if process.interrupted:
+        raise KeyboardInterrupt
     return news
 
 

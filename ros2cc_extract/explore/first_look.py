@@ -68,6 +68,8 @@ def first_look(
 
 def _run(scenario: Scenario, python: str, stubs: bool) -> Process:
     process = plain(lambda rows: run_process(scenario, rows, python, stubs=stubs))
+    if process.interrupted:
+        raise KeyboardInterrupt
     if not process.started:
         said = [line for line in process.said.splitlines() if line.strip()]
         what = (

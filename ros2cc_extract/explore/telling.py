@@ -145,7 +145,7 @@ def limits_of(so_far: Exploration, points: int, sources: int) -> list[str]:
     elif not points:
         told.append('no wait, lock or shared attribute was found: callbacks are only ordered')
     if not so_far.begins:
-        told.append('no callback of the program began')
+        told.append('no callback of the program began, or none that its group is asked for')
     if any(each.failure.kind is Kind.STANDS for each in so_far.found):
         told.append('of what stands it is not decided whether it ends')
     return told

@@ -62,6 +62,8 @@ def changed(**parts: Any) -> str:
         changed(command='python arm.py'),
         changed(tail=[['a', 'b', 'c']]),
         changed(failure={'kind': 'luck'}),
+        changed(schedule={'seed': 1}),
+        changed(schedule='pct'),
         changed(points=[{'file': 1, 'colour': 'red'}]),
     ],
 )
@@ -99,7 +101,7 @@ def test_of_a_long_order_both_ends_are_shown() -> None:
 def test_the_plain_run_has_no_order() -> None:
     plain = replace(FOUND, schedule={'number': 0, 'policy': 'plain'}, tail=(), choices=())
     assert 'when the program ran as it came' in found_as_text(plain, None)
-    assert schedules_of(plain) == [{'number': 1, 'policy': 'plain'}]
+    assert schedules_of(plain) == [{'number': 1, 'policy': 'plain', 'seconds': 3.0}]
 
 
 def test_words_of_the_program_do_nothing_to_the_terminal() -> None:
@@ -134,7 +136,7 @@ def test_what_was_not_looked_at_is_said() -> None:
     assert limits_of(Exploration(begins=1), points=2, sources=1) == []
     assert limits_of(Exploration(), points=0, sources=0) == [
         'no source was scanned: callbacks are ordered, but none is held inside',
-        'no callback of the program began',
+        'no callback of the program began, or none that its group is asked for',
     ]
 
 

@@ -80,6 +80,17 @@ def test_time_and_a_program_that_does_not_get_there_end_it() -> None:
     assert found.why_ended == 'the program did not get to a schedule'
 
 
+def test_what_was_seen_until_ctrl_c_is_kept() -> None:
+    seen = Seen({'number': 1, 'policy': 'pct'}, failures=[HANG])
+    found = Exploration()
+    with pytest.raises(KeyboardInterrupt):
+        explore(
+            lambda rows: Process(schedules=[seen], interrupted=True),
+            *(Strategy.PCT, 1, Budget(schedules=5), found),
+        )
+    assert [each.failure for each in found.found] == [HANG]
+
+
 def test_schedules_differ_by_seed_and_depth() -> None:
     rows = [schedule_row(Strategy.MIXED, 7, number, 30) for number in range(1, 7)]
     assert [row['seed'] for row in rows] == [f'7/{number}' for number in range(1, 7)]
@@ -92,7 +103,7 @@ def test_what_leads_there_begins_where_nobody_was_at_work(step: int, tail: str) 
     failure = Failure(kind=Kind.LOST_UPDATE, file='', line=1, words='', step=step)
     choices = [(letter, 'begin') for letter in 'abcd']
     rounds = [0, 1, 2] if not step else [0, 1]
-    seen = Seen({'number': 1}, failures=[failure], choices=choices, rounds=rounds)
+    seen = Seen({'number': 1, 'policy': 'pct'}, failures=[failure], choices=choices, rounds=rounds)
     (found,) = founds_of(seen)
     assert ''.join(key for key, _ in found.tail) == tail
     assert len(found.choices) == (step or 4)
