@@ -20,6 +20,8 @@ processes run a single one each, as what a program does at first it does but onc
 # Of so many processes one runs many schedules: the one after the plain run is the first.
 _CYCLE = 4
 PLAIN_S = 3.0
+FIRST_GATHER_S = 1.0
+"""What happens but once is to meet as much as can be, so all that may be ready is waited for."""
 # The same hang so often in a row: nothing else is reached any more.
 _MOST_ALIKE = 3
 _FIRST_STEPS = 12
@@ -124,6 +126,8 @@ def explore(
         else:
             first = into.done + 1
             rows = [schedule_row(strategy, seed, first + each, steps) for each in range(count)]
+            if a_process == 1:
+                rows = [{**row, 'gather_s': FIRST_GATHER_S} for row in rows]
             process = run(rows)
             news = note(process, into)
             lengths = [len(each.choices) for each in process.schedules if each.choices]

@@ -11,10 +11,18 @@ from pathlib import Path
 
 import pytest
 
+from ros2cc_extract.confirm.processes import DOMAINS_VARIABLE
+
 ROOT = Path(__file__).parents[2]
 BUGS = ROOT / 'tests/bugs'
 NODES = ROOT / 'tests/explore/nodes'
 MARKED = Path(__file__).parent / 'programs' / 'marked.py'
+
+
+@pytest.fixture(autouse=True)
+def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody else's messages, and none for anybody else."""
+    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
 
 
 def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -86,7 +94,8 @@ def run_marked(python: str, domain: int, *arguments: str) -> str:
         'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1',
     }
     plugin = ['-p', 'ros2cc_extract.ros.pytest_schedules', '-p', 'no:cacheprovider']
-    command = [python, '-m', 'pytest', '-q', *plugin, '-c', os.devnull, str(MARKED), *arguments]
+    command = [python, '-m', 'pytest', '-q', *plugin, '-c', os.devnull, '--noconftest']
+    command += [str(MARKED), *arguments]
     done = subprocess.run(command, env=env, capture_output=True, text=True, cwd=MARKED.parent)
     return done.stdout + done.stderr
 
