@@ -14,10 +14,14 @@ from ros2cc_extract.explore.watching import Process, Seen
 
 A_PROCESS = 20
 """
-So many schedules run in one process, one after the other, as long as none of them hangs. Every
-other process runs a single one: what a program does at first it does but once.
+So many schedules run in one process, one after the other, as long as none of them hangs. The next
+processes run a single one each, as what a program does at first it does but once.
 """
+# Of so many processes one runs many schedules: the one after the plain run is the first.
+_CYCLE = 4
 PLAIN_S = 3.0
+FIRST_GATHER_S = 1.0
+"""What happens but once is to meet as much as can be, so all that may be ready is waited for."""
 # The same hang so often in a row: nothing else is reached any more.
 _MOST_ALIKE = 3
 _FIRST_STEPS = 12
@@ -55,14 +59,15 @@ class Exploration:
     :param done: schedules that were run, without the plain one.
     :param processes: how often the program was started.
     :param why_ended: as the end of a sentence.
+    :param statement: what all of it says together, where it says more than each.
     """
 
     found: list[Found] = field(default_factory=list)
     done: int = 0
     processes: int = 0
-    longest: int = 0
     begins: int = 0
     why_ended: str = ''
+    statement: str = ''
     last_words: str = ''
 
 
@@ -112,7 +117,7 @@ def explore(
     """
     alike, steps = 0, _FIRST_STEPS
     while not into.why_ended:
-        a_process = 1 if into.processes % 2 else budget.a_process
+        a_process = budget.a_process if into.processes % _CYCLE == 1 else 1
         count = min(a_process, budget.schedules - into.done)
         if count <= 0:
             into.why_ended = 'all schedules were run'
@@ -121,9 +126,10 @@ def explore(
         else:
             first = into.done + 1
             rows = [schedule_row(strategy, seed, first + each, steps) for each in range(count)]
+            if a_process == 1:
+                rows = [{**row, 'gather_s': FIRST_GATHER_S} for row in rows]
             process = run(rows)
             news = note(process, into)
-            into.done += len(process.schedules)
             lengths = [len(each.choices) for each in process.schedules if each.choices]
             steps = round(statistics.mean(lengths)) if lengths else steps
             progress(into)
@@ -150,12 +156,16 @@ def _hangs(process: Process) -> bool:
 
 
 def note(process: Process, into: Exploration) -> bool:
-    """Add what a process has shown; whether any of it is new."""
+    """
+    Add what a process has shown; whether any of it is new.
+
+    :raises KeyboardInterrupt: after that, where the process was interrupted.
+    """
     news = False
     into.processes += 1
     into.last_words = process.said
     for seen in process.schedules:
-        into.longest = max(into.longest, len(seen.choices))
+        into.done += seen.row['policy'] != PLAIN
         into.begins += seen.begins
         for found in founds_of(seen):
             known = next(
@@ -166,6 +176,8 @@ def note(process: Process, into: Exploration) -> bool:
                 news = True
             else:
                 into.found[into.found.index(known)] = replace(known, times=known.times + 1)
+    if process.interrupted:
+        raise KeyboardInterrupt
     return news
 
 

@@ -29,13 +29,13 @@ def first_look(
     is_sent: bool = True,
     stubs: bool = False,
     everywhere: bool = False,
-) -> tuple[Scenario, int]:
+) -> tuple[Scenario, list[Spec]]:
     """
     Run the program once as it comes, and scan the files of the callbacks that have run.
 
     :param given: scan these instead.
     :param everywhere: as of a ``Scenario``.
-    :return: what is to be explored, and how many units were read from source.
+    :return: what is to be explored, and what was read from source.
     :raises InputError: where no process of the command loads rclpy.
     """
     named = [Path(each) for each in command if each.endswith('.py') and Path(each).is_file()]
@@ -62,12 +62,14 @@ def first_look(
             known=tuple(process.labels),
             everywhere=everywhere,
         ),
-        len(units),
+        units,
     )
 
 
 def _run(scenario: Scenario, python: str, stubs: bool) -> Process:
     process = plain(lambda rows: run_process(scenario, rows, python, stubs=stubs))
+    if process.interrupted:
+        raise KeyboardInterrupt
     if not process.started:
         said = [line for line in process.said.splitlines() if line.strip()]
         what = (

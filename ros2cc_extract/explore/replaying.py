@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from ros2cc_extract.explore.exploring import PLAIN_S
 from ros2cc_extract.explore.failures import Failure
 from ros2cc_extract.explore.scenario import PLAIN, Found, Row
 from ros2cc_extract.explore.watching import Process
@@ -36,7 +37,7 @@ def schedules_of(found: Found) -> list[Row]:
     before may differ; then all of its schedule.
     """
     if found.schedule['policy'] == PLAIN or not found.choices:
-        return [{**found.schedule, 'number': 1}]
+        return [{'number': 1, 'policy': PLAIN, 'seconds': PLAIN_S}]
     tail = {'policy': 'recorded', 'choices': found.tail, 'seconds': _SECONDS, 'gather_s': 0.0}
     whole = {**tail, 'choices': found.choices, 'seconds': 2 * _SECONDS}
     rows = [tail] * TAILS + [whole]
@@ -47,12 +48,19 @@ Run = Callable[[Sequence[Row], Callable[[Failure], bool]], Process]
 
 
 def replay(found: Found, run: Run) -> Replay:
-    """Try until the failure is seen again."""
+    """
+    Try until the failure is seen again.
+
+    :raises KeyboardInterrupt: where somebody has pressed Ctrl-C.
+    """
     begun, tries = time.monotonic(), 0
     for number in range(1, PROCESSES + 1):
-        for seen in run(schedules_of(found), found.failure.is_like).schedules:
+        process = run(schedules_of(found), found.failure.is_like)
+        for seen in process.schedules:
             tries += 1
             for failure in seen.failures:
                 if failure.is_like(found.failure):
                     return Replay(failure, number, tries, time.monotonic() - begun)
+        if process.interrupted:
+            raise KeyboardInterrupt
     return Replay(None, PROCESSES, tries, time.monotonic() - begun)

@@ -125,7 +125,7 @@ def _read(row: Row) -> tuple[Scenario, Found]:
     failure = Failure(**{**row['failure'], 'kind': Kind(row['failure']['kind'])})
     found = Found(
         failure=failure,
-        schedule=dict(row['schedule']),
+        schedule={**row['schedule'], 'policy': str(row['schedule']['policy'])},
         number=int(row['number']),
         tail=_choices(row['tail']),
         choices=_choices(row['choices']),

@@ -13,7 +13,8 @@ from ros2cc_extract.explore.replaying import Replay
 from ros2cc_extract.explore.scenario import PLAIN, Found
 from ros2cc_extract.text_escaping import lines as escaped
 
-_MOST_CHOICES = 12
+# What an order begins with, and what it ends with, is shown of a long one.
+_AT_EACH_END = 8
 
 
 def found_as_text(found: Found, file: Path | None) -> str:
@@ -29,10 +30,11 @@ def _of_found(found: Found, file: Path | None) -> Iterator[str]:
         yield '  seen when the program ran as it came, without any schedule'
     else:
         yield f'  schedule {found.number}, in this order:'
-        left = len(found.tail) - _MOST_CHOICES
-        if left > 0:
-            yield f'    … {left} steps before'
-        yield from (f'    {key}: {at}' for key, at in found.tail[-_MOST_CHOICES:])
+        order = [f'    {key}: {at}' for key, at in found.tail]
+        left = len(order) - 2 * _AT_EACH_END
+        if left > 1:
+            order[_AT_EACH_END:-_AT_EACH_END] = [f'    … {left} steps']
+        yield from order
     if found.times > 1:
         yield f'  seen in {found.times} schedules'
     if file is not None:
@@ -80,6 +82,7 @@ def as_json(
                 'callbacks_begun': so_far.begins,
                 'seconds': round(seconds, 1),
                 'ended': so_far.why_ended or 'interrupted',
+                'statement': so_far.statement or None,
                 'limits': list(limits),
                 'failures': rows,
             },
@@ -142,7 +145,7 @@ def limits_of(so_far: Exploration, points: int, sources: int) -> list[str]:
     elif not points:
         told.append('no wait, lock or shared attribute was found: callbacks are only ordered')
     if not so_far.begins:
-        told.append('no callback of the program began')
+        told.append('no callback of the program began, or none that its group is asked for')
     if any(each.failure.kind is Kind.STANDS for each in so_far.found):
         told.append('of what stands it is not decided whether it ends')
     return told

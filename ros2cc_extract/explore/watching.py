@@ -60,6 +60,7 @@ class Process:
 
     :param schedules: those that were begun.
     :param ended: it ended before its schedules were over.
+    :param interrupted: somebody has pressed Ctrl-C; what was seen until then is here.
     :param files: in which the functions of callbacks stand; empty where that is not known.
     :param labels: names of the callbacks that have begun.
     """
@@ -67,6 +68,7 @@ class Process:
     schedules: list[Seen] = field(default_factory=list)
     started: bool = False
     ended: bool = False
+    interrupted: bool = False
     said: str = ''
     files: list[str] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
@@ -112,6 +114,14 @@ class _Watch:
         self._found = Process()
 
     def watch(self, node: Node, deadline: float) -> Process:
+        try:
+            self._watch(node, deadline)
+        except KeyboardInterrupt:
+            self._found.interrupted = True
+        self._found.said = node.said
+        return self._found
+
+    def _watch(self, node: Node, deadline: float) -> None:
         found, begun = self._found, time.monotonic()
         while not self._is_over and time.monotonic() < deadline:
             ended = node.process.poll() is not None
@@ -120,7 +130,7 @@ class _Watch:
             for row in self._rows.read(node.report):
                 try:
                     self._note(row)
-                except (ValueError, KeyError, TypeError, AttributeError):
+                except (ValueError, KeyError, TypeError, AttributeError, IndexError):
                     continue  # somebody else has written there
             if not found.started and time.monotonic() - begun > START_S:
                 break
@@ -128,8 +138,6 @@ class _Watch:
                 found.ended = not self._is_over
                 break
             time.sleep(_READ_EVERY_S)
-        found.said = node.said
-        return found
 
     def _note(self, row: Row) -> None:
         what, found = row['what'], self._found

@@ -104,6 +104,19 @@ def row_of(
     }
 
 
+def twins(python: str, most: int) -> Iterator[str]:
+    """Run schedules of each good twin, and say what was found in it: nothing should be."""
+    for name in BUGS:
+        path = ROOT / 'tests/bugs' / f'{name}_mended.py'
+        so_far = Exploration()
+        scenario = first_look((python, str(path)), python, so_far)[0]
+        run = functools.partial(run_process, scenario, python=python)
+        explore(run, Strategy.MIXED, 1, Budget(schedules=most), so_far)
+        found = '; '.join(f'{_shown(each.failure)}: {each.failure.words}' for each in so_far.found)
+        count = f'{so_far.done} schedules, {so_far.begins} callbacks'
+        yield f'{path.name}: {count}: {found or "nothing"}'
+
+
 def _shown(failure: Failure) -> str:
     return f'{failure.kind.value} at line {failure.line}'
 
@@ -136,8 +149,15 @@ def main() -> int:
     parser.add_argument('--replays', type=int, default=5)
     parser.add_argument('--without-gil', nargs='*', default=['g1_state_across_groups'])
     parser.add_argument('--again', action='store_true', help='keep what plain runs have shown')
+    parser.add_argument('--twins', type=int, metavar='N', help='N schedules of each good twin')
     parser.add_argument('names', nargs='*')
     args = parser.parse_args()
+    if args.twins:
+        found = []
+        for line in twins(args.python, args.twins):
+            print(line, flush=True)
+            found.append(line)
+        return int(any(not line.endswith(': nothing') for line in found))
     kept = args.record.read_text().splitlines() if args.record.exists() else []
     rows = {row['node']: row for row in map(json.loads, kept)}
     with args.record.open('a', encoding='utf-8') as stream:

@@ -13,11 +13,18 @@ import pytest
 from ros2cc_extract.confirm import confirming
 from ros2cc_extract.confirm.confirming import confirm
 from ros2cc_extract.confirm.outcomes import Outcome
+from ros2cc_extract.confirm.processes import DOMAINS_VARIABLE
 from ros2cc_extract.confirm.schedules import read_schedule
 from tests.confirm.table import onto, schedules
 
 BUGS = Path(__file__).parents[1] / 'bugs'
 LIMIT_S = 120.0
+
+
+@pytest.fixture(autouse=True)
+def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody else's messages, and none for anybody else."""
+    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
 
 
 def test_locks_in_opposite_order_are_confirmed(rclpy_python: str, tmp_path: Path) -> None:

@@ -11,10 +11,18 @@ from pathlib import Path
 
 import pytest
 
+from ros2cc_extract.confirm.processes import DOMAINS_VARIABLE
+
 ROOT = Path(__file__).parents[2]
 BUGS = ROOT / 'tests/bugs'
 NODES = ROOT / 'tests/explore/nodes'
 MARKED = Path(__file__).parent / 'programs' / 'marked.py'
+
+
+@pytest.fixture(autouse=True)
+def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody else's messages, and none for anybody else."""
+    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
 
 
 def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -49,6 +57,18 @@ def test_an_exception_between_test_and_use_is_found(rclpy_python: str, tmp_path:
     assert re.search(r'Driver.cancel .*: goal_gone.py:\d+ write Driver.goal', found.stdout)
 
 
+def test_all_orders_of_two_callbacks_are_run(rclpy_python: str, tmp_path: Path) -> None:
+    """Read and write of each, and the begins are independent: two in a row, and two lost."""
+    options = ('--strategy', 'depth-first', '-o', tmp_path, '--output-format', 'json')
+    done = explore(*options, '--', rclpy_python, NODES / 'lost_credit.py')
+    found = json.loads(done.stdout)
+    assert found['statement'].startswith('complete: all 4 orders of the first run of each'), found
+    assert {(each['kind'], each['line']) for each in found['failures']} == {
+        ('lost update', 22),
+        ('lost update', 27),
+    }
+
+
 @pytest.mark.parametrize('name', ['g2_lost_update_mended', 'g4_lock_order_mended'])
 def test_nothing_is_found_in_a_good_twin(name: str, rclpy_python: str, tmp_path: Path) -> None:
     done = explore('--schedules', 22, '-o', tmp_path, '--', rclpy_python, BUGS / f'{name}.py')
@@ -74,7 +94,8 @@ def run_marked(python: str, domain: int, *arguments: str) -> str:
         'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1',
     }
     plugin = ['-p', 'ros2cc_extract.ros.pytest_schedules', '-p', 'no:cacheprovider']
-    command = [python, '-m', 'pytest', '-q', *plugin, '-c', os.devnull, str(MARKED), *arguments]
+    command = [python, '-m', 'pytest', '-q', *plugin, '-c', os.devnull, '--noconftest']
+    command += [str(MARKED), *arguments]
     done = subprocess.run(command, env=env, capture_output=True, text=True, cwd=MARKED.parent)
     return done.stdout + done.stderr
 

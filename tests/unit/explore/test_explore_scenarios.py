@@ -62,6 +62,8 @@ def changed(**parts: Any) -> str:
         changed(command='python arm.py'),
         changed(tail=[['a', 'b', 'c']]),
         changed(failure={'kind': 'luck'}),
+        changed(schedule={'seed': 1}),
+        changed(schedule='pct'),
         changed(points=[{'file': 1, 'colour': 'red'}]),
     ],
 )
@@ -89,10 +91,17 @@ def test_a_failure_is_told_with_its_order_and_how_to_repeat_it() -> None:
     assert file_name(FOUND, 1) == '1-lost-update-arm-9.json'
 
 
+def test_of_a_long_order_both_ends_are_shown() -> None:
+    tail = tuple((f'a#{number}', 'begin') for number in range(40))
+    shown = found_as_text(replace(FOUND, tail=tail), None).splitlines()
+    assert shown[2] == '    a#0: begin' and shown[-1] == '    a#39: begin'
+    assert '    … 24 steps' in shown and len(shown) == 2 + 17
+
+
 def test_the_plain_run_has_no_order() -> None:
     plain = replace(FOUND, schedule={'number': 0, 'policy': 'plain'}, tail=(), choices=())
     assert 'when the program ran as it came' in found_as_text(plain, None)
-    assert schedules_of(plain) == [{'number': 1, 'policy': 'plain'}]
+    assert schedules_of(plain) == [{'number': 1, 'policy': 'plain', 'seconds': 3.0}]
 
 
 def test_words_of_the_program_do_nothing_to_the_terminal() -> None:
@@ -127,7 +136,7 @@ def test_what_was_not_looked_at_is_said() -> None:
     assert limits_of(Exploration(begins=1), points=2, sources=1) == []
     assert limits_of(Exploration(), points=0, sources=0) == [
         'no source was scanned: callbacks are ordered, but none is held inside',
-        'no callback of the program began',
+        'no callback of the program began, or none that its group is asked for',
     ]
 
 

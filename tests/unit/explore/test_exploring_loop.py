@@ -46,10 +46,10 @@ def explored(program: Program, schedules: int, **more: Any) -> Exploration:
     return found
 
 
-def test_every_other_process_runs_one_schedule() -> None:
+def test_one_process_of_four_runs_many_schedules() -> None:
     program = Program()
     found = explored(program, 25, a_process=10)
-    assert [len(each) for each in program.asked] == [10, 1, 10, 1, 3]
+    assert [len(each) for each in program.asked] == [1, 10, 1, 1, 1, 10, 1]
     assert [number for each in program.asked for number in each] == list(range(1, 26))
     assert (found.done, found.begins, found.why_ended) == (25, 50, 'all schedules were run')
 
@@ -57,7 +57,7 @@ def test_every_other_process_runs_one_schedule() -> None:
 def test_after_a_hang_the_next_process_goes_on_with_the_next_schedule() -> None:
     program = Program(fails=[4])
     found = explored(program, 12, a_process=10)
-    assert program.asked[0][0] == 1 and program.asked[1] == [5]
+    assert program.asked[:3] == [[1], list(range(2, 12)), [5]]
     assert [(each.number, each.times) for each in found.found] == [(4, 1)]
 
 
@@ -80,6 +80,17 @@ def test_time_and_a_program_that_does_not_get_there_end_it() -> None:
     assert found.why_ended == 'the program did not get to a schedule'
 
 
+def test_what_was_seen_until_ctrl_c_is_kept() -> None:
+    seen = Seen({'number': 1, 'policy': 'pct'}, failures=[HANG])
+    found = Exploration()
+    with pytest.raises(KeyboardInterrupt):
+        explore(
+            lambda rows: Process(schedules=[seen], interrupted=True),
+            *(Strategy.PCT, 1, Budget(schedules=5), found),
+        )
+    assert [each.failure for each in found.found] == [HANG]
+
+
 def test_schedules_differ_by_seed_and_depth() -> None:
     rows = [schedule_row(Strategy.MIXED, 7, number, 30) for number in range(1, 7)]
     assert [row['seed'] for row in rows] == [f'7/{number}' for number in range(1, 7)]
@@ -92,7 +103,7 @@ def test_what_leads_there_begins_where_nobody_was_at_work(step: int, tail: str) 
     failure = Failure(kind=Kind.LOST_UPDATE, file='', line=1, words='', step=step)
     choices = [(letter, 'begin') for letter in 'abcd']
     rounds = [0, 1, 2] if not step else [0, 1]
-    seen = Seen({'number': 1}, failures=[failure], choices=choices, rounds=rounds)
+    seen = Seen({'number': 1, 'policy': 'pct'}, failures=[failure], choices=choices, rounds=rounds)
     (found,) = founds_of(seen)
     assert ''.join(key for key, _ in found.tail) == tail
     assert len(found.choices) == (step or 4)

@@ -37,8 +37,13 @@ class Counter:
 
     def reset(self):
         self.count = 0
+
+    def tell_once(self):
+        if self.count:
+            tell()
+            tell()
 """
-READ, WRITE, AT_ONCE, RESET = 9, 11, 14, 17
+READ, WRITE, AT_ONCE, RESET, TEST = 9, 11, 14, 17, 20
 
 
 class Choice:
@@ -232,7 +237,7 @@ def points(program: Any, *lines: int) -> list[Point]:
 
 
 def tracing_of(program: Any, control: Control, tell: Callable[..., None]) -> Tracing:
-    return Tracing(Marks(points(program, READ, WRITE, AT_ONCE, RESET)), control, tell)
+    return Tracing(Marks(points(program, READ, WRITE, AT_ONCE, RESET, TEST)), control, tell)
 
 
 def traced(tracing: Tracing, work: Callable[[], None]) -> threading.Thread:
@@ -312,3 +317,29 @@ def test_where_no_thread_can_come_in_nobody_is_held(program: Any, control: Contr
         f'program.py:{READ} read Counter.count',
         f'program.py:{WRITE} write Counter.count',
     ]
+
+
+def test_who_has_tested_is_held_once_before_it_acts(program: Any, control: Control) -> None:
+    counter, stood = program.Counter(), []
+    counter.count = 1
+    control.pause = lambda at, frame: stood.append(at)  # type: ignore[method-assign]
+    traced(tracing_of(program, control, lambda *_, **__: None), counter.tell_once).join(10)
+    assert stood == [
+        f'program.py:{TEST} read Counter.count',
+        f'program.py:{TEST} tested Counter.count',
+    ]
+
+
+def test_what_goes_wrong_in_the_trace_does_not_reach_the_program(
+    program: Any, control: Control
+) -> None:
+    def fail(at: str, code: Any) -> None:
+        raise RuntimeError('of ours')
+
+    counter = program.Counter()
+    control.pause = fail  # type: ignore[method-assign]
+    tracing = tracing_of(program, control, lambda *_, **__: None)
+    traced(tracing, counter.add).join(10)
+    tracing.marks = None  # type: ignore[assignment]
+    traced(tracing, counter.add).join(10)
+    assert counter.count == 2

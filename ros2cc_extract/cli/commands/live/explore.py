@@ -6,7 +6,7 @@ import argparse
 import functools
 import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     from ros2cc_extract.explore.exploring import Exploration
     from ros2cc_extract.explore.scenario import Row, Scenario
     from ros2cc_extract.explore.watching import Process
+    from ros2cc_extract.spec.model import Spec
 
 DEFAULT_SCHEDULES, DEFAULT_SECONDS = 100, 300.0
+DEFAULT_STEPS, DEPTH_FIRST = 20, 'depth-first'
 DEFAULT_FOLDER = Path('ros2cc-explore')
 EPILOG = """\
 examples:
@@ -59,10 +61,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         '--strategy',
-        choices=('mixed', 'pct', 'random', 'preemptions'),
+        choices=('mixed', 'pct', 'random', 'preemptions', DEPTH_FIRST),
         default='mixed',
-        help='random priorities (pct), a random walk, both in turn (mixed, the default), or few '
-        'preemptions',
+        help='random priorities (pct), a random walk, both in turn (mixed, the default), few '
+        'preemptions, or all orders of the first steps of a small node (depth-first)',
+    )
+    parser.add_argument(
+        '--steps',
+        type=positive,
+        default=DEFAULT_STEPS,
+        metavar='N',
+        help='of depth-first: order the first N steps (default %(default)s)',
     )
     parser.add_argument('--seed', type=int, default=1, metavar='N', help='of all that is random')
     parser.add_argument('--first', action='store_true', help='end with the first failure')
@@ -127,7 +136,7 @@ def _explore(
 ) -> int:
     from ros2cc_extract.confirm.consent import ask_to_run
     from ros2cc_extract.confirm.processes import release_of
-    from ros2cc_extract.explore.exploring import Budget, Exploration, Strategy, explore
+    from ros2cc_extract.explore.exploring import Exploration
     from ros2cc_extract.explore.watching import run_process
 
     begun = time.monotonic()
@@ -137,16 +146,11 @@ def _explore(
     deadline = begun + args.max_seconds
     so_far = Exploration()
     show = functools.partial(_show, args, begun, stderr)
-    scenario, sources = None, 0
+    scenario: Scenario | None = None
+    units: Sequence[Spec] = ()
     try:
-        scenario, sources = _first_look(args, command, python, so_far)
+        scenario, units = _first_look(args, command, python, so_far)
         show(so_far)
-        budget = Budget(
-            schedules=args.schedules,
-            deadline=deadline,
-            a_process=1 if args.fresh else Budget.a_process,
-            only_first=args.first,
-        )
         if so_far.found and args.first:
             so_far.why_ended = 'a failure was found'
         else:
@@ -158,11 +162,11 @@ def _explore(
                 deadline=deadline,
                 until=lambda _: args.first,
             )
-            explore(ready, Strategy(args.strategy), args.seed, budget, so_far, show)
+            _run_schedules(args, ready, units, deadline, so_far, show)
     except KeyboardInterrupt:
         so_far.why_ended = 'interrupted'
     _clear(stderr)
-    _tell(args, so_far, (scenario, sources, release, begun), stdout, stderr)
+    _tell(args, so_far, (scenario, len(units), release, begun), stdout, stderr)
     if so_far.found:
         return EXIT_FINDINGS
     if so_far.why_ended == 'interrupted':
@@ -170,9 +174,36 @@ def _explore(
     return EXIT_CLEAN if so_far.begins else EXIT_ERROR
 
 
+def _run_schedules(
+    args: argparse.Namespace,
+    ready: Callable[[Sequence[Row]], Process],
+    units: Sequence[Spec],
+    deadline: float,
+    so_far: Exploration,
+    show: Callable[[Exploration], None],
+) -> None:
+    from ros2cc_extract.explore.depth_first import Search, dependence_of, search
+    from ros2cc_extract.explore.exploring import Budget, Strategy, explore
+
+    budget = Budget(
+        schedules=args.schedules,
+        deadline=deadline,
+        a_process=1 if args.fresh else Budget.a_process,
+        only_first=args.first,
+    )
+    if args.strategy != DEPTH_FIRST:
+        explore(ready, Strategy(args.strategy), args.seed, budget, so_far, show)
+        return
+    found = Search(args.steps)
+    try:
+        search(ready, dependence_of(units), found, budget, so_far, show)
+    finally:
+        so_far.statement = found.words
+
+
 def _first_look(
     args: argparse.Namespace, command: Sequence[str], python: str, so_far: Exploration
-) -> tuple[Scenario, int]:
+) -> tuple[Scenario, Sequence[Spec]]:
     """
     Run the program as it comes, and scan what has run.
 
@@ -224,6 +255,8 @@ def _tell(
         return
     for each_limit in limits:
         print(f'note: {each_limit}', file=stdout)
+    if so_far.statement:
+        print(so_far.statement, file=stdout)
     print(summary(so_far, seconds), file=stdout)
     if not so_far.begins:
         for line in [line for line in so_far.last_words.splitlines() if line.strip()][-3:]:

@@ -22,6 +22,7 @@ _SWITCH = (
 )  # fmt: skip
 _READS = ('LOAD_ATTR', 'LOAD_METHOD', 'LOAD_GLOBAL', 'LOAD_NAME')
 _WRITES = ('STORE_ATTR', 'STORE_GLOBAL', 'STORE_NAME')
+_TEST = ('POP_JUMP', 'JUMP_IF')
 
 
 class Point:
@@ -62,6 +63,11 @@ class Mark:
         self.attribute = '' if kind == WAIT else point.name.rpartition('.')[2]
         self.at = f'{os.path.basename(point.file)}:{line} {kind} {point.name}'.rstrip()  # noqa: PTH119
 
+    @property
+    def after_test(self) -> str:
+        """Where a thread stands that has tested what it read, and is about to act on it."""
+        return f'{self.at.partition(" ")[0]} tested {self.name}'
+
 
 class OfCode:
     """
@@ -69,14 +75,18 @@ class OfCode:
 
     :param marks: by the offsets of their instructions.
     :param switches: offsets of instructions at which another thread may come in.
+    :param tests: offsets of instructions that branch.
     """
 
-    def __init__(self, marks: dict[int, Mark], switches: frozenset[int]) -> None:
+    def __init__(
+        self, marks: dict[int, Mark], switches: frozenset[int], tests: frozenset[int]
+    ) -> None:
         self.marks = marks
         self.switches = switches
+        self.tests = tests
 
 
-_NOTHING = OfCode({}, frozenset())
+_NOTHING = OfCode({}, frozenset(), frozenset())
 
 
 class Marks:
@@ -111,8 +121,9 @@ class Marks:
                     _mark_wait(marks, point, instructions, code, lines)
                 else:
                     _mark_accesses(marks, point, instructions, lines)
-        switches = (o.offset for o in instructions if o.opname.startswith(_SWITCH))
-        return OfCode(marks, frozenset(switches))
+        switches = frozenset(o.offset for o in instructions if o.opname.startswith(_SWITCH))
+        tests = frozenset(o.offset for o in instructions if o.opname.startswith(_TEST))
+        return OfCode(marks, switches, tests)
 
 
 def _mark_accesses(

@@ -18,7 +18,7 @@ from typing import Any
 
 from .control import Control
 from .lost_updates import Accesses, Writers
-from .marks import WAIT, Mark, Marks, OfCode
+from .marks import READ, WAIT, Mark, Marks, OfCode
 
 Trace = Callable[[FrameType, str, Any], Any]
 
@@ -55,6 +55,13 @@ class Tracing:
         sys.settrace(None)
 
     def _call(self, frame: FrameType, _event: str, _argument: Any) -> Any:
+        try:
+            return self._of_call(frame)
+        except Exception:
+            # What goes wrong here is never to reach the program.
+            return None
+
+    def _of_call(self, frame: FrameType) -> Trace | None:
         self.calls.count += 1
         of_code = self.marks.of(frame.f_code)
         if not of_code.marks:
@@ -75,16 +82,27 @@ class _OfCall:
     def __init__(self, of_code: OfCode, tracing: Tracing, accesses: Accesses) -> None:
         self._marks = of_code.marks
         self._switches = of_code.switches
+        self._tests = of_code.tests
         self._tracing = tracing
         self._accesses = accesses
         self._done: Mark | None = None
+        self._read: Mark | None = None
+        self._tested: Mark | None = None
         self._at = -1
         self._calls = -1
 
     def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
+        try:
+            self._step(frame, event)
+        except Exception:
+            return None
+        return self.trace
+
+    def _step(self, frame: FrameType, event: str) -> None:
         if event in ('opcode', 'return') and self._done is not None:
             done, self._done = self._done, None
             self._accesses.after(done, frame)
+            self._read = done if done.kind == READ else None
         if event == 'opcode':
             if self._at in self._switches:
                 self._calls = -1
@@ -92,10 +110,20 @@ class _OfCall:
             mark = self._marks.get(frame.f_lasti)
             if mark is not None:
                 self._come_to(mark, frame)
-        return self.trace
+            elif frame.f_lasti in self._tests:
+                self._tested, self._read = self._read or self._tested, None
+            elif frame.f_lasti in self._switches:
+                self._act_on_test(frame)
+
+    def _act_on_test(self, frame: FrameType) -> None:
+        """What was tested may have changed before the call to which the test has led."""
+        tested, self._tested, self._read = self._tested, None, None
+        if tested is not None:
+            self._tracing.control.pause(tested.after_test, frame.f_code)
 
     def _come_to(self, mark: Mark, frame: FrameType) -> None:
         calls = self._tracing.calls.count
+        self._tested = None
         may_switch = mark.kind == WAIT or calls != self._calls or self._tracing.everywhere
         if may_switch:
             self._tracing.control.pause(mark.at, frame.f_code)
