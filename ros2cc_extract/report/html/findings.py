@@ -35,11 +35,11 @@ def findings_section(
     findings: Numbered, units: Sequence[Spec], excerpts: Excerpts, runs: Runs
 ) -> str:
     """Write all findings; many notes are folded, so that errors and units stay in sight."""
-    names = {unit.name: [callback.name for callback in unit.callbacks] for unit in units}
+    named = {unit.name: unit for unit in units}
     opened = sum(finding.run is not None for _, finding in findings) <= MOST_OPEN
     cards: dict[bool, list[str]] = {False: [], True: []}
     for number, finding in findings:
-        run = _run(finding, names.get(finding.unit or '', ()), runs, opened=opened)
+        run = _run(finding, named.get(finding.unit or ''), runs, opened=opened)
         card = _card(number, finding, excerpts, run)
         cards[finding.severity is Severity.NOTE].append(card)
     others, notes = cards[False], cards[True]
@@ -93,10 +93,10 @@ def _on_node(found: OnNode) -> str:
     return tag('h4', 'On the running node') + tag('p', escape(found.words)) + run + evidence
 
 
-def _run(finding: Finding, callbacks: Sequence[str], runs: Runs, *, opened: bool) -> str:
+def _run(finding: Finding, unit: Spec | None, runs: Runs, *, opened: bool) -> str:
     if finding.run is None:
         return ''
-    player = runs.player(finding.run, callbacks, opened=opened)
+    player = runs.player(finding.run, unit, opened=opened)
     return tag('h4', 'It can happen like this') + steps_as_text(finding.run) + player
 
 

@@ -75,8 +75,7 @@ def _about(row: Row, findings: Numbered, units: Sequence[Spec]) -> Numbered:
 def _verdicts(row: Row, checked: Checked, runs: Runs) -> str:
     if not checked.with_verdicts or not checked.verifications:
         return ''
-    callbacks = [callback.name for callback in row.unit.callbacks]
-    return verdict_table(printable(checked.verifications[row.place]), callbacks, runs)
+    return verdict_table(printable(checked.verifications[row.place]), row.unit, runs)
 
 
 def _header(findings: Numbered, summary: Mapping[str, int]) -> str:

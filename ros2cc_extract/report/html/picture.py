@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -13,6 +13,7 @@ from ros2cc_extract.report.html.parts import SEVERITY_WORDS, items, span, tag
 from ros2cc_extract.report.html.runs import COLOURS
 from ros2cc_extract.report.text.spec import describe_executor, short
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.display_names import display_names
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, CallbackGroup, EntityKind, GroupType, Spec, When
 
@@ -75,6 +76,11 @@ class _Unit:
         return {callback.name: n for n, callback in enumerate(self.spec.callbacks)}
 
     @cached_property
+    def names(self) -> Mapping[str, str]:
+        """Words by name, of callbacks and groups."""
+        return display_names(self.spec)
+
+    @cached_property
     def chips(self) -> dict[str, str]:
         """The anchors of the callbacks that are drawn."""
         return {c.name: f'{self.anchor}-{self.numbers[c.name]}' for c in self.written}
@@ -87,7 +93,7 @@ def _group_box(unit: _Unit, group: CallbackGroup, members: Sequence[Callback]) -
         'section',
         tag(
             'header',
-            tag('b', escape('in no group' if group.groupless else group.name)),
+            tag('b', escape('in no group' if group.groupless else unit.names[group.name])),
             span('kind', _group_kind(group)),
             _place(group.source),
         ),
@@ -101,8 +107,7 @@ def _group_kind(group: CallbackGroup) -> str:
         return 'tasks, done-callbacks, execute'
     if group.unresolved:
         return f'not resolved: {group.unresolved.reason}'
-    kind = 'mutually exclusive' if group.type is GroupType.EXCLUSIVE else 'reentrant'
-    return f'{kind}, default group' if group.default else kind
+    return 'mutually exclusive' if group.type is GroupType.EXCLUSIVE else 'reentrant'
 
 
 def _chip(unit: _Unit, callback: Callback) -> str:
@@ -119,7 +124,7 @@ def _chip(unit: _Unit, callback: Callback) -> str:
             class_='chip-head',
         ),
         tag('div', escape(' '.join(_subject(callback))), class_='subject'),
-        items((_wait(block) for block in callback.blocking), 'waits'),
+        items((_wait(block, unit.names) for block in callback.blocking), 'waits'),
         _place(callback.defined or callback.source),
         class_='chip',
         id=unit.chips[callback.name],
@@ -133,9 +138,9 @@ def _badge(number: int, finding: Finding) -> str:
     return tag('a', finding.code, class_=f'badge {kind}', href=f'#finding-{number}')
 
 
-def _wait(block: Blocking) -> str:
+def _wait(block: Blocking, names: Mapping[str, str]) -> str:
     how_long = f' {block.seconds:g} s' if isinstance(block.seconds, float) else ''
-    on = f' → {block.on}' if isinstance(block.on, str) else ''
+    on = f' → {names.get(block.on, block.on)}' if isinstance(block.on, str) else ''
     return f'{escape(block.call)}{how_long}{escape(on)}'
 
 

@@ -8,7 +8,7 @@ of which runs are made.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from html import escape
 from typing import Any
 
@@ -18,6 +18,8 @@ from ros2cc_extract.report.shared.run_endings import closing_lines
 from ros2cc_extract.report.shared.run_lanes import Lane, Stay, lanes_of
 from ros2cc_extract.report.shared.short_runs import shortened
 from ros2cc_extract.report.text.spec import short
+from ros2cc_extract.spec.display_names import display_names
+from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
 
 BLOCKED = 'blocked'
@@ -26,6 +28,7 @@ MOST_STEPS = 8
 """Of a run as text; the script shows all."""
 COLOURS = 8
 IS_REST, IS_BLOCKED = 1, 2
+Names = Mapping[str, str]
 
 
 class Runs:
@@ -35,18 +38,24 @@ class Runs:
         self._words: dict[str, int] = {}
         self._runs: dict[str, int] = {}
 
-    def player(self, run: Evidence, callbacks: Sequence[str], *, opened: bool = False) -> str:
+    def player(self, run: Evidence, unit: Spec | None, *, opened: bool = False) -> str:
         """Write what opens a run step by step."""
-        number = self.number(run, callbacks)
+        number = self.number(run, unit)
         summary = f'step through {counted(len(run.moments), "steps")}'
         return folded(summary, class_='run', data_run=str(number), opened=opened)
 
-    def number(self, run: Evidence, callbacks: Sequence[str]) -> int:
-        """Store a run and give where it is found."""
+    def number(self, run: Evidence, unit: Spec | None) -> int:
+        """
+        Store a run and give where it is found.
+
+        :param unit: whose run it is; names its lanes as they are in the code.
+        """
+        callbacks = [each.name for each in unit.callbacks] if unit else []
+        names = display_names(unit) if unit else {}
         colours = {name: number % COLOURS for number, name in enumerate(callbacks)}
         data = [
-            [self._lane(lane, colours) for lane in lanes_of(run, callbacks)],
-            [self._step(moment, run) for moment in run.moments],
+            [self._lane(lane, colours, names) for lane in lanes_of(run, callbacks)],
+            [self._step(moment, run, names) for moment in run.moments],
             run.cycle_from,
             run.ends,
         ]
@@ -60,19 +69,22 @@ class Runs:
     def _word(self, text: str) -> int:
         return self._words.setdefault(text, len(self._words))
 
-    def _lane(self, lane: Lane, colours: Mapping[str, int]) -> list[Any]:
-        return [self._word(lane.process), [self._stay(stay, lane, colours) for stay in lane.stays]]
+    def _lane(self, lane: Lane, colours: Mapping[str, int], names: Names) -> list[Any]:
+        stays = [self._stay(stay, lane, colours, names) for stay in lane.stays]
+        return [self._word(names.get(lane.process, lane.process)), stays]
 
-    def _stay(self, stay: Stay, lane: Lane, colours: Mapping[str, int]) -> list[Any]:
-        text = f'{stay.callback}: {stay.location}' if stay.callback else stay.location
+    def _stay(self, stay: Stay, lane: Lane, colours: Mapping[str, int], names: Names) -> list[Any]:
+        doer = names.get(stay.callback, stay.callback) if stay.callback else ''
+        text = f'{doer}: {stay.location}' if doer else stay.location
         marks = IS_REST * stay.is_rest + IS_BLOCKED * (stay.location == BLOCKED)
         colour = colours.get(stay.callback or lane.process)
         return [self._word(text), stay.since, stay.until, marks, colour]
 
-    def _step(self, moment: Moment, run: Evidence) -> list[Any]:
+    def _step(self, moment: Moment, run: Evidence, names: Names) -> list[Any]:
         changes = moment.changes.items()
+        said = ((names.get(each.lane, each.lane), each.text) for each in moment.sentences)
         return [
-            [[self._word(each.lane), self._word(each.text)] for each in moment.sentences],
+            [[self._word(lane), self._word(text)] for lane, text in said],
             [self._word(str(place)) for _, place in moment.places],
             [self._word(f'{name} = {value}') for name, value in changes if name not in run.start],
         ]

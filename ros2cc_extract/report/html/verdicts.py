@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from html import escape
 
 from ros2cc_extract.report.html.parts import folded, span, tag
 from ros2cc_extract.report.html.runs import Runs
+from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
 _CLASSES = {
@@ -17,10 +17,10 @@ _CLASSES = {
 }
 
 
-def verdict_table(verification: Verification, callbacks: Sequence[str], runs: Runs) -> str:
+def verdict_table(verification: Verification, unit: Spec, runs: Runs) -> str:
     """Write all verdicts of a unit, folded."""
     rows = ''.join(
-        _row(number, result, callbacks, runs)
+        _row(number, result, unit, runs)
         for number, result in enumerate(verification.results, start=1)
     )
     counts = Counter(result.verdict for result in verification.results)
@@ -38,7 +38,7 @@ def verdict_table(verification: Verification, callbacks: Sequence[str], runs: Ru
     )
 
 
-def _row(number: int, result: QueryResult, callbacks: Sequence[str], runs: Runs) -> str:
+def _row(number: int, result: QueryResult, unit: Spec, runs: Runs) -> str:
     reason = f' ({result.reason})' if result.reason else ''
     verdict = f'{result.verdict.value}{reason}'
     line = (
@@ -51,5 +51,5 @@ def _row(number: int, result: QueryResult, callbacks: Sequence[str], runs: Runs)
     return folded(
         tag('div', line, class_='row'),
         tag('p', tag('code', escape(result.formula))),
-        data_run=str(runs.number(result.evidence, callbacks)),
+        data_run=str(runs.number(result.evidence, unit)),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 from dataclasses import replace
@@ -294,8 +295,8 @@ def test_a_wait_is_drawn_with_what_is_known_of_it(block: Blocking, said: str) ->
 @pytest.mark.parametrize(
     ('group', 'classes', 'name'),
     [
-        (CallbackGroup(name='g', type=GroupType.EXCLUSIVE), 'group exclusive', 'g'),
-        (CallbackGroup(name='g', type=GroupType.REENTRANT), 'group reentrant', 'g'),
+        (CallbackGroup(name='g', type=GroupType.EXCLUSIVE), 'group exclusive', "group 'g'"),
+        (CallbackGroup(name='g', type=GroupType.REENTRANT), 'group reentrant', "group 'g'"),
         (
             CallbackGroup(name='g', type=GroupType.REENTRANT, groupless=True),
             'group outside',
@@ -304,12 +305,12 @@ def test_a_wait_is_drawn_with_what_is_known_of_it(block: Blocking, said: str) ->
         (
             CallbackGroup(name='g', type=GroupType.EXCLUSIVE, unresolved=Unknown('passed in')),
             'group exclusive unresolved',
-            'g',
+            "group 'g'",
         ),
     ],
 )
 def test_a_group_is_drawn_by_its_kind(group: CallbackGroup, classes: str, name: str) -> None:
-    text = drawn(replace(ARM.callbacks[0], blocking=()), group)
+    text = html.unescape(drawn(replace(ARM.callbacks[0], blocking=()), group))
     assert re.findall('<section class="(group.*?)"><header><b>(.*?)</b>', text) == [
         (classes, name)
     ]
