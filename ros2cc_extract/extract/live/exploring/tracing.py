@@ -16,6 +16,7 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
+from ..steering.instructions import allow_instructions, trace_instructions
 from .control import Control
 from .lost_updates import Accesses, Writers
 from .marks import READ, WAIT, Mark, Marks, OfCode
@@ -47,6 +48,7 @@ class Tracing:
 
     def start(self) -> None:
         """Trace this thread's calls, and all threads that begin from now on."""
+        allow_instructions()
         threading.settrace(self._call)
         sys.settrace(self._call)
 
@@ -66,7 +68,8 @@ class Tracing:
         of_code = self.marks.of(frame.f_code)
         if not of_code.marks:
             return None
-        frame.f_trace_opcodes, frame.f_trace_lines = True, False
+        trace_instructions(frame)
+        frame.f_trace_lines = False
         return _OfCall(of_code, self, Accesses(self._writers, self._tell_lost)).trace
 
 

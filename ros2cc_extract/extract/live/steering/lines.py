@@ -18,6 +18,7 @@ from types import CodeType, FrameType
 from typing import Any
 
 from .director import Director
+from .instructions import allow_instructions, trace_instructions
 from .plan import Point
 from .races import Race, Trace
 from .report import Report
@@ -44,6 +45,7 @@ class Lines:
 
     def start(self) -> None:
         if self._points:
+            allow_instructions()
             threading.settrace(self._call)
             sys.settrace(self._call)
 
@@ -56,7 +58,7 @@ class Lines:
         if not found:
             return racing
         if any(point.column for _, point in found):
-            frame.f_trace_opcodes = True
+            trace_instructions(frame)
         own = _OfFrame(found, self._director, self._report).trace
         return own if racing is None else _both(own, racing)
 

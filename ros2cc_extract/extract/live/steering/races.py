@@ -18,6 +18,7 @@ from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
 
+from .instructions import trace_instructions
 from .report import Report
 from .values import NOTHING, copied, shown, target, value
 
@@ -68,7 +69,7 @@ class Race:
             marks = self._known[code] = self._marks(code)
         if _WRITE not in marks.values():
             return None
-        frame.f_trace_opcodes = True
+        trace_instructions(frame)
         return _Call(self, marks).trace
 
     def _marks(self, code: CodeType) -> dict[int, str]:

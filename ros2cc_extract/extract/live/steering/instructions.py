@@ -1,0 +1,30 @@
+"""
+Has Python tell of each instruction of a call, in every version that does.
+
+Source: Python, ``sys.settrace``; ``Objects/frameobject.c`` and ``Python/legacy_tracing.c`` of 3.12
+and 3.13.
+
+Runs inside the user's process: the standard library only.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import FrameType
+from typing import Any
+
+
+def allow_instructions() -> None:
+    """Before ``sys.settrace``: Python 3.12 asks only there whether anybody wants instructions."""
+    sys._getframe().f_trace_opcodes = True
+
+
+def trace_instructions(frame: FrameType) -> None:
+    """At the begin of a call: Python 3.13 wants the frame to have a trace function first."""
+    if frame.f_trace is None:
+        frame.f_trace = _until_the_real_one
+    frame.f_trace_opcodes = True
+
+
+def _until_the_real_one(_frame: FrameType, _event: str, _argument: Any) -> None:
+    return None
