@@ -116,7 +116,8 @@ def _for_messages(context: Context) -> Iterator[AnyWait]:
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
             for block in caller.blocking:
-                if block.answer_to is not None or block.unsent is not None:
+                is_for_one = block.answer_to is not None or block.unsent is not None
+                if is_for_one and block.escapes is None:  # else it is told as undecided
                     yield AnyWait(caller, block, kind_of(block))
 
 
