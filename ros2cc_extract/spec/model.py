@@ -149,7 +149,11 @@ class Measured:
     duration: Distribution | None = None
 
 
-_CLIENT_WORDS = {EntityKind.CLIENT: 'client', EntityKind.ACTION_CLIENT: 'action client'}
+_WORDS = {
+    EntityKind.CLIENT: 'client',
+    EntityKind.ACTION_CLIENT: 'action client',
+    EntityKind.ACTION_SERVER: 'action server',
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,7 +221,8 @@ class Callback:
         """
         How the callback is called in text for people: ``Arm.on_goal``, ``client 'plan'``.
 
-        An action server has up to three functions, of which ``function`` is the first.
+        An action server has up to three functions, of which ``function`` is the first: it is
+        called by the name of the action.
         """
         function = name_in_module(self.function, self.defined)
         if function == '<lambda>':
@@ -225,7 +230,7 @@ class Callback:
             return f'lambda at line {at.line}' if at else self.name
         if function is not None and self.entity is not EntityKind.ACTION_SERVER:
             return function
-        words = _CLIENT_WORDS.get(self.entity) if self.entity else None
+        words = _WORDS.get(self.entity) if self.entity else None
         return f'{words} {self.key!r}' if words and isinstance(self.key, str) else self.name
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import finding_units
+import pytest
 from finding_units import ONE_THREAD, at, calls, subscription, threads, timer, unit
 
 from ros2cc_extract.findings.base.model import Finding
@@ -50,7 +51,8 @@ def beside(*activities: Activity, callbacks: tuple[Callback, ...] = ()) -> Spec:
 
 def event(*wakers: Waker, line: int = 60, **facts: object) -> Blocking:
     (wait,) = calls(None, call='Event.wait')
-    return replace(wait, resource='full', wakers=wakers, source=at(line), **facts)  # type: ignore[arg-type]
+    facts = {'resource': 'full', **facts}
+    return replace(wait, wakers=wakers, source=at(line), **facts)  # type: ignore[arg-type]
 
 
 def takes(*order: str, line: int) -> tuple[Act, ...]:
@@ -91,6 +93,27 @@ def test_what_another_program_ends_for_a_thread_is_told() -> None:
     spec = beside(thread('work', event(Waker(by=OUTSIDE))))
     assert found(spec) == ['CC121:60 note']
     assert only(spec, 'CC121').message.startswith('thread work waits in Event.wait for full')
+
+
+@pytest.mark.parametrize(
+    ('call', 'facts', 'expected'),
+    [
+        ('socket.recvfrom', {'daemon': True, 'loops': True}, []),
+        ('sys.stdin.read', {'daemon': True, 'loops': True}, []),
+        ('Popen.wait', {'daemon': True}, []),
+        # The program waits for it at its end; or it does something else; or others need it.
+        ('socket.recvfrom', {'loops': True}, ['CC121:60 note']),
+        ('socket.recvfrom', {'daemon': True}, ['CC121:60 note']),
+        ('requests.post', {'daemon': True, 'loops': True}, ['CC121:60 note']),
+    ],
+)
+def test_a_daemon_that_only_listens_holds_nobody_up(
+    call: str, facts: dict[str, bool], expected: list[str]
+) -> None:
+    listener = thread('work', event(Waker(by=OUTSIDE), call=call, resource=None), **facts)
+    assert found(beside(listener)) == expected
+    held = replace(listener, blocking=(replace(listener.blocking[0], held=('lock',)),))
+    assert found(beside(held)) == ['CC121:60 note']
 
 
 def test_a_callback_that_waits_for_the_lock_of_a_waiting_thread() -> None:

@@ -39,6 +39,7 @@ from ros2cc_extract.verify.results.results import Verdict
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
 _FOREIGN = frozenset({'await', UNKNOWN_WAIT, NOT_FOLLOWED})
+_LISTENING = ('recv', 'read', 'accept', 'input')
 _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
     'only a thread ends it, which wakes no executor: it goes on once something else does so'
@@ -65,7 +66,7 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
             is_settled = not is_outside and surely_ends(wait, context)
             is_none = is_settled or block.call == WORKING_LOOP or _is_for_spinning(wait, context)
             is_none = is_none or is_used_up(block, caller, context)
-            is_none = is_none or _holds_nobody_up(wait, context)
+            is_none = is_none or _holds_nobody_up(wait, context) or _only_listens(wait, context)
             if _ends_outside(block) is is_outside and not is_none:
                 waits.append(wait)
                 reasons[id(wait)] = reason
@@ -115,7 +116,8 @@ def _for_messages(context: Context) -> Iterator[AnyWait]:
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
             for block in caller.blocking:
-                if block.answer_to is not None or block.unsent is not None:
+                is_for_one = block.answer_to is not None or block.unsent is not None
+                if is_for_one and block.escapes is None:  # else it is told as undecided
                     yield AnyWait(caller, block, kind_of(block))
 
 
@@ -172,6 +174,20 @@ def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
     """
     is_thread = _is_foreign(wait.block) and isinstance(wait.caller, Activity)
     return is_thread and not _is_needed(wait, context)
+
+
+def _only_listens(wait: AnyWait, context: Context) -> bool:
+    """
+    Whether a daemon thread waits for the next word from outside, or for a child, and no more.
+
+    That is its work: nobody needs it to go on, and the program ends without it.
+    """
+    thread = wait.caller
+    if not isinstance(thread, Activity) or not thread.daemon or not _ends_outside(wait.block):
+        return False
+    last = wait.block.call.rpartition('.')[2]
+    listens = thread.loops and last.startswith(_LISTENING)
+    return (listens or wait.block.call == 'Popen.wait') and not _is_needed(wait, context)
 
 
 def _is_needed(wait: AnyWait, context: Context) -> bool:
@@ -365,7 +381,8 @@ OUTSIDE_WAIT = Rule(
     'process, a socket, a serial port or a person; another executor or program; the answer of '
     'another program to a message that was published before; or a message that nothing in this '
     'program publishes during the wait, because its publishers are in the same group. '
-    'Commands that end at once, as `pkill` and `mkdir`, are no waits. The verdicts assume that '
+    'Commands that end at once, as `pkill` and `mkdir`, are no waits; a daemon thread that '
+    'reads in a loop, and for which nobody waits, is not reported. The verdicts assume that '
     'the wait ends. If it does not, a callback keeps its thread and its '
     'mutually exclusive group forever, and a thread keeps the process alive.',
     why='Nothing on this executor ends such a wait: without a time-out it lasts until the other '
