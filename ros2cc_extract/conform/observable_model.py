@@ -132,7 +132,7 @@ class ObservedModel:
     @property
     def has_waits(self) -> bool:
         """Whether its executor waits for many at a time, and not for one event after the other."""
-        return 'event_count' not in self._fields
+        return self._fields.keys().isdisjoint(('event_count', 'ready_count'))
 
     @property
     def has_nested_spins(self) -> bool:

@@ -234,6 +234,11 @@ class Callback:
         return f'{words} {self.key!r}' if words and isinstance(self.key, str) else self.name
 
     @property
+    def is_main(self) -> bool:
+        """Whether it is what the program does on the loop that runs its nodes."""
+        return self.entity is EntityKind.TASK and self.one_shot
+
+    @property
     def function_name(self) -> str | None:
         """The bare name of its function."""
         return self.function.rpartition('.')[2] if self.function else None

@@ -95,9 +95,17 @@ def _is_guard(node: ast.stmt) -> bool:
 def _runs(node: ast.stmt) -> bool:
     if isinstance(node, (*_FUNCTIONS, ast.ClassDef, ast.Import, ast.ImportFrom)):
         return False
-    if isinstance(node, ast.Expr) and _only_call(node) == 'main':
+    if isinstance(node, ast.Expr) and (_only_call(node) == 'main' or _runs_loop(node.value)):
         return True
     return _spins(node)
+
+
+def _runs_loop(value: ast.expr) -> bool:
+    """``asyncio.run(…)`` of whatever."""
+    function = value.func if isinstance(value, ast.Call) else None
+    is_run = isinstance(function, ast.Attribute) and function.attr == 'run'
+    owner = function.value if is_run and isinstance(function, ast.Attribute) else None
+    return isinstance(owner, ast.Name) and owner.id == 'asyncio'
 
 
 def _script_label(tree: ast.Module) -> str:

@@ -160,10 +160,15 @@ def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
     So does one that goes round until a signal comes, or until the program ends; and the main
     program, where no other thread needs it, waits until somebody wants it to go on or to end.
     """
-    if not isinstance(wait.caller, Activity) or wait.block.answer_to is not None:
+    caller = wait.caller
+    is_main = isinstance(caller, Callback) and caller.is_main
+    if isinstance(caller, Activity):
+        is_main = caller.kind is ActivityKind.MAIN
+    elif not is_main:
         return False
-    is_main = wait.caller.kind is ActivityKind.MAIN and not _is_needed(wait, context)
-    return (is_main or wait.block.call in _TO_THE_END) and _ends_outside(wait.block)
+    if wait.block.answer_to is not None or not _ends_outside(wait.block):
+        return False
+    return wait.block.call in _TO_THE_END or (is_main and not _is_needed(wait, context))
 
 
 def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
+from ros2cc_extract.extract.static.python.machine.waitable_objects import is_of_loop
 from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place
@@ -101,11 +102,12 @@ def note_interruptible(world: ConcurrentWorld, name: str, on: Value | None) -> N
 
 def note_cancelled(world: ConcurrentWorld, name: str, on: Value | None) -> None:
     """
-    Remember an event that the main program awaits, perhaps for the signal that ends it.
+    Remember what the main program awaits, perhaps for the signal that ends it.
 
     Source: CPython 3.12, ``asyncio/runners.py`` (SIGINT cancels the main task).
     """
-    if name == f'{AWAIT} asyncio.Event.wait' and isinstance(on, Instance):
+    is_future = name == AWAIT and on is not None and is_of_loop(on)
+    if isinstance(on, Instance) and (is_future or name == f'{AWAIT} asyncio.Event.wait'):
         world.interruptible.add(id(on))
 
 
