@@ -135,6 +135,7 @@ class EntityState(Doer, LibraryState):
         ``None`` where it depends on the caller.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
+    :param after: how many waits of the set-up were noted before it was made.
     """
 
     is_one_of_many = True
@@ -166,6 +167,7 @@ class EntityState(Doer, LibraryState):
     defers: bool = False
     held: tuple[str, ...] | None = None
     number: int = 0
+    after: int = 0
     maker: object = None
     part_of: EntityState | None = None
     assumed: str | None = None
