@@ -31,15 +31,23 @@ BAD = {
     'lock_over_call_bad.launch.py': ASKS_BACK,
     'relays_bad.launch.xml': ASKS_BACK,
     'goal_waits_bad.launch.py': ASKS_BACK,
+    'goal_asks_bad.launch.xml': ASKS_BACK,
+    '../large/ring_of_three_bad.launch.xml': ASKS_BACK,
+    'asks_itself_bad.launch.xml': 'asks\n',
     'start_order_bad.launch.xml': 'not there\n',
+    'start_answers_bad.launch.xml': 'not there\n',
 }
-"""What the second process says once it stands still."""
+"""What the last process says once it stands still."""
 GOOD = {
     'calls_back_good.launch.py': ROUNDS,
     'lock_over_call_good.launch.py': ROUNDS,
     'relays_good.launch.yaml': ROUNDS,
     'goal_waits_good.launch.py': ROUNDS,
+    'goal_asks_good.launch.xml': ROUNDS,
+    '../large/ring_of_three_good.launch.xml': ROUNDS,
+    'asks_itself_good.launch.xml': ROUNDS,
     'start_order_good.launch.xml': 1,
+    'start_answers_good.launch.xml': 1,
 }
 """How often the first process goes on, at least."""
 HANGS_FOR_S = 1.0
@@ -93,8 +101,8 @@ def test_a_mended_system_goes_on(name: str, running: dict[str, dict[str, Child]]
 
 @pytest.mark.parametrize('name', BAD)
 def test_a_system_with_a_circle_hangs(name: str, running: dict[str, dict[str, Child]]) -> None:
-    first, second = running[name].values()
-    second.read_until(lambda lines: BAD[name] in lines)
+    first, *_, last = [next(iter(running[name].values())), *running[name].values()]
+    last.read_until(lambda lines: BAD[name] in lines)
     first.sleep(HANGS_FOR_S)
     first.process.kill()
     first.end()

@@ -52,14 +52,17 @@ def stuck_waits(system: System) -> tuple[StartWait, ...]:
 
 
 def start_circles(system: System) -> Iterator[tuple[StartWait, ...]]:
-    """Circles of such waits, each once: each waits for what comes only behind the next one."""
+    """
+    Circles of such waits, one for the same processes: each waits for what the next one is before.
+    """
     offers = _offers(system)
     stuck = _stuck({each.key: each for each in _waits(system, offers)}, offers)
-    told: set[Key] = set()
-    for key, wait in stuck.items():
-        circle = _circle(wait, stuck, offers) if key not in told else []
-        if circle:
-            told |= {each.key for each in circle}
+    told: set[frozenset[str]] = set()
+    for wait in stuck.values():
+        circle = _circle(wait, stuck, offers)
+        names = frozenset(each.process.name for each in circle)
+        if circle and names not in told:
+            told.add(names)
             yield tuple(circle)
 
 
