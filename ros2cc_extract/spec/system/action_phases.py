@@ -10,7 +10,7 @@ once the execute callback has ended. Each is as the answer of a service. Source:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.spec.effects import Blocking, Waker
@@ -33,7 +33,29 @@ _GOAL, _RESULT = 'goal of {}', 'result of {}'
 def with_phases(parts: Sequence[Spec]) -> list[Spec]:
     """Tell them apart for each action of which both ends are followed; others stay as they are."""
     keys = _keys(parts)
-    return [_split(part, keys) for part in parts]
+    sure = frozenset(key for part in parts for key in _sure_goals(part))
+    certain = frozenset(key for part in parts for key in _sure_results(part)) - sure
+    return [_split(part, keys, sure, certain) for part in parts]
+
+
+def _sure_goals(part: Spec) -> Iterator[object]:
+    """The actions whose goals are accepted whatever else waits: their group is never held."""
+    if len(part.executor.threads) < 2:
+        return
+    held = {each.group for each in part.callbacks if each.blocking or each.locks}
+    for callback in part.callbacks:
+        if callback.entity is EntityKind.ACTION_SERVER and callback.group not in held:
+            yield callback.key
+
+
+def _sure_results(part: Spec) -> Iterator[object]:
+    """The actions whose execute callback waits for nobody."""
+    if len(part.executor.threads) < 2:
+        return
+    for callback in part.callbacks:
+        is_free = not callback.blocking and not callback.locks
+        if callback.entity is EntityKind.ACTION_EXECUTE and is_free:
+            yield callback.key
 
 
 def _keys(parts: Sequence[Spec]) -> frozenset[str]:
@@ -62,21 +84,36 @@ def _asked_otherwise(part: Spec) -> Iterable[str]:
             yield client.key
 
 
-def _split(part: Spec, keys: frozenset[str]) -> Spec:
+def _split(
+    part: Spec, keys: frozenset[str], sure: frozenset[object], certain: frozenset[object]
+) -> Spec:
+    """
+    A unit with its ends of ``keys`` told apart.
+
+    :param sure: the actions of which only the result is waited for, ``certain`` only the goal.
+    """
     second = {
         callback.name: _free(f'{callback.name}_result', part)
         for callback in part.callbacks
         if callback.entity is EntityKind.ACTION_CLIENT and callback.key in keys
     }
+    left_out = {
+        name
+        for callback in part.callbacks
+        if callback.name in second
+        for name, keys_of in ((callback.name, sure), (second[callback.name], certain))
+        if callback.key in keys_of
+    }
     callbacks: list[Callback] = []
     groups = list(part.groups)
     for callback in part.callbacks:
-        callback = replace(callback, blocking=_both(callback.blocking, second))
+        callback = replace(callback, blocking=_both(callback.blocking, second, left_out))
         key = callback.key if callback.key in keys else None
         if key is None:
             callbacks.append(callback)
         elif callback.entity is EntityKind.ACTION_CLIENT:
-            callbacks += _clients(callback, second[callback.name])
+            both = _clients(callback, second[callback.name])
+            callbacks += [each for each in both if each.name not in left_out]
         elif callback.entity is EntityKind.ACTION_EXECUTE:
             name = _free(_ONE_GOAL.format(callback.name), part)
             groups.append(CallbackGroup(name=name, type=GroupType.EXCLUSIVE))
@@ -87,7 +124,9 @@ def _split(part: Spec, keys: frozenset[str]) -> Spec:
             callbacks.append(server)
         else:
             callbacks.append(callback)
-    activities = (replace(each, blocking=_both(each.blocking, second)) for each in part.activities)
+    activities = (
+        replace(each, blocking=_both(each.blocking, second, left_out)) for each in part.activities
+    )
     used = {callback.group for callback in callbacks}
     return replace(
         part,
@@ -129,18 +168,25 @@ def _clients(callback: Callback, name: str) -> list[Callback]:
     ]
 
 
-def _both(blocking: Sequence[Blocking], second: dict[str, str]) -> tuple[Blocking, ...]:
+def _both(
+    blocking: Sequence[Blocking], second: Mapping[str, str], left_out: Collection[str]
+) -> tuple[Blocking, ...]:
     """Each wait for a whole action as two, one behind the other."""
     found: list[Blocking] = []
     for block in blocking:
-        found.append(block)
         on = block.on if isinstance(block.on, str) else ''
-        if on in second and block.call.rpartition('.')[2] == _WHOLE:
-            name = second[on]
-            wakers = tuple(Waker(by=name) if each.by == on else each for each in block.wakers)
-            resource = name if block.resource == on else block.resource
-            found.append(replace(block, on=name, resource=resource, wakers=wakers))
+        if on not in second or block.call.rpartition('.')[2] != _WHOLE:
+            found.append(_for(block, on, second[on]) if on in left_out else block)
+            continue
+        found += [_for(block, on, name) for name in (on, second[on]) if name not in left_out]
     return tuple(found)
+
+
+def _for(block: Blocking, on: str, name: str) -> Blocking:
+    """The wait of ``on`` as one for ``name``."""
+    wakers = tuple(Waker(by=name) if each.by == on else each for each in block.wakers)
+    resource = name if block.resource == on else block.resource
+    return replace(block, on=name, resource=resource, wakers=wakers)
 
 
 def _free(name: str, part: Spec) -> str:
