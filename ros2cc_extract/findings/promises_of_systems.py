@@ -22,6 +22,7 @@ from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.system.joined_processes import ServiceWait, service_waits, units_by_offer
 from ros2cc_extract.spec.system.model import System
+from ros2cc_extract.spec.system.start_up import stuck_waits
 from ros2cc_extract.verify.results.results import Verdict, Verification
 
 Judgements = tuple[Judgement, ...]
@@ -74,6 +75,9 @@ def discharged(
                 if is_in_it and _mark(known[number]) is Mark.KEPT:
                     known[number] = _opened(known[number], _NOT_PROVEN)
     names = [_identity(unit) for unit in units]
+    for number, why in _not_started(system, names):
+        if _mark(known[number]) is Mark.KEPT:
+            known[number] = _opened(known[number], why)
     waits: dict[object, list[ServiceWait]] = defaultdict(list)
     for process in system.processes:
         for wait in service_waits(process):
@@ -90,6 +94,15 @@ def discharged(
                 known[number] = _opened(known[number], why)
                 changed = True
     return tuple(tuple(map(_rested, each)) for each in known)
+
+
+def _not_started(system: System, names: Sequence[object]) -> Iterator[tuple[int, str]]:
+    """The units of processes whose set-up never ends, and why."""
+    for wait in stuck_waits(system):
+        mine = {_identity(unit) for unit in wait.process.units}
+        why = f'the set-up of {wait.process.name} waits for {wait.awaited.what} '
+        why += f'{wait.awaited.name}, which is offered only behind a wait that needs it'
+        yield from ((number, why) for number, name in enumerate(names) if name in mine)
 
 
 def _is_proven(verification: Verification) -> bool:

@@ -13,6 +13,7 @@ from ros2cc_extract.findings.rules.systems import (
     qos,
     same_node_name,
     sim_time,
+    start_order,
     two_types,
     unused_settings,
 )
@@ -27,6 +28,7 @@ _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (sim_time.RULE, sim_time.find),
     (same_node_name.RULE, same_node_name.find),
     (unused_settings.RULE, unused_settings.find),
+    (start_order.RULE, start_order.find),
 )
 
 

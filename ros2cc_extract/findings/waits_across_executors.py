@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
 from ros2cc_extract.findings.rules.deadlocks import lock_order, never_ends
@@ -65,9 +66,14 @@ def _is_across(doer: Doer, hit: Hit, joined: Joined) -> bool:
 
 
 def without_what_is_told(found: Iterable[Finding], told: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Leave out what a unit alone shows: a circle with a wait of which that says more."""
+    """
+    Leave out what a unit alone shows: a circle with a wait of which that says more.
+
+    A note only says what may happen to the wait, and no more than the circle.
+    """
     told = tuple(told)
-    waits = {_line(each) for each in told if each.code[:3] == 'CC1' and each.code not in _OPEN}
+    of_waits = (each for each in told if each.code[:3] == 'CC1' and each.code not in _OPEN)
+    waits = {_line(each) for each in of_waits if each.severity is not Severity.NOTE}
     lines = {_line(each) for each in told}
     return tuple(
         each

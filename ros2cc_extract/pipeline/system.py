@@ -19,6 +19,7 @@ from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
 from ros2cc_extract.spec.system.model import Process, System, SystemNode
 from ros2cc_extract.spec.system.nodes import system_node
+from ros2cc_extract.spec.system.own_answers import with_own_answers
 from ros2cc_extract.spec.system.parameters import parameters_for
 
 ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
@@ -127,13 +128,15 @@ class _Builder:
         if known != _given(launched, ()):
             found = self._scan_once(shown, known)
             graphs = [each for each in found.nodes if each.entry == entry]
+        nodes = tuple(system_node(graph, launched) for graph in _named(graphs))
+        found = _with_own_answers(found, entry, nodes)
         self._kept.setdefault(id(found), found)
         process = Process(
             name=self._name(launched),
             launched=launched,
             file=file,
             entry=entry,
-            nodes=tuple(system_node(graph, launched) for graph in _named(graphs)),
+            nodes=nodes,
             units=tuple(unit for unit in found.units if unit.entry == entry and entry),
         )
         if entry is None:
@@ -173,6 +176,16 @@ def as_one(found: Sequence[Extraction]) -> Extraction:
         cut=next((each.cut for each in found if each.cut), ''),
         interrupted=any(each.interrupted for each in found),
     )
+
+
+def _with_own_answers(
+    found: Extraction, entry: str | None, nodes: tuple[SystemNode, ...]
+) -> Extraction:
+    """The scan with the units of a process as its names let them ask themselves."""
+    units = tuple(
+        with_own_answers(unit, nodes) if unit.entry == entry else unit for unit in found.units
+    )
+    return found if units == found.units else replace(found, units=units)
 
 
 def _given(launched: Launched, nodes: Sequence[SystemNode]) -> GivenParameters:

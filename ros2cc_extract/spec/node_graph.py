@@ -73,6 +73,7 @@ class Endpoint:
     :param type: ``package/kind/Name``; ``None`` where it could not be followed.
     :param assumed: the rule by which the name was assumed, as of a parameter's default.
     :param conditional: a branch may skip it.
+    :param after: places of the waits that must be over before it is made.
     """
 
     kind: EndpointKind
@@ -82,6 +83,22 @@ class Endpoint:
     source: Place | None = None
     conditional: bool = False
     assumed: str | None = None
+    after: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Awaited:
+    """
+    A service or action for which the set-up of a program waits without an end.
+
+    :param client: place of the client of it.
+    :param place: of the wait.
+    :param answers: it waits for an answer, not only until somebody offers it.
+    """
+
+    client: Place
+    place: Place
+    answers: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +110,7 @@ class NodeGraph:
     :param entry: where its program starts, as of a unit.
     :param parameters: names that the code declares or asks for; ``None`` where not all are known.
     :param open: why it may have more endpoints than these.
+    :param awaits: what its program waits for before it is spun.
     :param apart: why names and remaps that its process is told may not reach it.
     """
 
@@ -102,5 +120,6 @@ class NodeGraph:
     endpoints: tuple[Endpoint, ...] = ()
     parameters: tuple[str, ...] | None = ()
     open: Unknown | None = None
+    awaits: tuple[Awaited, ...] = ()
     apart: Unknown | None = None
     source: Place | None = None

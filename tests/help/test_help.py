@@ -29,6 +29,7 @@ NO_PROGRAM = {
     'CC703': 'a system of several programs: tests/systems',
     'CC704': 'a system of several programs: tests/systems',
     'CC706': 'a system of several programs: tests/systems',
+    'CC707': 'a system of several programs: tests/systems',
     'CC705': 'a system of several programs: tests/systems',
 }
 PAIRS = [

@@ -24,10 +24,32 @@ from ros2cc_extract.spec.system.parameters import parameters_for
 from tests.support.domains import free_domain
 
 LAUNCH = ROOT / 'tests' / 'systems' / 'launch'
-BAD = ('calls_back_bad.launch.py', 'lock_over_call_bad.launch.py', 'relays_bad.launch.xml')
-GOOD = ('calls_back_good.launch.py', 'lock_over_call_good.launch.py', 'relays_good.launch.yaml')
 ASKS_BACK, GOES_ON = 'asks back\n', 'goes on\n'
 ROUNDS = 3
+BAD = {
+    'calls_back_bad.launch.py': ASKS_BACK,
+    'lock_over_call_bad.launch.py': ASKS_BACK,
+    'relays_bad.launch.xml': ASKS_BACK,
+    'goal_waits_bad.launch.py': ASKS_BACK,
+    'goal_asks_bad.launch.xml': ASKS_BACK,
+    '../large/ring_of_three_bad.launch.xml': ASKS_BACK,
+    'asks_itself_bad.launch.xml': 'asks\n',
+    'start_order_bad.launch.xml': 'not there\n',
+    'start_answers_bad.launch.xml': 'not there\n',
+}
+"""What the last process says once it stands still."""
+GOOD = {
+    'calls_back_good.launch.py': ROUNDS,
+    'lock_over_call_good.launch.py': ROUNDS,
+    'relays_good.launch.yaml': ROUNDS,
+    'goal_waits_good.launch.py': ROUNDS,
+    'goal_asks_good.launch.xml': ROUNDS,
+    '../large/ring_of_three_good.launch.xml': ROUNDS,
+    'asks_itself_good.launch.xml': ROUNDS,
+    'start_order_good.launch.xml': 1,
+    'start_answers_good.launch.xml': 1,
+}
+"""How often the first process goes on, at least."""
 HANGS_FOR_S = 1.0
 
 
@@ -74,13 +96,13 @@ def running(rclpy_python: str) -> Iterator[dict[str, dict[str, Child]]]:
 @pytest.mark.parametrize('name', GOOD)
 def test_a_mended_system_goes_on(name: str, running: dict[str, dict[str, Child]]) -> None:
     first, *_ = running[name].values()
-    first.read_until(lambda lines: lines.count(GOES_ON) >= ROUNDS)
+    first.read_until(lambda lines: lines.count(GOES_ON) >= GOOD[name])
 
 
 @pytest.mark.parametrize('name', BAD)
 def test_a_system_with_a_circle_hangs(name: str, running: dict[str, dict[str, Child]]) -> None:
-    first, second = running[name].values()
-    second.read_until(lambda lines: ASKS_BACK in lines)
+    first, *_, last = [next(iter(running[name].values())), *running[name].values()]
+    last.read_until(lambda lines: BAD[name] in lines)
     first.sleep(HANGS_FOR_S)
     first.process.kill()
     first.end()

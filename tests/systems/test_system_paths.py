@@ -138,7 +138,7 @@ def test_what_is_written_is_read_as_it_was(path: Path) -> None:
             'a.yaml:3:12: version is not 1; write it again by `system`',
         ),
         (('kind: client', 'kind: clerk'), "is 'clerk'; write one of publisher, "),
-        (('    - service:', '    - serve:'), "unknown key 'serve' in 'system.connections[0]'"),
+        (('\n    - service:', '\n    - serve:'), "unknown key 'serve' in 'system.connections[0]'"),
         (('system:', 'sistem:'), "unknown key 'sistem'"),
     ],
 )

@@ -53,6 +53,7 @@ from ros2cc_extract.findings.rules.systems import (
     qos,
     same_node_name,
     sim_time,
+    start_order,
     two_types,
     unused_settings,
 )
@@ -112,6 +113,7 @@ RULES: tuple[Rule, ...] = (
     sim_time.RULE,
     same_node_name.RULE,
     unused_settings.RULE,
+    start_order.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

@@ -27,6 +27,7 @@ from ros2cc_extract.spec.model import (
     Spec,
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
+from ros2cc_extract.spec.system.action_phases import needs_itself, with_phases
 from ros2cc_extract.spec.system.model import Process, System, SystemNode
 
 _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
@@ -178,10 +179,14 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
         for process in circle
         for number, unit in enumerate(process.units)
     ]
+    parts = with_phases(parts)
     try:
         whole = _whole(parts)
     except SpecFormatError as error:
         return Unknown(str(error))
+    goal = needs_itself(whole)
+    if goal is not None:
+        return Unknown(f'the {goal} may need another goal of it')
     found = joined(whole, parts)
     if found is None:
         why = why_not_joined(whole, parts)

@@ -40,6 +40,21 @@ class SystemEndpoint:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SystemAwaited:
+    """
+    A service or action that a process waits for in its set-up, without an end.
+
+    :param what: ``service`` or ``action``.
+    :param answers: it waits for an answer, not only until somebody offers it.
+    """
+
+    what: str
+    name: Fact
+    source: Place
+    answers: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class SystemNode:
     """
     A node of a process.
@@ -54,6 +69,7 @@ class SystemNode:
     endpoints: tuple[SystemEndpoint, ...] = ()
     parameters: tuple[str, ...] | None = ()
     open: Unknown | None = None
+    awaits: tuple[SystemAwaited, ...] = ()
     source: Place | None = None
     naming: Naming | None = field(default=None, repr=False, compare=False)
 

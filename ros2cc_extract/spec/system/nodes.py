@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind, NodeGraph
+from ros2cc_extract.spec.node_graph import Awaited, Endpoint, EndpointKind, NodeGraph
 from ros2cc_extract.spec.system.launched import Fact, Launched
-from ros2cc_extract.spec.system.model import SystemEndpoint, SystemNode
+from ros2cc_extract.spec.system.model import SystemAwaited, SystemEndpoint, SystemNode
 from ros2cc_extract.spec.system.names import NAMESPACE, NODE, Naming, Remap, naming
 
 _NO_NAME = '?'
 _SERVICES = (EndpointKind.SERVICE, EndpointKind.CLIENT)
+_CLIENTS = (EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT)
 _ACTIONS = (EndpointKind.ACTION_SERVER, EndpointKind.ACTION_CLIENT)
 _PARAMETER = 'name follows from parameter'
 
@@ -38,17 +39,34 @@ def system_node(graph: NodeGraph, launched: Launched) -> SystemNode:
     why = next((fact for fact in (name, namespace) if isinstance(fact, Unknown)), None)
     opened = dict(reversed(launched.open))
     unknown = {p.name: p.value for p in launched.parameters if isinstance(p.value, Unknown)}
+    endpoints = tuple(
+        _endpoint(each, known, name, namespace, opened, unknown) for each in graph.endpoints
+    )
     return SystemNode(
         name=known.full_name if why is None else why,
         own_name=graph.name,
-        endpoints=tuple(
-            _endpoint(each, known, name, namespace, opened, unknown) for each in graph.endpoints
-        ),
+        endpoints=endpoints,
+        awaits=tuple(_awaited(graph.awaits, endpoints)),
         parameters=graph.parameters,
         open=graph.open,
         source=graph.source,
         naming=known if why is None else None,
     )
+
+
+def _awaited(
+    awaits: Sequence[Awaited], endpoints: Sequence[SystemEndpoint]
+) -> Iterator[SystemAwaited]:
+    clients = {each.source: each for each in endpoints if each.kind in _CLIENTS}
+    for each in awaits:
+        client = clients.get(each.client)
+        if client is not None:
+            yield SystemAwaited(
+                what=client.kind.what,
+                name=client.name,
+                source=each.place,
+                answers=each.answers,
+            )
 
 
 def _rules(launched: Launched) -> Sequence[Remap]:

@@ -13,7 +13,13 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import Unresolved
 from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind, Qos
 from ros2cc_extract.spec.system.launched import ANY_NODE, Fact, Launched, SetParameter
-from ros2cc_extract.spec.system.model import Process, System, SystemEndpoint, SystemNode
+from ros2cc_extract.spec.system.model import (
+    Process,
+    System,
+    SystemAwaited,
+    SystemEndpoint,
+    SystemNode,
+)
 from ros2cc_extract.spec.system.names import read_remap
 from ros2cc_extract.spec.system.system_yaml import VERSION
 from ros2cc_extract.spec.yaml.cursor import Cursor, compose
@@ -27,10 +33,10 @@ _PROCESS = (
     *('parameters', 'conditional', 'begun_by', 'source', 'file', 'entry', 'outside', 'nodes'),
     'units',
 )
-_NODE = ('name', 'own_name', 'parameters', 'open', 'source')
+_NODE = ('name', 'own_name', 'parameters', 'open', 'awaits', 'source')
 _END = (
     *('kind', 'process', 'node', 'written', 'type', 'qos', 'remap', 'conditional', 'assumed'),
-    'source',
+    *('after', 'source'),
 )
 _QOS = ('reliability', 'durability', 'deadline_s', 'liveliness', 'lease_s')
 _NAMED = frozenset(kind.what for kind in EndpointKind)
@@ -149,7 +155,21 @@ def _node(
         endpoints=tuple(ends.get((process, name), ())),
         parameters=_texts(found, 'parameters'),
         open=why,
+        awaits=tuple(map(_awaited, _items(found, 'awaits'))),
         source=_place(found),
+    )
+
+
+def _awaited(cursor: Cursor) -> SystemAwaited:
+    found = cursor.mapping(('service', 'action', 'answers', 'source'), ('source',))
+    named = [what for what in ('service', 'action') if what in found]
+    if len(named) != 1:
+        raise cursor.error('one thing is awaited', 'write service or action')
+    return SystemAwaited(
+        what=named[0],
+        name=_fact_of(found[named[0]]),
+        source=Place.parse(found['source'].text()),
+        answers=found['answers'].flag() if 'answers' in found else False,
     )
 
 
@@ -178,6 +198,7 @@ def _end(found: Mapping[str, Cursor], name: str) -> SystemEndpoint:
         source=_place(found),
         conditional=found['conditional'].flag() if 'conditional' in found else False,
         assumed=_text(found, 'assumed'),
+        after=tuple(map(Place.parse, _texts(found, 'after'))),
     )
     return SystemEndpoint(
         kind=of.kind,

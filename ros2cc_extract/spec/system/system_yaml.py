@@ -101,6 +101,16 @@ def _node(node: SystemNode) -> dict[str, Any]:
         'own_name': _fact(node.own_name),
         'parameters': list(node.parameters or ()),
         'open': _reason(node.open),
+        'awaits': [
+            _filled(
+                {
+                    each.what: _fact(each.name),
+                    'answers': each.answers or None,
+                    'source': _place(each.source),
+                }
+            )
+            for each in node.awaits
+        ],
         'source': _place(node.source),
     }
     return _filled(data)
@@ -119,6 +129,7 @@ def _connection(connection: Connection) -> dict[str, Any]:
                 'remap': str(end.endpoint.remap) if end.endpoint.remap else None,
                 'conditional': end.endpoint.conditional or None,
                 'assumed': end.endpoint.assumed,
+                'after': [str(each) for each in end.endpoint.of.after],
                 'source': _place(end.endpoint.source),
             }
         )

@@ -11,4 +11,4 @@ def generate_launch_description():
     )
 
 
-# nothing: several goals may run at a time, and it is left undecided
+# CC109 programs/boss.py: self.move.send_goal

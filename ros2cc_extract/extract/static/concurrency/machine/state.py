@@ -222,6 +222,7 @@ class ConcurrentWorld(World):
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
     :param set_up: its waits as the specification tells them, each once.
+    :param asked_until: calls in the tests of loops that only their answer ends.
     :param over: what it has ended.
     """
 
@@ -262,6 +263,7 @@ class ConcurrentWorld(World):
     begun: dict[tuple[str, int], set[Place]] = field(default_factory=dict)
     outside: list[OutsideWait] = field(default_factory=list)
     set_up: dict[object, SetUpWait] = field(default_factory=dict)
+    asked_until: set[Place] = field(default_factory=set)
     over: list[Over] = field(default_factory=list)
     timed_joins: list[TimedJoin] = field(default_factory=list)
     after_spin: bool = False

@@ -248,6 +248,9 @@ def _note_own_end(
 
 def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
+    if asks_object(loop.test) and not leaves(loop):
+        calls = (part for part in ast.walk(loop.test) if isinstance(part, ast.Call))
+        machine.world.asked_until.update(frame.place(call) for call in calls)
     is_plain = is_idle(loop) and not asks_object(loop.test) and not leaves(loop)
     if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
         return

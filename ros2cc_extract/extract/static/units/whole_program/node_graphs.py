@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.units.whole_program.qos_profiles import qos_of
+from ros2cc_extract.extract.static.units.whole_program.start_up import awaits_of, waits_before
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind, NodeGraph
@@ -47,6 +48,7 @@ def graphs_of(world: RosWorld, entry: str | None) -> Iterator[NodeGraph]:
             entry=entry,
             endpoints=tuple(_endpoints(node, world)),
             parameters=_parameters(node),
+            awaits=tuple(awaits_of(node, world)),
             open=Unknown(*more[0]) if more else _cut(world),
             source=node.state.begun or node.place,
             apart=Unknown('the node has arguments of its own', node.place)
@@ -66,7 +68,7 @@ def _endpoints(node: Instance, world: RosWorld) -> Iterator[Endpoint]:
     for entity in world.by_node.get(id(node), ()):
         kind = _KINDS.get(entity.kind)
         if kind is not None and not entity.builtin:
-            yield _of_entity(entity, kind)
+            yield _of_entity(entity, kind, world)
 
 
 def _of_publisher(publisher: PublisherState) -> Endpoint:
@@ -82,7 +84,7 @@ def _of_publisher(publisher: PublisherState) -> Endpoint:
     )
 
 
-def _of_entity(entity: EntityState, kind: EndpointKind) -> Endpoint:
+def _of_entity(entity: EntityState, kind: EndpointKind, world: RosWorld) -> Endpoint:
     name, assumed = _text(entity.key)
     return Endpoint(
         kind=kind,
@@ -92,6 +94,7 @@ def _of_entity(entity: EntityState, kind: EndpointKind) -> Endpoint:
         source=entity.place,
         conditional=bool(beyond(entity.path, entity.node.path)) or entity.when is When.CALLBACK,
         assumed=assumed,
+        after=waits_before(entity, world),
     )
 
 

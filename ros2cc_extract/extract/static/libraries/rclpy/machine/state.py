@@ -140,6 +140,7 @@ class EntityState(Doer, LibraryState):
     :param is_set_up: it is what the set-up does beside the callbacks, on their loop, and is
         followed where it stands.
     :param surely_waits: waits of its first run which only later runs could end.
+    :param after: how many waits of the set-up were noted before it was made.
     """
 
     is_one_of_many = True
@@ -173,6 +174,7 @@ class EntityState(Doer, LibraryState):
     defers: bool = False
     held: tuple[str, ...] | None = None
     number: int = 0
+    after: int = 0
     maker: object = None
     part_of: EntityState | None = None
     assumed: str | None = None

@@ -172,6 +172,7 @@ def add_entity(
     entity = EntityState(kind, node, group, place, path=world.path, count=world.count)
     entity.assumed = world.assumed
     entity.when = world.when
+    entity.after = len(world.set_up)
     entity.maker = world.activity or world.current
     entity.number = len(world.entities) + len(world.builtins)
     world.entities.append(entity)

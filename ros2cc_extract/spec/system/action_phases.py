@@ -1,0 +1,196 @@
+"""
+The two answers of an action, told apart where processes are put into one unit.
+
+Whoever sends a goal and waits for its end waits for two answers, one behind the other: that the
+goal is accepted, which the action server gives in its own group, and the result, which is there
+once the execute callback has ended. Each is as the answer of a service. Source: rclpy 7.1.6,
+``action/client.py`` (``send_goal`` calls ``send_goal_async`` and then ``get_result_async``),
+``action/server.py`` (``execute`` is a task of the executor, in no group).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from ros2cc_extract.spec.effects import Blocking, Waker
+from ros2cc_extract.spec.joined_executors import enders_of
+from ros2cc_extract.spec.model import (
+    Activity,
+    Callback,
+    CallbackGroup,
+    EntityKind,
+    GroupType,
+    Spec,
+)
+
+_WHOLE = 'send_goal'
+"""The call that waits for both."""
+_ONE_GOAL = 'one_goal_of_{}'
+_GOAL, _RESULT = 'goal of {}', 'result of {}'
+
+
+def with_phases(parts: Sequence[Spec]) -> list[Spec]:
+    """Tell them apart for each action of which both ends are followed; others stay as they are."""
+    keys = _keys(parts)
+    sure = frozenset(key for part in parts for key in _sure_goals(part))
+    certain = frozenset(key for part in parts for key in _sure_results(part)) - sure
+    return [_split(part, keys, sure, certain) for part in parts]
+
+
+def _sure_goals(part: Spec) -> Iterator[object]:
+    """The actions whose goals are accepted whatever else waits: their group is never held."""
+    if len(part.executor.threads) < 2:
+        return
+    held = {each.group for each in part.callbacks if each.blocking or each.locks}
+    for callback in part.callbacks:
+        if callback.entity is EntityKind.ACTION_SERVER and callback.group not in held:
+            yield callback.key
+
+
+def _sure_results(part: Spec) -> Iterator[object]:
+    """The actions whose execute callback waits for nobody."""
+    if len(part.executor.threads) < 2:
+        return
+    for callback in part.callbacks:
+        is_free = not callback.blocking and not callback.locks
+        if callback.entity is EntityKind.ACTION_EXECUTE and is_free:
+            yield callback.key
+
+
+def _keys(parts: Sequence[Spec]) -> frozenset[str]:
+    """The actions that can be told apart."""
+    callbacks = [callback for part in parts for callback in part.callbacks]
+    executed = _named(callbacks, EntityKind.ACTION_EXECUTE)
+    served = _named(callbacks, EntityKind.ACTION_SERVER)
+    other = {key for part in parts for key in _asked_otherwise(part)}
+    return frozenset((executed & served) - other)
+
+
+def _named(callbacks: Iterable[Callback], kind: EntityKind) -> set[str]:
+    """Those of which there is one."""
+    found = [c.key for c in callbacks if c.entity is kind and isinstance(c.key, str)]
+    return {key for key in found if found.count(key) == 1}
+
+
+def _asked_otherwise(part: Spec) -> Iterable[str]:
+    """The actions for one of whose answers alone somebody waits, whichever that is."""
+    clients = {c.name: c for c in part.callbacks if c.entity is EntityKind.ACTION_CLIENT}
+    doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
+    for block in (block for doer in doers for block in doer.blocking):
+        client = clients.get(block.on) if isinstance(block.on, str) else None
+        is_other = block.call.rpartition('.')[2] not in (_WHOLE, 'wait_for_server')
+        if client is not None and is_other and isinstance(client.key, str):
+            yield client.key
+
+
+def _split(
+    part: Spec, keys: frozenset[str], sure: frozenset[object], certain: frozenset[object]
+) -> Spec:
+    """
+    A unit with its ends of ``keys`` told apart.
+
+    :param sure: the actions of which only the result is waited for, ``certain`` only the goal.
+    """
+    second = {
+        callback.name: _free(f'{callback.name}_result', part)
+        for callback in part.callbacks
+        if callback.entity is EntityKind.ACTION_CLIENT and callback.key in keys
+    }
+    left_out = {
+        name
+        for callback in part.callbacks
+        if callback.name in second
+        for name, keys_of in ((callback.name, sure), (second[callback.name], certain))
+        if callback.key in keys_of
+    }
+    callbacks: list[Callback] = []
+    groups = list(part.groups)
+    for callback in part.callbacks:
+        callback = replace(callback, blocking=_both(callback.blocking, second, left_out))
+        key = callback.key if callback.key in keys else None
+        if key is None:
+            callbacks.append(callback)
+        elif callback.entity is EntityKind.ACTION_CLIENT:
+            both = _clients(callback, second[callback.name])
+            callbacks += [each for each in both if each.name not in left_out]
+        elif callback.entity is EntityKind.ACTION_EXECUTE:
+            name = _free(_ONE_GOAL.format(callback.name), part)
+            groups.append(CallbackGroup(name=name, type=GroupType.EXCLUSIVE))
+            server = replace(callback, entity=EntityKind.SERVICE, key=_RESULT.format(key))
+            callbacks.append(replace(server, group=name, groupless=False))
+        elif callback.entity is EntityKind.ACTION_SERVER:
+            server = replace(callback, entity=EntityKind.SERVICE, key=_GOAL.format(key))
+            callbacks.append(server)
+        else:
+            callbacks.append(callback)
+    activities = (
+        replace(each, blocking=_both(each.blocking, second, left_out)) for each in part.activities
+    )
+    used = {callback.group for callback in callbacks}
+    return replace(
+        part,
+        callbacks=tuple(callbacks),
+        groups=tuple(group for group in groups if group.name in used),
+        activities=tuple(activities),
+    )
+
+
+def needs_itself(whole: Spec) -> str | None:
+    """The first execute callback that waits for another goal of its own action, by its action."""
+    doers: tuple[Callback | Activity, ...] = (*whole.callbacks, *whole.activities)
+    ahead = {
+        doer.name: {name for block in doer.blocking for name in enders_of(block, whole)}
+        for doer in doers
+    }
+    for callback in whole.callbacks:
+        is_one = callback.group.startswith(_ONE_GOAL.format(''))
+        if is_one and callback.name in _reached(callback.name, ahead):
+            return str(callback.key)
+    return None
+
+
+def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
+    found: set[str] = set()
+    left = [name]
+    while left:
+        new = ahead.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def _clients(callback: Callback, name: str) -> list[Callback]:
+    client = replace(callback, entity=EntityKind.CLIENT)
+    return [
+        replace(client, key=_GOAL.format(callback.key)),
+        replace(client, name=name, key=_RESULT.format(callback.key)),
+    ]
+
+
+def _both(
+    blocking: Sequence[Blocking], second: Mapping[str, str], left_out: Collection[str]
+) -> tuple[Blocking, ...]:
+    """Each wait for a whole action as two, one behind the other."""
+    found: list[Blocking] = []
+    for block in blocking:
+        on = block.on if isinstance(block.on, str) else ''
+        if on not in second or block.call.rpartition('.')[2] != _WHOLE:
+            found.append(_for(block, on, second[on]) if on in left_out else block)
+            continue
+        found += [_for(block, on, name) for name in (on, second[on]) if name not in left_out]
+    return tuple(found)
+
+
+def _for(block: Blocking, on: str, name: str) -> Blocking:
+    """The wait of ``on`` as one for ``name``."""
+    wakers = tuple(Waker(by=name) if each.by == on else each for each in block.wakers)
+    resource = name if block.resource == on else block.resource
+    return replace(block, on=name, resource=resource, wakers=wakers)
+
+
+def _free(name: str, part: Spec) -> str:
+    taken = set(part.names())
+    while name in taken:
+        name += '_'
+    return name
