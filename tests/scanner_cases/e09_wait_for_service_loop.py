@@ -31,5 +31,5 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
-#     blocks wait_for_service on go_client 0.5 s @18
+#     blocks wait_for_service on go_client @18
 #   client go_client in a_default key=go

@@ -246,7 +246,7 @@ def test_message_of_waiting_for_a_service() -> None:
     waits = calls('plan_client', call='wait_for_service')
     spec = unit(ONE_THREAD, timer('drive', blocking=waits), client('plan_client'), timer('tick'))
     assert only(spec, 'CC204').message == (
-        'drive waits in wait_for_service without a time-out on the only thread of the '
+        'drive waits in wait_for_service for as long as it takes, on the only thread of the '
         "SingleThreadedExecutor: until service 'plan' is there no other callback runs"
     )
     nameless = replace(client('plan_client'), key=Unknown('name from a parameter'))

@@ -57,7 +57,7 @@ def _hit(waits: Sequence[Wait], client: Callback, context: Context) -> Hit:
     wait = waits[0]
     return Hit(
         place=wait.place,
-        message=f'{who_waits(waits)} in {wait.block.call} without a time-out on the '
+        message=f'{who_waits(waits)} in {wait.block.call} for as long as it takes, on the '
         f'only thread of the {context.unit.executor.kind or "executor"}: until '
         f'{_awaited(client)} is there no other callback runs',
         help=f'wait before the node is spun, or ask {_question(client)} and come back by a timer',
@@ -76,9 +76,9 @@ RULE = Rule(
     slug='absent-service',
     severity=Severity.WARNING,
     title='Wait for a service on the only thread',
-    what='A callback calls `wait_for_service` or `wait_for_server` without a time-out on an '
-    'executor with one thread. As long as the service does not exist, nothing else of the node '
-    'runs, its parameter services included.',
+    what='A callback calls `wait_for_service` or `wait_for_server` without a time-out, or again '
+    'and again until the service is there, on an executor with one thread. As long as the '
+    'service does not exist, nothing else of the node runs, its parameter services included.',
     why='`wait_for_service` checks the graph and sleeps in between; it keeps its thread '
     'meanwhile. It needs no callback to end, so it returns when the service is there. Sources: '
     'rclpy 7.1.6 and 9.1.2, `client.py` (`wait_for_service`), `action/client.py` '

@@ -23,7 +23,9 @@ _CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 't
 
 _CHANGED_BY_CLIENTS = frozenset(['is_cancel_requested', 'is_active'])
 
-_OF_SERVICES = frozenset(['wait_for_service', 'service_is_ready', 'server_is_ready'])
+_OF_SERVICES = frozenset(
+    ['wait_for_service', 'wait_for_server', 'service_is_ready', 'server_is_ready']
+)
 
 _ASKED = _OF_SERVICES | {'done', 'is_set', 'is_alive'}
 

@@ -39,6 +39,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     only_waits,
     spins,
 )
+from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -115,13 +116,32 @@ def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> 
         if (
             isinstance(part, ast.Call)
             and isinstance(part.func, ast.Attribute)
-            and part.func.attr in ('done', 'is_set', 'wait_for_service', 'service_is_ready')
+            and part.func.attr in _ASKED
         ):
-            is_known = True
+            is_known, waited = True, _ASKED[part.func.attr]
             if part.func.attr in ('done', 'is_set'):
                 owner = machine.evaluate(part.func.value, frame)
                 _note_busy(machine, loop, owner, None, frame)
+            elif waited and machine.world.in_callback and _is_retried(part, frame):
+                owner = machine.evaluate(part.func.value, frame)
+                machine.note_blocking(waited, owner, None, frame.place(part))
     return is_known
+
+
+def _is_retried(call: ast.Call, frame: Frame) -> bool:
+    function = frame.function
+    return function is not None and is_retried(function.node, frame.place(call))
+
+
+_ASKED = {
+    'done': '',
+    'is_set': '',
+    'wait_for_service': '',
+    'wait_for_server': '',
+    'service_is_ready': 'wait_for_service',
+    'server_is_ready': 'wait_for_server',
+}
+"""What tests ask by name, and what waits as a loop does that asks so until the answer is yes."""
 
 
 def _note_busy(

@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.made_entities import 
     remember_entity,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import note_presence
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import as_node
 from ros2cc_extract.extract.static.libraries.rclpy.tables.groups import group_of
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity, mark_destroyed
@@ -117,8 +118,7 @@ def _send_goal_async(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _wait_for_server(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    timeout = call.argument(0, 'timeout_sec')
-    machine.note_blocking('wait_for_server', receiver, timeout, call.place)
+    note_presence(machine, 'wait_for_server', receiver, call)
     return machine.mystery('result of wait_for_server', call.place, 'wait_for_server')
 
 

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
     complete,
     init_future,
 )
+from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.path_facts import (
@@ -52,6 +53,24 @@ def _blocking(name: str, position: int | None) -> Handler:
         return machine.mystery(f'result of {name}', call.place, name)
 
     return handler
+
+
+def note_presence(machine: RosMachine, name: str, receiver: Value, call: Call) -> None:
+    """
+    A service or a server is waited for, which may be absent for ever.
+
+    In a callback a loop that asks again after each time-out has none.
+    """
+    timeout = call.argument(0, 'timeout_sec')
+    asking = machine.stack[-1].node if machine.stack and machine.world.in_callback else None
+    if asking is not None and is_retried(asking, call.place):
+        timeout = None
+    machine.note_blocking(name, receiver, timeout, call.place)
+
+
+def _wait_for_service(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    note_presence(machine, 'wait_for_service', receiver, call)
+    return machine.mystery('result of wait_for_service', call.place, 'wait_for_service')
 
 
 def _call_async(machine: RosMachine, receiver: Value, call: Call) -> Value:
@@ -238,7 +257,7 @@ TABLE = Library(
             methods={
                 'call': _blocking('client.call', 1),
                 'call_async': _call_async,
-                'wait_for_service': _blocking('wait_for_service', 0),
+                'wait_for_service': _wait_for_service,
                 **_ENTITY,
             }
         ),
