@@ -27,7 +27,8 @@ _OF_TOOL = f'{Path(__file__).resolve().parents[1]}{os.sep}'
 _ENDS = frozenset(
     {'KeyboardInterrupt', 'SystemExit', 'ExternalShutdownException', 'GeneratorExit'}
 )
-_UNTOLD = (Wait.NOTHING, Wait.SLEEP, Wait.WORK)
+# Time is no wait; and whether somebody outside answers is not for the program to decide.
+_UNTOLD = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
 
 
 class Kind(Enum):

@@ -91,7 +91,8 @@ def test_what_may_still_end_only_stands() -> None:
     text = 'Arm.step_33 waits for an event for 7 s and more; whether that ever ends is not decided'
     assert words(stands([sample(0, waits), sample(7, waits)])) == (Kind.STANDS, 33, text)
     assert stands([sample(0, waits)]) is None
-    sleeps = standing(33, Waits.SLEEP, can_end=True)
-    assert stands([sample(0, sleeps), sample(7, sleeps)]) is None
+    for kind in (Waits.SLEEP, Waits.ANSWER, Waits.SERVER):
+        other = standing(33, kind, can_end=True)
+        assert stands([sample(0, other), sample(7, other)]) is None, 'it is for others to end it'
     timed = replace(waits, wait=Wait(Waits.EVENT, timed=True))
     assert stands([sample(0, timed), sample(7, timed)]) is None

@@ -86,6 +86,34 @@ def _add_schedules(parser: argparse.ArgumentParser) -> None:
         metavar='S',
         help='end after S seconds (default %(default)g)',
     )
+    _add_choices(parser)
+    parser.add_argument(
+        '--source',
+        type=Path,
+        action='append',
+        metavar='PATH',
+        help='scan this file or directory for waits and shared attributes (default: the files of '
+        'the callbacks that have run)',
+    )
+    parser.add_argument(
+        '--no-stimulus', action='store_true', help='send the nodes nothing: they have partners'
+    )
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=DEFAULT_FOLDER,
+        metavar='DIR',
+        help='folder for the files that --replay repeats (default %(default)s)',
+    )
+    parser.add_argument('--replay', type=Path, metavar='FILE', help='repeat a failure')
+    parser.add_argument('--output-format', choices=('text', 'json'), default='text')
+    add_node_arguments(parser)
+    parser.add_argument('command', nargs=argparse.REMAINDER, metavar='-- CMD …')
+
+
+def _add_choices(parser: argparse.ArgumentParser) -> None:
+    """Add which schedules are run, and when they end."""
     parser.add_argument(
         '--strategy',
         choices=('mixed', 'pct', 'random', 'preemptions', DEPTH_FIRST),
