@@ -190,11 +190,13 @@ def founds_of(seen: Seen) -> Iterator[Found]:
             failure=failure,
             schedule=seen.row,
             number=int(seen.row['number']),
-            tail=choices[_begin_of_tail(seen, end) :],
+            tail=choices[_begin_of_tail(seen, end, failure.kind) :],
             choices=choices,
         )
 
 
-def _begin_of_tail(seen: Seen, end: int) -> int:
+def _begin_of_tail(seen: Seen, end: int, kind: Kind) -> int:
     """The last moment before at which nobody was at work."""
-    return max((each for each in seen.rounds if each < end), default=0)
+    quiet = [0, *(each for each in seen.rounds if 0 < each < end)]
+    # An exception is told when its callback is over, and somebody else may have begun since.
+    return quiet[-2] if kind is Kind.EXCEPTION and len(quiet) > 1 else quiet[-1]

@@ -29,18 +29,19 @@ class Replay:
     seconds: float
 
 
-def schedules_of(found: Found) -> list[Row]:
+def schedules_of(found: Found, process: int = 1) -> list[Row]:
     """
-    What is tried in one process.
+    What is tried in one process, the first or a later one.
 
-    What led to the failure directly comes first and again and again, as where the program stood
-    before may differ; then all of its schedule.
+    What led to the failure directly comes again and again, as where the program stood before may
+    differ. All of its schedule comes after that, in every other process before: what a program
+    does at first it does but once.
     """
     if found.schedule['policy'] == PLAIN or not found.choices:
         return [{'number': 1, 'policy': PLAIN, 'seconds': PLAIN_S}]
     tail = {'policy': 'recorded', 'choices': found.tail, 'seconds': _SECONDS, 'gather_s': 0.0}
     whole = {**tail, 'choices': found.choices, 'seconds': 2 * _SECONDS}
-    rows = [tail] * TAILS + [whole]
+    rows = [*[tail] * TAILS, whole] if process % 2 else [whole, *[tail] * TAILS]
     return [{**row, 'number': number} for number, row in enumerate(rows, 1)]
 
 
@@ -55,7 +56,7 @@ def replay(found: Found, run: Run) -> Replay:
     """
     begun, tries = time.monotonic(), 0
     for number in range(1, PROCESSES + 1):
-        process = run(schedules_of(found), found.failure.is_like)
+        process = run(schedules_of(found, number), found.failure.is_like)
         for seen in process.schedules:
             tries += 1
             for failure in seen.failures:

@@ -160,6 +160,11 @@ def test_a_lost_update_is_told_by_its_values() -> None:
     )
 
 
+def test_all_of_a_schedule_comes_first_in_every_other_process() -> None:
+    lengths = [[len(row['choices']) for row in schedules_of(FOUND, n)] for n in (1, 2, 3)]
+    assert lengths == [[2] * TAILS + [3], [3] + [2] * TAILS, [2] * TAILS + [3]]
+
+
 def test_a_replay_ends_with_the_failure() -> None:
     tried: list[int] = []
 

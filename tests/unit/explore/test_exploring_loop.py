@@ -107,3 +107,11 @@ def test_what_leads_there_begins_where_nobody_was_at_work(step: int, tail: str) 
     (found,) = founds_of(seen)
     assert ''.join(key for key, _ in found.tail) == tail
     assert len(found.choices) == (step or 4)
+
+
+def test_an_exception_is_told_when_somebody_else_may_have_begun() -> None:
+    failure = Failure(kind=Kind.EXCEPTION, file='', line=1, words='', step=4)
+    choices = [(letter, 'begin') for letter in 'abcd']
+    seen = Seen({'number': 1}, failures=[failure], choices=choices, rounds=[0, 1, 3])
+    (found,) = founds_of(seen)
+    assert ''.join(key for key, _ in found.tail) == 'bcd'

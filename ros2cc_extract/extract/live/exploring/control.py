@@ -12,7 +12,6 @@ neighbours.
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterable
@@ -22,13 +21,12 @@ from ..steering.director import is_of_program
 from .activities import Activity, Asked, Held, function_of, label_of
 from .askers import asks_again, is_nested, is_of_pool
 from .policies import BEGIN, Policy
+from .stillness import Rest, Way
 
 # Who was asked for that long ago is not ready any more: a timer was cancelled, a group closed.
 _STALE_S = 0.4
 # Who may begin and does not is waiting for a thread, or its group was closed meanwhile.
 _TAKES_UP_S = 0.15
-# On its way without coming to a point: it waits, or computes for long.
-_STANDS_S, _LONGEST_S = 0.012, 0.2
 # Nobody is ready any more; what a callback has published has arrived by then.
 _EXHAUSTED_S = 0.5
 
@@ -77,12 +75,10 @@ class Control:
         self._granted: tuple[Asked, float] | None = None
         self._held: dict[int, Held] = {}
         self._on_way: Activity | None = None
-        self._on_way_since = 0.0
-        self._stood: object = None
+        self._way, self._rest = Way(), Rest()
         self._last = ''
         self._gather_s = gather_s
         self._once = False
-        self._stood_at: dict[int, object] = {}
         self.idle_since = time.monotonic()
         self._gathers_since: float | None = None
         self._has_gathered = False
@@ -221,9 +217,9 @@ class Control:
             if self._granted is not None and now - self._granted[1] > _TAKES_UP_S:
                 self._asked.pop(id(self._granted[0].entity), None)
                 self._granted = None
-            if self._on_way is not None and self._stands(now):
+            if self._on_way is not None and self._way.stands(self._on_way.thread, now):
                 self._on_way = None
-            if not self._once or self._all_stand():
+            if not self._once or self._rest.is_the_same(self._at_work()):
                 self._decide(is_settled=True)
 
     @property
@@ -242,28 +238,13 @@ class Control:
         """Whether nobody of the program is at work."""
         return not self.running
 
-    def _stands(self, now: float) -> bool:
-        assert self._on_way is not None
-        age = now - self._on_way_since
-        if age < _STANDS_S:
-            return False
-        frame = sys._current_frames().get(self._on_way.thread)
-        at = (id(frame), frame.f_lasti) if frame is not None else None
-        stood, self._stood = self._stood, at
-        return age > _LONGEST_S or (at is not None and at == stood)
-
     def _send(self, activity: Activity) -> None:
-        self._on_way, self._on_way_since, self._stood = activity, time.monotonic(), None
+        self._on_way, self._way = activity, Way()
 
-    def _all_stand(self) -> bool:
-        """Whether nobody at work has moved since this was asked last."""
-        frames = sys._current_frames()
+    def _at_work(self) -> set[int]:
+        """Threads that run a callback and are not held."""
         held = {each.activity.thread for each in self._held.values()}
-        threads = {each.thread for each in self.running.values()} - held
-        found = ((each, frames[each]) for each in threads if each in frames)
-        before = self._stood_at
-        self._stood_at = {each: (id(frame), frame.f_lasti) for each, frame in found}
-        return before == self._stood_at
+        return {each.thread for each in self.running.values()} - held
 
     def _decide(self, *, is_settled: bool = False) -> None:
         """Choose who goes on, unless somebody is on his way; the lock is held."""
