@@ -7,7 +7,7 @@ from collections.abc import Callable
 from ros2cc_extract.confirm.hangs import crossed_locks, hang, kept_lock, timed_out
 from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
-from ros2cc_extract.confirm.races import raced
+from ros2cc_extract.confirm.races import forced_only, raced
 from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.confirm.spins import exception, nested, node_lost, shut_out
 from ros2cc_extract.extract.live.hang_analysis.formats import as_text
@@ -48,6 +48,9 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
         return Judgement(
             Outcome.NOT_REACHED, f'line {lines} was not reached while the others waited'
         )
+    forced = forced_only(schedule, seen)
+    if forced is not None:
+        return forced
     if seen.alone and not seen.raced:
         reason = f'nobody else wrote while line {schedule.line} was held, {seen.alone} times'
         return Judgement(Outcome.NOT_REACHED, reason)

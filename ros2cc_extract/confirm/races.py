@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.confirm.observations import Observations
+from collections.abc import Iterator
+
+from ros2cc_extract.confirm.observations import Observations, Row
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
 from ros2cc_extract.confirm.schedules import Schedule
 
@@ -11,17 +13,33 @@ def raced(schedule: Schedule, seen: Observations) -> Judgement | None:
     """
     What was read no longer held when it was written: what another thread wrote is lost.
     """
-    race = schedule.race
-    if race is None:
+    shown = next((row for row in _shown(schedule, seen) if row['let_in']), None)
+    return Judgement(Outcome.CONFIRMED, _reason(schedule, shown)) if shown else None
+
+
+def forced_only(schedule: Schedule, seen: Observations) -> Judgement | None:
+    """
+    It was shown, but only by a switch of threads that Python with its global lock does not make.
+
+    Between the read and the write there is no call and no loop; see ``steering/instructions.py``.
+    """
+    shown = next(_shown(schedule, seen), None)
+    if shown is None:
         return None
+    why = 'held there by force: Python with its global lock lets no other thread in between'
+    return Judgement(Outcome.NOT_REACHED, f'{_reason(schedule, shown)}; {why}')
+
+
+def _shown(schedule: Schedule, seen: Observations) -> Iterator[Row]:
     # Where nothing was read before, the last of two writes wins.
     key = 'lost' if schedule.code == 'CC302' else 'stale'
-    for row in seen.raced:
-        if row[key]:
-            reason = (
-                f'{race.attribute} was {row["read"]} when line {schedule.line} had read it, '
-                f'another thread set it to {row["other"]}, and line {schedule.line} then to '
-                f'{row["own"]}'
-            )
-            return Judgement(Outcome.CONFIRMED, reason)
-    return None
+    if schedule.race is not None:
+        yield from (row for row in seen.raced if row[key])
+
+
+def _reason(schedule: Schedule, row: Row) -> str:
+    attribute = schedule.race.attribute if schedule.race else ''
+    return (
+        f'{attribute} was {row["read"]} before line {row["line"]}, another thread set it to '
+        f'{row["other"]}, and line {row["line"]} then to {row["own"]}'
+    )

@@ -73,6 +73,6 @@ _WORDS: Mapping[str, Callable[[Schedule, Row], str]] = {
     'raised': lambda schedule, row: (
         f'line {_line(schedule, row)} raises {row["type"]}: {row["text"]}'
     ),
-    'raced': lambda schedule, row: _RACE.format(line=schedule.line, **row),
+    'raced': lambda _, row: _RACE.format(**row),
     'open': lambda _, row: 'nothing is held back any more',
 }

@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.launch.api import is_launch_file
+from ros2cc_extract.extract.launch.recognition import is_launch_file
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
-from ros2cc_extract.pipeline.system import Kept, Scanned, as_one, scan_system
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.system.joined_processes import circles_of
-from ros2cc_extract.spec.system.model import System
+
+# A check of files alone, which most are, loads nothing of launch files.
+if TYPE_CHECKING:
+    from ros2cc_extract.pipeline.system import Kept, Scanned
+    from ros2cc_extract.spec.system.model import System
 
 
 def names_launch_file(path: Path) -> bool:
@@ -42,38 +44,47 @@ def scan_paths(
     """
     launches = [path for path in paths if is_launch_file(path, files)]
     others = [path for path in paths if path not in launches]
-    if not launches and arguments:
-        name = next(iter(arguments))
-        raise InputError(f'{name}:= is for a launch file', None, 'name the launch file too')
-    found: list[Extraction] = []
-    system: System | None = None
-    if launches:
-        scanned = scan_launch_files(
-            launches,
-            arguments,
+
+    def scan() -> Extraction:
+        return scan_sources(
+            others,
             stderr,
             cached=cached,
             lists_builtin=lists_builtin,
             files=files,
             patience=patience,
         )
-        circles = circles_of(scanned.system)
-        extraction = scanned.extraction
-        together = (*extraction.joined, *circles.joined)
-        found.append(replace(extraction, joined=together))
-        system = scanned.system
-    if others or not launches:
-        found.append(
-            scan_sources(
-                others,
-                stderr,
-                cached=cached,
-                lists_builtin=lists_builtin,
-                files=files,
-                patience=patience,
-            )
-        )
-    return (found[0] if len(found) == 1 else as_one(found)), system
+
+    if not launches:
+        if arguments:
+            name = next(iter(arguments))
+            raise InputError(f'{name}:= is for a launch file', None, 'name the launch file too')
+        return scan(), None
+    scanned = scan_launch_files(
+        launches,
+        arguments,
+        stderr,
+        cached=cached,
+        lists_builtin=lists_builtin,
+        files=files,
+        patience=patience,
+    )
+    started = _with_circles(scanned)
+    return _as_one([started, scan()] if others else [started]), scanned.system
+
+
+def _with_circles(scanned: Scanned) -> Extraction:
+    """Circles of processes are decided as one unit each."""
+    from ros2cc_extract.spec.system.joined_processes import circles_of
+
+    started = scanned.extraction
+    return replace(started, joined=(*started.joined, *circles_of(scanned.system).joined))
+
+
+def _as_one(found: Sequence[Extraction]) -> Extraction:
+    from ros2cc_extract.pipeline.system import as_one
+
+    return found[0] if len(found) == 1 else as_one(found)
 
 
 def scan_launch_files(
@@ -110,5 +121,7 @@ def scan_launch_files(
             files=files,
             patience=patience,
         )
+
+    from ros2cc_extract.pipeline.system import scan_system
 
     return scan_system(paths, arguments, scan, files, kept)

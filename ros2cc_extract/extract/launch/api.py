@@ -10,15 +10,12 @@ from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.launch.execution import Execution, shown_path
 from ros2cc_extract.extract.launch.language.actions import Action
 from ros2cc_extract.extract.launch.language.context import Context
-from ros2cc_extract.extract.launch.markup.files import XML, YAML, read_frontend
+from ros2cc_extract.extract.launch.markup.files import read_frontend
 from ros2cc_extract.extract.launch.python.files import read_python
+from ros2cc_extract.extract.launch.recognition import XML, YAML
 from ros2cc_extract.extract.launch.workspace.packages import Known, Packages
 from ros2cc_extract.files import Files
 from ros2cc_extract.spec.system.launched import Launched
-
-SUFFIXES = ('.launch.py', '_launch.py', '.launch.xml', '_launch.xml', '.launch.yaml')
-_MORE_SUFFIXES = ('_launch.yaml', '.launch.yml', '_launch.yml', '.launch')
-_MARKS = (b'generate_launch_description', b'<launch', b'launch:')
 
 
 @dataclass(frozen=True)
@@ -34,20 +31,6 @@ class Launch:
     noticed: tuple[Diagnostic, ...]
     files: tuple[str, ...]
     packages: Packages
-
-
-def is_launch_file(path: Path, files: Files) -> bool:
-    """Whether a path is a launch file, by its name or, below a folder ``launch``, by its text."""
-    if path.name.endswith((*SUFFIXES, *_MORE_SUFFIXES)):
-        return files.is_file(path)
-    is_likely = path.suffix in ('.py', XML, *YAML) and path.parent.name == 'launch'
-    if not is_likely or not files.is_file(path):
-        return False
-    try:
-        data = files.read(path, 1_000_000)
-    except OSError:
-        return False
-    return any(mark in data for mark in _MARKS)
 
 
 def launch(

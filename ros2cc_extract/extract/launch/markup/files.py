@@ -31,6 +31,7 @@ from ros2cc_extract.extract.launch.language.actions import (
 from ros2cc_extract.extract.launch.language.substitutions import Expression, Text
 from ros2cc_extract.extract.launch.markup.elements import Element, read_xml, read_yaml
 from ros2cc_extract.extract.launch.markup.texts import parsed
+from ros2cc_extract.extract.launch.recognition import XML
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.launched import TIMER
@@ -42,7 +43,6 @@ _HARMLESS = frozenset(
     let_env on_exit ros_log_dir arg_env
     """.split()  # noqa: SIM905
 )
-XML, YAML = '.xml', ('.yaml', '.yml')
 
 
 def read_frontend(path: Path, shown: str, files: Files) -> Sequence[Action]:

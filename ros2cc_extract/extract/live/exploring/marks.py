@@ -13,13 +13,9 @@ from collections.abc import Sequence
 from types import CodeType
 from typing import Any
 
+from ..steering.instructions import SWITCHES
+
 READ, WRITE, WAIT = 'read', 'write', 'wait'
-# With its global lock, CPython from 3.10 on switches threads only there: at calls, and where a
-# loop goes back (``ceval.c``, the eval breaker), or where C code lets the lock go.
-_SWITCH = (
-    'CALL', 'PRECALL', 'JUMP_BACKWARD', 'JUMP_ABSOLUTE', 'FOR_ITER', 'SEND', 'YIELD', 'RESUME',
-    'BEFORE_WITH', 'SETUP_WITH', 'WITH_EXCEPT', 'IMPORT', 'POP_JUMP_BACKWARD',
-)  # fmt: skip
 _READS = ('LOAD_ATTR', 'LOAD_METHOD', 'LOAD_GLOBAL', 'LOAD_NAME')
 _WRITES = ('STORE_ATTR', 'STORE_GLOBAL', 'STORE_NAME')
 _TEST = ('POP_JUMP', 'JUMP_IF')
@@ -121,7 +117,7 @@ class Marks:
                     _mark_wait(marks, point, instructions, code, lines)
                 else:
                     _mark_accesses(marks, point, instructions, lines)
-        switches = frozenset(o.offset for o in instructions if o.opname.startswith(_SWITCH))
+        switches = frozenset(o.offset for o in instructions if o.opname.startswith(SWITCHES))
         tests = frozenset(o.offset for o in instructions if o.opname.startswith(_TEST))
         return OfCode(marks, switches, tests)
 

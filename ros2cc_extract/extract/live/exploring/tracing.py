@@ -16,7 +16,7 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-from ..steering.instructions import allow_instructions, trace_instructions
+from ..steering.instructions import allow_instructions, has_global_lock, trace_instructions
 from .control import Control
 from .lost_updates import Accesses, Writers
 from .marks import READ, WAIT, Mark, Marks, OfCode
@@ -41,7 +41,7 @@ class Tracing:
     ) -> None:
         self.marks = marks
         self.control = control
-        self.everywhere = everywhere or not _has_global_lock()
+        self.everywhere = everywhere or not has_global_lock()
         self.calls = _Calls()
         self._tell_lost = tell_lost
         self._writers = Writers()
@@ -134,9 +134,3 @@ class _OfCall:
         if mark.kind != WAIT:
             self._accesses.before(mark, frame)
             self._done = mark
-
-
-def _has_global_lock() -> bool:
-    """Whether one thread at a time runs Python code; from Python 3.13 on it may not be so."""
-    enabled = getattr(sys, '_is_gil_enabled', None)
-    return enabled is None or bool(enabled())

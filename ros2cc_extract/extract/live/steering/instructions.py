@@ -13,6 +13,19 @@ import sys
 from types import FrameType
 from typing import Any
 
+# With its global lock, CPython from 3.10 on switches threads only there: at calls, and where a
+# loop goes back (``ceval.c``, the eval breaker), or where C code lets the lock go.
+SWITCHES = (
+    'CALL', 'PRECALL', 'JUMP_BACKWARD', 'JUMP_ABSOLUTE', 'FOR_ITER', 'SEND', 'YIELD', 'RESUME',
+    'BEFORE_WITH', 'SETUP_WITH', 'WITH_EXCEPT', 'IMPORT', 'POP_JUMP_BACKWARD',
+)  # fmt: skip
+
+
+def has_global_lock() -> bool:
+    """Whether one thread at a time runs Python code; from Python 3.13 on it may not be so."""
+    enabled = getattr(sys, '_is_gil_enabled', None)
+    return enabled is None or bool(enabled())
+
 
 def allow_instructions() -> None:
     """Before ``sys.settrace``: Python 3.12 asks only there whether anybody wants instructions."""

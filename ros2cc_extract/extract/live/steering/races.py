@@ -18,7 +18,7 @@ from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
 
-from .instructions import trace_instructions
+from .instructions import SWITCHES, has_global_lock, trace_instructions
 from .report import Report
 from .values import NOTHING, copied, shown, target, value
 
@@ -26,7 +26,7 @@ Trace = Callable[[FrameType, str, Any], Any]
 # Long enough for a timer of a second.
 HELD_S = 1.5
 _MOST_TRIES = 16
-_READ, _WRITE = 'read', 'write'
+_READ, _WRITE, _SWITCH = 'read', 'write', 'switch'
 
 
 class Write:
@@ -92,6 +92,8 @@ class Race:
                 (each.opname == 'STORE_ATTR' and named) or each.opname == 'STORE_SUBSCR'
             ):
                 marks[each.offset] = _WRITE
+            elif each.opname.startswith(SWITCHES):
+                marks[each.offset] = _SWITCH
         return marks
 
     def is_own(self, frame: FrameType, line: int) -> bool:
@@ -124,14 +126,20 @@ class Race:
                 self._other = value(self._object, self.attribute)
                 self._changed.notify_all()
 
-    def tell(self, read: Any, other: Any, own: Any) -> None:
+    def tell(self, read: Any, other: Any, own: Any, *, line: int = 0, let_in: bool = True) -> None:
+        """:param let_in: since the read, Python by itself may have let another thread in."""
         if other is NOTHING:
             self._report.write('alone')
         else:
             texts = {'read': shown(read), 'other': shown(other), 'own': shown(own)}
             differs = read is not NOTHING and texts['read'] != texts['other']
             self._report.write(
-                'raced', **texts, stale=differs, lost=texts['own'] != texts['other']
+                'raced',
+                line=line,
+                **texts,
+                stale=differs,
+                lost=texts['own'] != texts['other'],
+                let_in=let_in or not has_global_lock(),
             )
 
 
@@ -145,15 +153,14 @@ class _Call:
         self._line = 0
         self._read: Any = NOTHING
         self._forced: Any = None
+        self._let_in = True
 
     def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
         if event in ('opcode', 'return'):
             self._after(frame)
         if event == 'opcode':
             self._before, self._line = frame.f_lasti, frame.f_lineno
-            if self._marks.get(frame.f_lasti) == _WRITE and self._race.is_own(
-                frame, frame.f_lineno
-            ):
+            if self._marks.get(frame.f_lasti) == _WRITE and self._is_worth_holding(frame):
                 self._hold(frame)
         return self.trace
 
@@ -162,12 +169,23 @@ class _Call:
         did, self._before = self._marks.get(self._before), -1
         if did == _READ:
             self._read = copied(value(target(frame), self._race.attribute))
+            self._let_in = False
+        elif did == _SWITCH:
+            self._let_in = True
         elif did == _WRITE:
             if self._forced is not None:
                 other, self._forced = self._forced[0], None
-                self._race.tell(self._read, other, value(target(frame), self._race.attribute))
-            elif self._race.is_other(frame, self._line):
+                own = value(target(frame), self._race.attribute)
+                self._race.tell(self._read, other, own, line=self._line, let_in=self._let_in)
+            elif self._race.is_own(frame, self._line) or self._race.is_other(frame, self._line):
                 self._race.wrote(target(frame))
+
+    def _is_worth_holding(self, frame: FrameType) -> bool:
+        """The other side too, where it has read before and another thread may have come in."""
+        if self._race.is_own(frame, frame.f_lineno):
+            return True
+        has_read = self._read is not NOTHING and self._let_in
+        return has_read and self._race.is_other(frame, frame.f_lineno)
 
     def _hold(self, frame: FrameType) -> None:
         forced = self._race.hold(target(frame))
