@@ -64,7 +64,7 @@ def _watch(
                 found = confirmed(schedule, seen)
                 if found is not None:
                     return replace(found, run=recorded_run(schedule, seen.steps)), False
-            in_vain = max(len(seen.raced), seen.alone) >= MOST_TRIES
+            in_vain = seen.alone >= MOST_TRIES
             if ended or in_vain or time.monotonic() > deadline:
                 found = not_confirmed(schedule, seen, node.said, ended=ended)
                 raised = any(row['type'] not in _OF_IMPORTS for row in seen.failed)

@@ -26,6 +26,7 @@ Trace = Callable[[FrameType, str, Any], Any]
 # Long enough for a timer of a second.
 HELD_S = 1.5
 _MOST_TRIES = 16
+_MOST_FORCED = 3
 _READ, _WRITE, _SWITCH = 'read', 'write', 'switch'
 
 
@@ -60,6 +61,7 @@ class Race:
         self._object: Any = None
         self._other: Any = NOTHING
         self._tries = 0
+        self._forced_times = 0
 
     def of(self, frame: FrameType) -> Trace | None:
         """Give what traces a call, if it may read or write the attribute."""
@@ -117,6 +119,11 @@ class Race:
             self._changed.wait_for(lambda: self._other is not NOTHING, HELD_S)
             self._held, self._object = None, None
             return () if self._other is NOTHING else (self._other,)
+
+    def may_force(self) -> bool:
+        """Hold where Python would not switch threads: only to say what then happens."""
+        self._forced_times += 1
+        return self._forced_times <= _MOST_FORCED
 
     def wrote(self, owner: Any) -> None:
         """Another thread has written: let go who is held."""
@@ -183,7 +190,7 @@ class _Call:
     def _is_worth_holding(self, frame: FrameType) -> bool:
         """The other side too, where it has read before and another thread may have come in."""
         if self._race.is_own(frame, frame.f_lineno):
-            return True
+            return self._let_in or not has_global_lock() or self._race.may_force()
         has_read = self._read is not NOTHING and self._let_in
         return has_read and self._race.is_other(frame, frame.f_lineno)
 
