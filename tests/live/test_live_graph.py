@@ -25,9 +25,11 @@ def told(*words: str) -> tuple[int, str, str]:
     return main(list(words), out, err), out.getvalue(), err.getvalue()
 
 
-@pytest.fixture(scope='module')
-def recordings(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp('live')
+@pytest.fixture
+def recordings(tmp_path: Path) -> Path:
+    folder = tmp_path / 'live'
+    folder.mkdir()
+    return folder
 
 
 @pytest.fixture

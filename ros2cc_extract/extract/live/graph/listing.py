@@ -1,9 +1,9 @@
 """
 Lists the nodes of the ROS graph with their endpoints, as JSON on standard output.
 
-As ``python listing.py SECONDS``: looks until nothing new has been seen for a second, for SECONDS
-at most. Runs with the user's interpreter: the standard library and rclpy only. Joins the domain of
-its environment with a node of its own, which is hidden and offers nothing.
+As ``python listing.py SECONDS``: looks until nothing new has been seen for two seconds, for
+SECONDS at most. Runs with the user's interpreter: the standard library and rclpy only. Joins the
+domain of its environment with a node of its own, which is hidden and offers nothing.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 NODE = '_ros2cc_listing'
-SETTLED_S = 1.0
+SETTLED_S = 2.0
 ROUND_S = 0.1
 _HIDDEN = '/_action/'
 Row = dict[str, Any]
@@ -104,7 +104,8 @@ def main(seconds: float) -> None:
     listing = Listing(node, qos_of)
     end, before, since = time.monotonic() + seconds, None, time.monotonic()
     while time.monotonic() < end:
-        seen = listing.nodes(), sorted(name for name, _ in node.get_topic_names_and_types())
+        names = node.get_topic_names_and_types(), node.get_service_names_and_types()
+        seen = listing.nodes(), sorted(name for known in names for name, _ in known)
         if seen != before:
             before, since = seen, time.monotonic()
         if seen[0] and time.monotonic() - since > SETTLED_S:
