@@ -22,7 +22,6 @@ from ros2cc_extract.spec.system.nodes import system_node
 from ros2cc_extract.spec.system.own_answers import with_own_answers
 from ros2cc_extract.spec.system.parameters import parameters_for
 
-ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
 _PYTHON = re.compile(r'(?:.*/)?python3?(?:\.\d+)?')
 _NO_CODE = ('container', 'composable')
 Scan = Callable[[Sequence[Path], GivenParameters], Extraction]
@@ -47,18 +46,6 @@ class Kept:
 
     packages: Known = field(default_factory=dict)
     scans: dict[object, Extraction] = field(default_factory=dict)
-
-
-def divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
-    """Paths and ``name:=value`` of a command line."""
-    paths, arguments = [], {}
-    for word in words:
-        match = ARGUMENT.fullmatch(word)
-        if match is not None:
-            arguments[match.group(1)] = match.group(2)
-        else:
-            paths.append(Path(word))
-    return paths, arguments
 
 
 def scan_system(

@@ -14,7 +14,7 @@ from typing import TextIO
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.errors import InputError
-from ros2cc_extract.extract.launch.recognition import is_launch_file
+from ros2cc_extract.extract.launch.language.recognition import is_launch_file
 from ros2cc_extract.files import Files, open_regular
 from ros2cc_extract.pipeline.program_systems import system_of_programs
 from ros2cc_extract.pipeline.sources import RECORDING_SUFFIX, SPEC_SUFFIXES

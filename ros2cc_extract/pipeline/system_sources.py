@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -10,16 +11,30 @@ from typing import TYPE_CHECKING, TextIO
 from ros2cc_extract.deadline import PATIENT, Patience
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.extraction import Extraction
-from ros2cc_extract.extract.launch.recognition import is_launch_file
+from ros2cc_extract.extract.launch.language.recognition import is_launch_file
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import DISK, Files
 from ros2cc_extract.pipeline.sources import scan_sources
 from ros2cc_extract.source_locations import Place
 
+_ARGUMENT = re.compile(r'([A-Za-z_]\w*):=(.*)', re.DOTALL)
+
 # A check of files alone, which most are, loads nothing of launch files.
 if TYPE_CHECKING:
     from ros2cc_extract.pipeline.system import Kept, Scanned
     from ros2cc_extract.spec.system.model import System
+
+
+def divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
+    """Paths and ``name:=value`` of a command line."""
+    paths, arguments = [], {}
+    for word in words:
+        match = _ARGUMENT.fullmatch(word)
+        if match is not None:
+            arguments[match.group(1)] = match.group(2)
+        else:
+            paths.append(Path(word))
+    return paths, arguments
 
 
 def names_launch_file(path: Path) -> bool:

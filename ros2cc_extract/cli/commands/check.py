@@ -335,7 +335,7 @@ def _divided(words: Sequence[str]) -> tuple[list[Path], dict[str, str]]:
     :raises InputError: when there is no path.
     """
     from ros2cc_extract.errors import InputError
-    from ros2cc_extract.pipeline.system import divided
+    from ros2cc_extract.pipeline.system_sources import divided
 
     paths, arguments = divided(words)
     if not paths:

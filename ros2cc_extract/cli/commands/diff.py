@@ -38,8 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.files import DISK
-    from ros2cc_extract.pipeline.system import divided
     from ros2cc_extract.pipeline.system_paths import names_system
+    from ros2cc_extract.pipeline.system_sources import divided
 
     paths, arguments = divided(args.sides)
     if len(paths) != (1 if args.running else 2):

@@ -53,8 +53,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.files import DISK
     from ros2cc_extract.pipeline.sources import print_diagnostics
-    from ros2cc_extract.pipeline.system import divided
     from ros2cc_extract.pipeline.system_paths import sides_of
+    from ros2cc_extract.pipeline.system_sources import divided
     from ros2cc_extract.spec.system.system_yaml import system_schema
 
     if args.schema:

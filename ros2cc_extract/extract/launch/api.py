@@ -10,9 +10,9 @@ from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.launch.execution import Execution, shown_path
 from ros2cc_extract.extract.launch.language.actions import Action
 from ros2cc_extract.extract.launch.language.context import Context
+from ros2cc_extract.extract.launch.language.recognition import XML, YAML
 from ros2cc_extract.extract.launch.markup.files import read_frontend
 from ros2cc_extract.extract.launch.python.files import read_python
-from ros2cc_extract.extract.launch.recognition import XML, YAML
 from ros2cc_extract.extract.launch.workspace.packages import Known, Packages
 from ros2cc_extract.files import Files
 from ros2cc_extract.spec.system.launched import Launched

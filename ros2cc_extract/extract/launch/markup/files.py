@@ -28,10 +28,10 @@ from ros2cc_extract.extract.launch.language.actions import (
     StartProcess,
     Unfollowed,
 )
+from ros2cc_extract.extract.launch.language.recognition import XML
 from ros2cc_extract.extract.launch.language.substitutions import Expression, Text
 from ros2cc_extract.extract.launch.markup.elements import Element, read_xml, read_yaml
 from ros2cc_extract.extract.launch.markup.texts import parsed
-from ros2cc_extract.extract.launch.recognition import XML
 from ros2cc_extract.files import Files
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.launched import TIMER
