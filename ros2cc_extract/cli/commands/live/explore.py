@@ -45,33 +45,6 @@ repeated), 0 nothing was, 2 it could not be tried.
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = '%(prog)s [options] (-- CMD … | --replay FILE)'
     parser.epilog = EPILOG
-    _add_schedules(parser)
-    parser.add_argument(
-        '--source',
-        type=Path,
-        action='append',
-        metavar='PATH',
-        help='scan this file or directory for waits and shared attributes (default: the files of '
-        'the callbacks that have run)',
-    )
-    parser.add_argument(
-        '--no-stimulus', action='store_true', help='send the nodes nothing: they have partners'
-    )
-    parser.add_argument(
-        '-o',
-        '--output',
-        type=Path,
-        default=DEFAULT_FOLDER,
-        metavar='DIR',
-        help='folder for the files that --replay repeats (default %(default)s)',
-    )
-    parser.add_argument('--replay', type=Path, metavar='FILE', help='repeat a failure')
-    parser.add_argument('--output-format', choices=('text', 'json'), default='text')
-    add_node_arguments(parser)
-    parser.add_argument('command', nargs=argparse.REMAINDER, metavar='-- CMD …')
-
-
-def _add_schedules(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--schedules',
         type=positive,
