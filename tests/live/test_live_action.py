@@ -49,7 +49,7 @@ def test_action_is_the_same_with_the_hook_and_without(
         for callback in written(unit)
         if callback.entity is not EntityKind.DONE_CALLBACK
     } == {
-        (EntityKind.ACTION_SERVER, 'count', 'count_action_server'),
+        (EntityKind.ACTION_SERVER, 'count', "action server 'count'"),
         (EntityKind.ACTION_CLIENT, 'count', "action client 'count'"),
         (EntityKind.ACTION_EXECUTE, 'count', 'Server.execute'),
     }

@@ -31,6 +31,7 @@ def standing(line: int, kind: Waits, *, can_end: bool, number: int = 1) -> Stand
         line=line,
         at=4,
         position=None,
+        item=None,
         objects={},
         endless=True,
         entity=7,
