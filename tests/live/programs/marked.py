@@ -8,7 +8,11 @@ import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
+
+# The publisher may know of the subscription before that knows of it: nothing is lost by that.
+KEPT = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Counter(Node):
@@ -24,17 +28,19 @@ class Counter(Node):
             ('down', self.on_down),
         ):
             group = MutuallyExclusiveCallbackGroup()
-            self.create_subscription(String, topic, callback, 10, callback_group=group)
+            self.create_subscription(String, topic, callback, KEPT, callback_group=group)
 
     def on_left(self, msg):
         before = self.count
         self.get_logger().debug('left')
         self.count = before + 1
+        self.ended.append('left')
 
     def on_right(self, msg):
         before = self.count
         self.get_logger().debug('right')
         self.count = before + 1
+        self.ended.append('right')
 
     def on_up(self, msg):
         with self.one:
@@ -64,16 +70,16 @@ def counter(partner):
 
 
 def spin(partner, node, *topics):
-    """Send a message on each topic, and spin for a while."""
-    publishers = [partner.create_publisher(String, topic, 10) for topic in topics]
+    """Send a message on each topic, and spin until all are served, or for a while."""
+    publishers = [partner.create_publisher(String, topic, KEPT) for topic in topics]
     executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(node)
     while not all(each.get_subscription_count() for each in publishers):
         time.sleep(0.01)
     for each in publishers:
         each.publish(String())
-    until = time.monotonic() + 1.0
-    while time.monotonic() < until:
+    until = time.monotonic() + 5.0
+    while len(node.ended) < len(topics) and time.monotonic() < until:
         executor.spin_once(timeout_sec=0.1)
     for each in publishers:
         partner.destroy_publisher(each)
