@@ -62,9 +62,11 @@ class Race:
         self._other: Any = NOTHING
         self._tries = 0
         self._forced_times = 0
+        self.calls = _Calls()
 
     def of(self, frame: FrameType) -> Trace | None:
         """Give what traces a call, if it may read or write the attribute."""
+        self.calls.count += 1
         code = frame.f_code
         marks = self._known.get(code)
         if marks is None:
@@ -150,6 +152,12 @@ class Race:
             )
 
 
+class _Calls(threading.local):
+    """How many Python functions a thread has called, such as those behind attributes."""
+
+    count = 0
+
+
 class _Call:
     """One call of such a function."""
 
@@ -160,7 +168,13 @@ class _Call:
         self._line = 0
         self._read: Any = NOTHING
         self._forced: Any = None
-        self._let_in = True
+        self._switched = True
+        self._calls = 0
+
+    @property
+    def _let_in(self) -> bool:
+        """Since the read, Python by itself may have let another thread in."""
+        return self._switched or self._race.calls.count != self._calls
 
     def trace(self, frame: FrameType, event: str, _argument: Any) -> Any:
         if event in ('opcode', 'return'):
@@ -176,9 +190,9 @@ class _Call:
         did, self._before = self._marks.get(self._before), -1
         if did == _READ:
             self._read = copied(value(target(frame), self._race.attribute))
-            self._let_in = False
+            self._switched, self._calls = False, self._race.calls.count
         elif did == _SWITCH:
-            self._let_in = True
+            self._switched = True
         elif did == _WRITE:
             if self._forced is not None:
                 other, self._forced = self._forced[0], None
