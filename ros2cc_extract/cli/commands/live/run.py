@@ -29,7 +29,10 @@ source ran. --trace also writes FILE.perfetto.json, for ui.perfetto.dev.
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = '%(prog)s [-h] [-o FILE|DIR] [--trace FILE] [--check PATH] [--watch S] -- CMD …'
+    parser.usage = (
+        '%(prog)s [-h] [-o FILE|DIR] [--trace FILE] [--check PATH] [--watch S [--diagnostics]] '
+        '-- CMD …'
+    )
     parser.epilog = EPILOG
     parser.add_argument(
         '-o',
