@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.rules.executor_use.callback_info import PASSED_BY
 from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.findings.waits.workers import EVENTS, MULTI, SINGLE
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.model import EntityKind, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (
     CALL_TAKES_TIMEOUT,
@@ -59,51 +61,89 @@ _OF_RULES: Mapping[str, tuple[Behaviour, ...]] = {
     'CC106': (NODE_STAYS, SPIN_REFUSED_TWICE),
     'CC107': (SPIN_REFUSED_TWICE,),
     'CC113': (COROUTINES_IN_EVENTS,),
+    'CC124': tuple(PASSED_BY.values()),
     'CC206': (TIMEOUT_KEEPS_HARVEST,),
 }
+_SAYS_BOTH = frozenset({'CC107'})
+"""Rules whose message says what each release does, whichever is asked for."""
 
 
-Felt = Callable[[Spec], Iterator[Place | None]]
+@dataclass(frozen=True)
+class Felt:
+    """Where a unit feels a row; ``only`` is under which condition, if that is open."""
+
+    place: Place | None
+    only: str = ''
 
 
-def _calls_in_time(unit: Spec) -> Iterator[Place | None]:
-    for callback in unit.callbacks:
-        for block in callback.blocking:
+Feels = Callable[[Spec], Iterator[Felt]]
+
+
+def _calls_in_time(unit: Spec) -> Iterator[Felt]:
+    yield from (Felt(block.source) for block in _timed_calls(unit))
+
+
+def _calls_that_raise(unit: Spec) -> Iterator[Felt]:
+    for block in _timed_calls(unit):
+        if not block.caught:
+            yield Felt(block.source, 'if nobody answers in time')
+
+
+def _timed_calls(unit: Spec) -> Iterator[Blocking]:
+    for doer in (*unit.callbacks, *unit.activities):
+        for block in doer.blocking:
             if block.call.rpartition('.')[2] == 'call' and block.seconds is not None:
-                yield block.source
+                yield block
 
 
-def _events(unit: Spec) -> Iterator[Place | None]:
+def _events(unit: Spec) -> Iterator[Felt]:
     if unit.executor.kind == EVENTS:
-        yield unit.executor.source
+        yield Felt(unit.executor.source)
 
 
-def _awaits(unit: Spec) -> Iterator[Place | None]:
+def _awaits(unit: Spec) -> Iterator[Felt]:
     if unit.executor.kind == SINGLE:
         for callback in unit.callbacks:
             if any(block.suspends for block in callback.blocking):
-                yield callback.defined or callback.source
+                place = callback.defined or callback.source
+                yield Felt(place, f'if {callback.display_name} raises there')
 
 
-def _default_threads(unit: Spec) -> Iterator[Place | None]:
+def _several_tasks(unit: Spec) -> Iterator[Felt]:
+    """A callback that makes more than one task has them run in an order."""
+    if unit.executor.kind not in (SINGLE, MULTI):
+        return
+    tasks = {each.source for each in unit.callbacks if each.entity is EntityKind.TASK}
+    for callback in unit.callbacks:
+        made = [act for act in callback.changes if act.source in tasks]
+        if len(made) > 1 or any(act.repeats for act in made):
+            yield Felt(made[-1].source)
+
+
+def _default_threads(unit: Spec) -> Iterator[Felt]:
     if unit.executor.threads_source == DEFAULT_COUNT:
-        yield unit.executor.source
+        yield Felt(unit.executor.source, 'if the process may not use all CPUs')
 
 
-def _pool(unit: Spec) -> Iterator[Place | None]:
+def _pool(unit: Spec) -> Iterator[Felt]:
     if unit.executor.kind == MULTI:
-        yield unit.executor.source
+        yield Felt(unit.executor.source)
 
 
-_FELT: tuple[tuple[Behaviour, Felt], ...] = (
+_FEELS: tuple[tuple[Behaviour, Feels], ...] = (
+    (TASKS_OLDEST_FIRST, _several_tasks),
     (EVENTS_EXECUTOR, _events),
     (CALL_TAKES_TIMEOUT, _calls_in_time),
-    (CALL_TIMEOUT_RAISES, _calls_in_time),
+    (CALL_TIMEOUT_RAISES, _calls_that_raise),
     (EXCEPTION_AFTER_AWAIT_LOST, _awaits),
     (THREADS_BY_AFFINITY, _default_threads),
     (SPIN_YIELDS, _pool),
 )
 """Rows that no verdict rests on, and who feels them."""
+_ONCE = frozenset({SPIN_YIELDS})
+"""Rows that are listed at one place of a program, since all its pools feel them alike."""
+_NEEDS = {CALL_TIMEOUT_RAISES: CALL_TAKES_TIMEOUT, COROUTINES_IN_EVENTS: EVENTS_EXECUTOR}
+"""Rows about something that releases without another row do not have at all."""
 
 
 def changes(
@@ -130,7 +170,7 @@ def _of_findings(
             yield _change(Turn.GOES, left, left.message, old, new)
         elif left is None and right is not None:
             yield _change(Turn.COMES, right, right.message, old, new)
-        elif left is not None and right is not None and _said(left) != _said(right):
+        elif left is not None and right is not None and _differ(left, right, old, new):
             yield _change(Turn.CHANGES, right, right.message, old, new)
 
 
@@ -138,13 +178,20 @@ def _by_identity(findings: Iterable[Finding]) -> dict[object, Finding]:
     return {(f.code, f.place, f.unit, f.subjects): f for f in findings}
 
 
-def _said(finding: Finding) -> object:
-    return finding.message, finding.severity
+def _differ(left: Finding, right: Finding, old: str, new: str) -> bool:
+    """Whether a finding says something else, or all that it may say and other releases do."""
+    if (left.message, left.severity) != (right.message, right.severity):
+        return True
+    return left.code in _SAYS_BOTH and bool(_differing(left, old, new))
 
 
 def _change(turn: Turn, finding: Finding, message: str, old: str, new: str) -> Change:
-    rows = tuple(row for row in _rows_of(finding.code) if row.differs(old, new))
+    rows = _differing(finding, old, new)
     return Change(turn=turn, place=finding.place, code=finding.code, message=message, because=rows)
+
+
+def _differing(finding: Finding, old: str, new: str) -> tuple[Behaviour, ...]:
+    return tuple(row for row in _rows_of(finding.code) if row.differs(old, new))
 
 
 def _rows_of(code: str) -> tuple[Behaviour, ...]:
@@ -154,15 +201,27 @@ def _rows_of(code: str) -> tuple[Behaviour, ...]:
 
 
 def _of_behaviour(units: Iterable[Spec], old: str, new: str) -> Iterator[Change]:
-    rows = [(row, felt) for row, felt in _FELT if row.differs(old, new)]
+    rows = [(row, feels) for row, feels in _FEELS if _changes(row, old, new)]
+    listed = set()
     for unit in units:
-        for row, felt in rows:
-            message = f'{row.concerns}: before, {row.told(old)}; then, {row.told(new)}'
-            for place in felt(unit):
-                yield Change(
-                    turn=Turn.BEHAVES,
-                    place=place or Place(unit.name),
-                    code='',
-                    message=message,
-                    because=(row,),
-                )
+        for row, feels in rows:
+            for felt in feels(unit):
+                if row not in listed:
+                    yield _behaves(row, felt, unit, old, new)
+                listed |= {row} & _ONCE
+
+
+def _changes(row: Behaviour, old: str, new: str) -> bool:
+    needed = _NEEDS.get(row)
+    return row.differs(old, new) and (needed is None or not needed.differs(old, new))
+
+
+def _behaves(row: Behaviour, felt: Felt, unit: Spec, old: str, new: str) -> Change:
+    only = f', {felt.only}' if felt.only else ''
+    return Change(
+        turn=Turn.BEHAVES,
+        place=felt.place or Place(unit.name),
+        code='',
+        message=f'{row.concerns}{only}: before, {row.told(old)}; then, {row.told(new)}',
+        because=(row,),
+    )

@@ -107,6 +107,7 @@ class Blocking:
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
         locks held and the wait.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
+    :param caught: the exception by which some release says that the time-out is over is caught.
     """
 
     call: str
@@ -133,6 +134,7 @@ class Blocking:
     at_end: Place | None = None
     repeats: bool = False
     times: int = 1
+    caught: bool = False
 
     @property
     def suspends(self) -> bool:

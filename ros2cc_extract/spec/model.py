@@ -171,6 +171,8 @@ class Callback:
     :param count: how many such entities one creation place makes.
     :param alternative: equal marks stand for branches of which only one is taken.
     :param branch: which of these; callbacks of one branch are there together.
+    :param takes_info: its function needs the information of a message, or of the call of a timer,
+        which only some releases of rclpy pass.
     :param askers: of a service, how many requests at a time may be on their way from the clients
         in sight, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
@@ -198,6 +200,7 @@ class Callback:
     branch: int | None = None
     coroutine: bool = False
     one_shot: bool = False
+    takes_info: bool = False
     askers: int = 0
     destroyed: bool = False
     groupless: bool = False

@@ -24,6 +24,7 @@ from ros2cc_extract.findings.rules.deadlocks import (
 )
 from ros2cc_extract.findings.rules.executor_use import (
     asyncio_sleep,
+    callback_info,
     events_coroutine,
     executor_spun_twice,
     foreign_loop,
@@ -82,6 +83,7 @@ RULES: tuple[Rule, ...] = (
     undecided_wait.OUTSIDE_WAIT,
     diagnostics.MESSAGE_TAKEN,
     lost_task.RULE,
+    callback_info.RULE,
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,

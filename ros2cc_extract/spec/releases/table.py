@@ -98,6 +98,24 @@ COROUTINES_IN_EVENTS = Behaviour(
     source='ros2/rclpy pull requests 1478 and 1613, `events_executor.cpp`',
     observed='a service that is a coroutine: `TypeError` on 7.1.6, answered on 7.1.11 and 9.1.2',
 )
+MESSAGE_INFO = Behaviour(
+    name='message-info',
+    concerns='what a subscription passes to a callback that has two parameters',
+    without='the message alone: each one raises `TypeError`, which ends the spin',
+    having='the message and its information',
+    since={4: (4, 0, 0)},
+    source='`subscription.py` (`Subscription.CallbackType`) of 7.1.11, which 3.3.21 lacks',
+    observed='a callback with two parameters: `TypeError` on 3.3.21, run on 7.1.6 and 9.1.2',
+)
+TIMER_INFO = Behaviour(
+    name='timer-info',
+    concerns='what a timer passes to a callback that has a parameter of type `TimerInfo`',
+    without='nothing, and importing `TimerInfo` raises `ImportError`',
+    having='the expected and the actual time of the call',
+    since={9: (9, 0, 0)},
+    source='`executors.py` (`_take_timer`) of 9.1.5, which 7.1.11 lacks',
+    observed='a callback with such a parameter: run on 9.1.2; 7.1.6 has no `TimerInfo`',
+)
 CALL_TAKES_TIMEOUT = Behaviour(
     name='call-takes-timeout',
     concerns='whether `Client.call` has a `timeout_sec`',
@@ -169,6 +187,8 @@ RCLPY = (
     SHUTDOWN_WAITS_NOT,
     EVENTS_EXECUTOR,
     COROUTINES_IN_EVENTS,
+    MESSAGE_INFO,
+    TIMER_INFO,
     CALL_TAKES_TIMEOUT,
     CALL_TIMEOUT_RAISES,
     THREADS_BY_AFFINITY,

@@ -1,8 +1,10 @@
 """
 Callbacks that do not take what rclpy passes: each call raises ``TypeError``, and nothing runs.
 
-Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``_execute_service`` …), ``subscription.py`` (a
-second parameter gets the message's info), ``timer.py`` (a parameter gets the call's times).
+Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``_execute_service`` …); 7.1.6,
+``subscription.py`` (a second parameter gets the information of the message); 9.1.2,
+``executors.py`` (``_take_timer``: a parameter annotated as ``TimerInfo`` gets the times of the
+call; 7.1.6 passes nothing).
 """
 
 from __future__ import annotations
@@ -39,10 +41,24 @@ def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> b
     if numbers is None or entity.library is not None or not isinstance(function, Function):
         return False
     first = [callback.receiver] if isinstance(callback, Bound) else []
-    if any(fits(function, Call(entity.place, [*first, *[NONE] * each])) for each in numbers):
-        return False
-    _tell(machine, function, numbers[0])
-    return True
+    fitting = [
+        each for each in numbers if fits(function, Call(entity.place, [*first, *[NONE] * each]))
+    ]
+    if not fitting or (entity.kind is EntityKind.TIMER and fitting == [1] and not _asks(function)):
+        _tell(machine, function, numbers[0])
+        return True
+    entity.takes_info = entity.takes_info or numbers[0] not in fitting
+    return False
+
+
+def _asks(function: Function) -> bool:
+    """Whether a timer's function asks for the times of the call, by the type of a parameter."""
+    arguments = function.node.args
+    return any(
+        parameter.annotation is not None
+        and ast.unparse(parameter.annotation).strip('\'"').rpartition('.')[2] == 'TimerInfo'
+        for parameter in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)
+    )
 
 
 def _tell(machine: RosInterpreter, function: Function, number: int) -> None:

@@ -269,6 +269,7 @@ class UnitBuilder:
             branch=branch,
             coroutine=facts.coroutine,
             one_shot=entity.one_shot and not entity.restarted,
+            takes_info=entity.takes_info,
             destroyed=entity.destroyed or bool(entity.part_of and entity.part_of.destroyed),
             groupless=entity.kind in _GROUPLESS,
             library=entity.library,

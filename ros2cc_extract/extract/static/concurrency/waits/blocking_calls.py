@@ -130,6 +130,7 @@ class Waits(ConcurrentMachine):
             only_if=only_if(world),
             repeats=_is_in_a_loop_of_a_hold(world),
             times=world.times,
+            caught=seconds is not None and _is_caught(row.raises, world),
         )
         return block, thing
 
@@ -425,6 +426,12 @@ def _is_same_wait(one: Blocking, other: Blocking) -> bool:
         if are_references and here.number != there.number:  # type: ignore[union-attr]
             return False
     return True
+
+
+def _is_caught(raised: type[Exception] | None, world: ConcurrentWorld) -> bool:
+    """Whether a ``try`` around catches an exception, by the name of one of its classes."""
+    classes = {each.__name__ for each in raised.__mro__} if raised else set()
+    return any(not classes.isdisjoint(names) for names in world.caught)
 
 
 def _seconds(value: Value | None, place: Place) -> float | Unknown | None:

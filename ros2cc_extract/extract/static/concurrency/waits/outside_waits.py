@@ -96,7 +96,7 @@ def note_interruptible(world: ConcurrentWorld, name: str, on: Value | None) -> N
     """
     if name != 'Event.wait' or not isinstance(on, Instance) or world.in_thread:
         return
-    if world.tries or on.hint is None:
+    if world.caught or on.hint is None:
         world.interruptible.add(id(on))
 
 

@@ -34,6 +34,7 @@ class WaitRow:
     :param always: who may end it beside them, whoever else does.
     :param unless_asked: it does not wait where it was asked before whether it would.
     :param rival: what others do that makes the answer to that question false.
+    :param raises: by which exception it says that its time is over, on some release.
     """
 
     ended_by: frozenset[Word] = frozenset()
@@ -41,6 +42,7 @@ class WaitRow:
     always: tuple[str, ...] = ()
     unless_asked: bool = False
     rival: Word | None = None
+    raises: type[Exception] | None = None
 
 
 def _row(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
+from itertools import chain
 
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, LEAVING, NEXT
 from ros2cc_extract.extract.static.python.machine.frame import CannotCallError, Frame
@@ -24,10 +25,9 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
 
     path, ready = machine.world.path, machine.world.ready
     try:
-        is_caught = bool(node.handlers)
         with (
             _trying(machine, any(_catches_type_error(each) for each in node.handlers)),
-            _catching(machine, is_caught),
+            _catching(machine, _caught_by(node.handlers)),
         ):
             flow = regular()
     except CannotCallError:
@@ -63,23 +63,33 @@ def _trying(machine: Machine, catches: bool) -> Iterator[None]:
 
 
 @contextmanager
-def _catching(machine: Machine, catches: bool) -> Iterator[None]:
+def _catching(machine: Machine, caught: frozenset[str]) -> Iterator[None]:
     """What is raised inside may be caught, or is raised only because something else was."""
-    machine.world.tries += catches
+    before = machine.world.caught
+    machine.world.caught = (*before, caught) if caught else before
     try:
         yield
     finally:
-        machine.world.tries -= catches
+        machine.world.caught = before
 
 
-_TYPE_ERRORS = frozenset({'TypeError', 'Exception', 'BaseException'})
+_ANYTHING = 'BaseException'
+_TYPE_ERRORS = frozenset({'TypeError', 'Exception', _ANYTHING})
+
+
+def _caught_by(handlers: Sequence[ast.ExceptHandler]) -> frozenset[str]:
+    return frozenset(chain.from_iterable(_names_of(handler) for handler in handlers))
+
+
+def _names_of(handler: ast.ExceptHandler) -> Iterator[str]:
+    """What a handler catches; ``socket.timeout`` as it is written."""
+    kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    for kind in kinds:
+        yield _ANYTHING if kind is None else ast.unparse(kind)
 
 
 def _catches_type_error(handler: ast.ExceptHandler) -> bool:
-    kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    return any(
-        kind is None or (isinstance(kind, ast.Name) and kind.id in _TYPE_ERRORS) for kind in kinds
-    )
+    return not _TYPE_ERRORS.isdisjoint(_names_of(handler))
 
 
 def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> int:
@@ -91,7 +101,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
     held = machine.given_back_in(handler.body)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
     try:
-        with _trying(machine, catches=True), _catching(machine, catches=True):
+        with _trying(machine, catches=True), _catching(machine, frozenset({_ANYTHING})):
             return machine.execute_block(handler.body, frame)
     except CannotCallError:
         return DEAD

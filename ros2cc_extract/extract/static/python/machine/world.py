@@ -120,7 +120,7 @@ class World:
     :param stored_late: those that have got another value than the set-up gave them, or when others
         were at work already.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
-    :param tries: how many ``try`` around may catch what is raised.
+    :param caught: the exceptions that each ``try`` around catches, outermost first, as written.
     :param met: the objects that the running callback found in what others assign.
     :param met_by: the same of each callback that was followed, by the identity of its entity.
     :param rounds: how often it was followed again for others.
@@ -188,7 +188,7 @@ class World:
     stored: dict[tuple[Value, str], dict[Place, Value]] = field(default_factory=dict)
     stored_late: set[tuple[Value, str]] = field(default_factory=set)
     trying: tuple[int, int] | None = None
-    tries: int = 0
+    caught: tuple[frozenset[str], ...] = ()
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
     met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
     rounds: Counter[int] = field(default_factory=Counter)

@@ -86,7 +86,7 @@ def note_raised(machine: RosMachine, error: ast.expr, place: Place) -> None:
     """A callback raises, and nothing in it catches that."""
     called = error.func if isinstance(error, ast.Call) else error
     name = called.attr if isinstance(called, ast.Attribute) else getattr(called, 'id', '')
-    if name[:1].isupper() and name not in _NO_END and machine.world.tries == 0:
+    if name[:1].isupper() and name not in _NO_END and not machine.world.caught:
         note_end(machine, RAISES, None, place, name)
 
 

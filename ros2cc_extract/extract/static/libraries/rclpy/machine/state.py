@@ -137,6 +137,7 @@ class EntityState(Doer, LibraryState):
         ``None`` where it depends on the caller.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
+    :param takes_info: a function of it needs what only some releases pass (``unfit_callbacks``).
     :param is_set_up: it is what the set-up does beside the callbacks, on their loop, and is
         followed where it stands.
     :param surely_waits: waits of its first run which only later runs could end.
@@ -163,6 +164,7 @@ class EntityState(Doer, LibraryState):
     one_shot: bool = False
     dormant: Place | None = None
     restarted: bool = False
+    takes_info: bool = False
     is_set_up: bool = False
     surely_waits: set[object] = field(default_factory=set)
     label: str | None = None

@@ -6,6 +6,8 @@ Source: rclpy 7.1.6, ``client.py``, ``timer.py``, ``task.py``, ``clock.py``.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ros2cc_extract.extract.static.concurrency.waits import wait_table
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import OF_OUTSIDE, SLEEP, WaitRow
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
@@ -17,7 +19,7 @@ WAITS: dict[str, WaitRow] = {
     'Clock.sleep_for': SLEEP,
     'Clock.sleep_until': SLEEP,
     'wait_for_message': WaitRow(),
-    'client.call': _ANSWER,
+    'client.call': replace(_ANSWER, raises=TimeoutError),
     'send_goal': _ANSWER,
     'get_result': _ANSWER,
     'cancel_goal': _ANSWER,

@@ -227,7 +227,7 @@ def record_spin(
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
     spin.repeated = isinstance(world.count, Unknown)
     spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
-    spin.is_tried, spin.by = world.tries > 0, world.activity
+    spin.is_tried, spin.by = bool(world.caught), world.activity
     kept_threads.note_goes_on(world)
     spin.from_callback, spin.over = world.current is not None, world.spins_over
     known = next((old for old in world.spins.values() if _is_the_same(spin, old)), None)

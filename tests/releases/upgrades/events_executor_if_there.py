@@ -1,0 +1,31 @@
+"""A node that takes the EventsExecutor where there is one."""
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+try:
+    from rclpy.experimental.events_executor import EventsExecutor
+except ImportError:
+    EventsExecutor = SingleThreadedExecutor
+
+
+class Imu(Node):
+    def __init__(self):
+        super().__init__('imu')
+        self.create_timer(0.2, self.read)
+
+    def read(self):
+        print('read', flush=True)
+
+
+def main():
+    rclpy.init()
+    executor = EventsExecutor()
+    executor.add_node(Imu())
+    while rclpy.ok():
+        executor.spin_once(timeout_sec=1.0)
+
+
+if __name__ == '__main__':
+    main()
