@@ -84,6 +84,7 @@ RULES: tuple[Rule, ...] = (
     diagnostics.MESSAGE_TAKEN,
     lost_task.RULE,
     callback_info.RULE,
+    shutdown.ANSWER_AFTER_SHUTDOWN,
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,

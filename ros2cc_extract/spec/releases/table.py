@@ -80,6 +80,17 @@ SHUTDOWN_WAITS_NOT = Behaviour(
     source='ros2/rclpy issue 944, `executors.py` (`Executor.shutdown`)',
     observed='under `rclpy.spin` it hangs on 3.3.21 and ends on 7.1.6 and 9.1.2',
 )
+SHUTDOWN_DESTROYS_NODES = Behaviour(
+    name='shutdown-destroys-nodes',
+    concerns='what `rclpy.shutdown()` does with nodes',
+    without='nothing: a service callback that calls it sends its response all the same',
+    having='it destroys them: the response of a service callback that calls it raises '
+    '`InvalidHandle`, which ends the spin',
+    since={9: (9, 0, 0)},
+    source='`context.py` (`Context._cleanup`) of 9.1.2 and 9.1.5, which 7.1.11 lacks',
+    observed='a service that shuts down under `rclpy.spin`: the spin ends as usual on 7.1.6 and '
+    '7.1.11, and by `InvalidHandle` on 9.1.2',
+)
 EVENTS_EXECUTOR = Behaviour(
     name='events-executor',
     concerns='whether there is an `EventsExecutor`',
@@ -185,6 +196,7 @@ RCLPY = (
     NODE_STAYS,
     TIMEOUT_KEEPS_HARVEST,
     SHUTDOWN_WAITS_NOT,
+    SHUTDOWN_DESTROYS_NODES,
     EVENTS_EXECUTOR,
     COROUTINES_IN_EVENTS,
     MESSAGE_INFO,

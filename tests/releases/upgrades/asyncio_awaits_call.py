@@ -23,6 +23,7 @@ class Doors(Node):
 async def serve(doors):
     while not doors.client.service_is_ready():
         await asyncio.sleep(0.05)
+    # differs: future-wakes
     response = await doors.client.call_async(Trigger.Request())
     print('opened', response.success, flush=True)
 

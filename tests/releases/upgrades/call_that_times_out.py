@@ -16,6 +16,7 @@ class Lift(Node):
         self.create_timer(0.3, self.go, callback_group=MutuallyExclusiveCallbackGroup())
 
     def go(self):
+        # differs: call-takes-timeout, call-timeout-raises
         answer = self.client.call(Trigger.Request(), timeout_sec=0.5)
         if answer is None:
             print('nobody there', flush=True)

@@ -17,6 +17,7 @@ class Lift(Node):
 
     def ask(self):
         try:
+            # differs: call-takes-timeout
             return self.client.call(Trigger.Request(), timeout_sec=0.5)
         except TimeoutError:
             return None

@@ -24,6 +24,7 @@ class Lift(Node):
 
     def go(self):
         if self.client.service_is_ready():
+            # differs: call-takes-timeout
             answer = self.client.call(Trigger.Request(), timeout_sec=5.0)
             print('up', answer.success, flush=True)
 

@@ -18,6 +18,7 @@ class Camera(Node):
         self.trigger.cancel()
         threading.Thread(target=self.expose, daemon=True).start()
         print('exposing', flush=True)
+        # differs: future-wakes
         await self.picture
         print('picture', flush=True)
 

@@ -14,6 +14,7 @@ class Lamp(Node):
         super().__init__('lamp')
         self.create_service(Trigger, 'light', self.on_light)
 
+    # differs: coroutines-in-events
     async def on_light(self, request, response):
         print('light', flush=True)
         response.success = True
@@ -39,6 +40,7 @@ def main():
     switches = SingleThreadedExecutor()
     switches.add_node(Switch())
     threading.Thread(target=switches.spin, daemon=True).start()
+    # differs: events-executor
     lamps = EventsExecutor()
     lamps.add_node(Lamp())
     while rclpy.ok():

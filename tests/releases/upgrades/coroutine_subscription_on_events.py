@@ -16,12 +16,14 @@ class Echo(Node):
     def say(self):
         self.publisher.publish(String(data='hello'))
 
+    # differs: coroutines-in-events
     async def on_word(self, message):
         print(message.data, flush=True)
 
 
 def main():
     rclpy.init()
+    # differs: events-executor
     executor = EventsExecutor()
     executor.add_node(Echo())
     while rclpy.ok():

@@ -31,6 +31,7 @@ class Lift(Node):
 
 def main():
     rclpy.init()
+    # differs: threads-by-affinity
     executor = MultiThreadedExecutor()
     executor.add_node(Lift())
     executor.spin()

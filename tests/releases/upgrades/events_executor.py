@@ -16,6 +16,7 @@ class Imu(Node):
 
 def main():
     rclpy.init()
+    # differs: events-executor
     executor = EventsExecutor()
     executor.add_node(Imu())
     while rclpy.ok():

@@ -15,6 +15,7 @@ class Delay(Node):
     def say(self):
         self.publisher.publish(String(data='hello'))
 
+    # differs: message-info
     def on_word(self, message, info):
         print(message.data, info is not None, flush=True)
 

@@ -36,6 +36,7 @@ class Ears(Node):
         job = self.pool.submit(recognise, message.data)
         job.add_done_callback(lambda done: heard.set_result(done.result()))
         print('listening', flush=True)
+        # differs: future-wakes
         print(await heard, flush=True)
 
 

@@ -26,6 +26,7 @@ class Dock(Node):
         response.success = False
         return response
 
+    # differs: exception-after-await-lost
     async def on_dock(self, request, response):
         charging = await self.charger.call_async(SetBool.Request(data=True))
         if not charging.success:

@@ -18,6 +18,7 @@ class Gripper(Node):
         response.message = 'strong'
         return response
 
+    # differs: exception-after-await-lost
     async def close(self):
         if not self.client.service_is_ready():
             return

@@ -25,6 +25,7 @@ class Kiosk(Node):
         return response
 
     def quit(self):
+        # differs: shutdown-waits-not, shutdown-destroys-nodes
         rclpy.try_shutdown()
         print('quit', flush=True)
 

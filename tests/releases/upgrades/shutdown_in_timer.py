@@ -13,6 +13,7 @@ class Calibration(Node):
     def sample(self):
         self.samples += 1
         if self.samples == 3:
+            # differs: shutdown-waits-not
             rclpy.shutdown()
             print('done', flush=True)
 

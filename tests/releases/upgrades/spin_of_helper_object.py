@@ -14,6 +14,7 @@ class Caller:
 
     def __call__(self):
         future = self.client.call_async(Trigger.Request())
+        # differs: spin-refused-twice
         self.node.executor.spin_until_future_complete(future, timeout_sec=1.0)
         return future.done()
 

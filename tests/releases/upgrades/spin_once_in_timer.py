@@ -16,6 +16,7 @@ class Arm(Node):
         self.ready = message.data
 
     def move(self):
+        # differs: spin-refused-twice
         rclpy.spin_once(self, timeout_sec=0.1)
         print('moved', flush=True)
 

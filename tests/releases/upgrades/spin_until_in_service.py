@@ -16,6 +16,7 @@ class Mission(Node):
 
     def on_start(self, request, response):
         future = self.client.call_async(Trigger.Request())
+        # differs: spin-refused-twice
         rclpy.spin_until_future_complete(self, future, timeout_sec=1.0)
         print('localised', future.done(), flush=True)
         response.success = True

@@ -12,6 +12,7 @@ class Planner(Node):
     def plan(self):
         self.once.cancel()
         self.executor.create_task(self.load_map)
+        # differs: tasks-oldest-first
         self.executor.create_task(self.find_way)
 
     def load_map(self):

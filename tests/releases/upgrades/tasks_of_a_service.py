@@ -14,6 +14,7 @@ class JobServer(Node):
 
     def on_work(self, request, response):
         for name in ('weigh', 'pack', 'ship'):
+            # differs: tasks-oldest-first
             self.jobs_executor.create_task(self.do_job, name)
         response.success = True
         return response

@@ -10,6 +10,7 @@ class Control(Node):
         super().__init__('control')
         self.create_timer(0.2, self.step)
 
+    # differs: timer-info
     def step(self, info: TimerInfo):
         late = info.actual_call_time - info.expected_call_time
         print('late' if late.nanoseconds > 10**9 else 'in time', flush=True)

@@ -21,6 +21,7 @@ def main():
     left, right = Wheel('left'), Wheel('right')
     threading.Thread(target=rclpy.spin, args=(left,), daemon=True).start()
     time.sleep(0.5)
+    # differs: spin-refused-twice
     rclpy.spin(right)
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Rule
-from ros2cc_extract.spec.releases.table import SHUTDOWN_WAITS_NOT
+from ros2cc_extract.spec.releases.table import SHUTDOWN_DESTROYS_NODES, SHUTDOWN_WAITS_NOT
 
 SERVED_NO_MORE = Rule(
     code='CC116',
@@ -95,4 +95,36 @@ class Job(Node):
     mend='Make a future done and spin until that, or raise `SystemExit`; shut down behind the '
     'spin.',
     until=SHUTDOWN_WAITS_NOT,
+)
+ANSWER_AFTER_SHUTDOWN = Rule(
+    code='CC125',
+    slug='answer-after-shutdown',
+    severity=Severity.WARNING,
+    title='Service that shuts rclpy down before it answers',
+    what='The callback of a service calls `rclpy.shutdown()`. rclpy sends the response when the '
+    'callback has returned, and there is nothing left to send it with.',
+    why='From rclpy 9.0 (Kilted) on `shutdown` destroys all nodes of its context, so that sending '
+    'the response raises `InvalidHandle`, which ends the spin; the client waits for an answer '
+    'that never comes. Humble and Jazzy destroy nothing. Sources: rclpy 9.1.2, `context.py` '
+    '(`Context._cleanup`), `service.py` (`send_response`). Measured: 3 of 3 runs raise on 9.1.2, '
+    '7.1.6 and 7.1.11 end as usual.',
+    bad="""\
+class Kiosk(Node):
+    def on_quit(self, request, response):
+        rclpy.shutdown()
+        response.success = True
+        return response
+""",
+    good="""\
+class Kiosk(Node):
+    def on_quit(self, request, response):
+        self.done.set_result(True)
+        response.success = True
+        return response
+
+rclpy.spin_until_future_complete(kiosk, kiosk.done)
+rclpy.shutdown()
+""",
+    mend='Make a future done and spin until that; shut down after the spin.',
+    since=SHUTDOWN_DESTROYS_NODES,
 )

@@ -73,6 +73,8 @@ def _told(end: End, world: RosWorld) -> Iterator[Diagnostic]:
             yield _ends_its_executor(end)
         elif end.kind in (DESTROY_NODE, REMOVE_NODE) and _leaves_nothing(end, doer, world):
             yield _serves_nothing(end)
+        if end.kind == SHUTDOWN and doer.kind is EntityKind.SERVICE:
+            yield _answers_no_more(end)
     if end.kind == DESTROY and isinstance(end.what, EntityState):
         yield from _destroyed(end, end.what, world)
     if end.kind == DESTROY_PUBLISHER and isinstance(end.what, Instance):
@@ -229,6 +231,18 @@ def _waits_for_its_end(end: End) -> Diagnostic:
         'it never returns',
         help='make a future done and spin until that, or raise SystemExit; shut down after the '
         'spin',
+    )
+
+
+def _answers_no_more(end: End) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='answer-after-shutdown',
+        place=end.place,
+        message='a service callback shuts rclpy down before its response is sent: from rclpy 9.0 '
+        '(Kilted) on that destroys its node, and sending the response raises InvalidHandle, which '
+        'ends the spin',
+        help='make a future done and spin until that; shut down after the spin',
     )
 
 
