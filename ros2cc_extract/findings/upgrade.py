@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.findings.rules.executor_use.callback_info import PASSED_BY
 from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.findings.waits.workers import EVENTS, MULTI, SINGLE
 from ros2cc_extract.source_locations import Place
@@ -22,12 +21,14 @@ from ros2cc_extract.spec.releases.table import (
     EVENTS_EXECUTOR,
     EXCEPTION_AFTER_AWAIT_LOST,
     FUTURE_YIELDS_ITSELF,
+    MESSAGE_INFO,
     NODE_STAYS,
     SPIN_REFUSED_TWICE,
     SPIN_YIELDS,
     TASKS_OLDEST_FIRST,
     THREADS_BY_AFFINITY,
     TIMEOUT_KEEPS_HARVEST,
+    TIMER_INFO,
 )
 
 
@@ -61,9 +62,12 @@ _OF_RULES: Mapping[str, tuple[Behaviour, ...]] = {
     'CC106': (NODE_STAYS, SPIN_REFUSED_TWICE),
     'CC107': (SPIN_REFUSED_TWICE,),
     'CC113': (COROUTINES_IN_EVENTS,),
-    'CC124': tuple(PASSED_BY.values()),
+    'CC124': (MESSAGE_INFO,),
+    'CC126': (TIMER_INFO,),
     'CC206': (TIMEOUT_KEEPS_HARVEST,),
 }
+_ABOUT_US = frozenset({'CC120', 'CC121', 'CC500', 'CC501', 'CC502'})
+"""Rules about what this tool knows, and not about what the program does."""
 _SAYS_BOTH = frozenset({'CC107'})
 """Rules whose message says what each release does, whichever is asked for."""
 
@@ -146,36 +150,69 @@ _NEEDS = {CALL_TIMEOUT_RAISES: CALL_TAKES_TIMEOUT, COROUTINES_IN_EVENTS: EVENTS_
 """Rows about something that releases without another row do not have at all."""
 
 
-def changes(
-    units: Iterable[Spec],
-    before: Sequence[Finding],
-    after: Sequence[Finding],
-    old: str,
-    new: str,
-) -> tuple[Change, ...]:
-    """List what changes from release ``old``, with its findings, to ``new``; by place."""
-    found = [*_of_findings(before, after, old, new), *_of_behaviour(units, old, new)]
+@dataclass(frozen=True, kw_only=True)
+class Side:
+    """
+    What one release does to the units.
+
+    :param undecided: names of the units of which a limit left something open.
+    """
+
+    release: str
+    findings: Sequence[Finding]
+    undecided: frozenset[str] = frozenset()
+
+
+def changes(units: Iterable[Spec], old: Side, new: Side) -> tuple[Change, ...]:
+    """List what changes from one release to another; by place."""
+    found = [*_of_findings(old, new), *_of_behaviour(units, old.release, new.release)]
     return tuple(
         sorted(dict.fromkeys(found), key=lambda each: (each.place, each.code, each.message))
     )
 
 
-def _of_findings(
-    before: Sequence[Finding], after: Sequence[Finding], old: str, new: str
-) -> Iterator[Change]:
-    was, will = _by_identity(before), _by_identity(after)
-    for identity in {**was, **will}:
-        left, right = was.get(identity), will.get(identity)
+def not_compared(old: Side, new: Side) -> frozenset[str]:
+    """Names of the units with findings on one side of which the other side left some open."""
+    lacking = [
+        (left or right, new if left else old)
+        for left, right in _pairs(old, new)
+        if left is None or right is None
+    ]
+    return frozenset(
+        finding.unit
+        for finding, side in lacking
+        if finding is not None and finding.unit is not None and _is_open(finding, side)
+    )
+
+
+Pair = tuple[Finding | None, Finding | None]
+
+
+def _pairs(old: Side, new: Side) -> list[Pair]:
+    was, will = _by_identity(old.findings), _by_identity(new.findings)
+    return [(was.get(each), will.get(each)) for each in {**was, **will}]
+
+
+def _of_findings(old: Side, new: Side) -> Iterator[Change]:
+    releases = old.release, new.release
+    for left, right in _pairs(old, new):
         if right is None and left is not None:
-            yield _change(Turn.GOES, left, left.message, old, new)
+            if not _is_open(left, new):
+                yield _change(Turn.GOES, left, left.message, *releases)
         elif left is None and right is not None:
-            yield _change(Turn.COMES, right, right.message, old, new)
-        elif left is not None and right is not None and _differ(left, right, old, new):
-            yield _change(Turn.CHANGES, right, right.message, old, new)
+            if not _is_open(right, old):
+                yield _change(Turn.COMES, right, right.message, *releases)
+        elif left is not None and right is not None and _differ(left, right, *releases):
+            yield _change(Turn.CHANGES, right, right.message, *releases)
 
 
 def _by_identity(findings: Iterable[Finding]) -> dict[object, Finding]:
-    return {(f.code, f.place, f.unit, f.subjects): f for f in findings}
+    return {(f.code, f.place, f.unit, f.subjects): f for f in findings if f.code not in _ABOUT_US}
+
+
+def _is_open(finding: Finding, lacking: Side) -> bool:
+    """Whether the side that lacks a finding might have it, had it been decided."""
+    return finding.unit in lacking.undecided
 
 
 def _differ(left: Finding, right: Finding, old: str, new: str) -> bool:

@@ -40,7 +40,7 @@ from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.verify.results.rates import with_arrivals
-from ros2cc_extract.verify.results.results import Verdict, Verification
+from ros2cc_extract.verify.results.results import Verification
 from ros2cc_extract.verify.search.options import Options
 
 SCANNING = 0.75
@@ -141,11 +141,8 @@ class Outcome:
     @property
     def is_undecided(self) -> bool:
         """True when a limit left a verdict open, or a file."""
-        return bool(self.extraction.cut) or any(
-            result.verdict is Verdict.UNDECIDED and not result.in_doubt
-            for verification in self.judged
-            for result in verification.results
-        )
+        cut = bool(self.extraction.cut)
+        return cut or any(verification.is_cut for verification in self.judged)
 
     @property
     def undecided_waits(self) -> tuple[Finding, ...]:

@@ -78,8 +78,8 @@ class Blocking:
         ``time.sleep``, ``Rate.sleep``, ``spin_until_future_complete``, ``await`` …
     :param on: name of the callback, entity or object waited for, where known.
     :param seconds: how long it sleeps; for calls with a time-out, the time-out.
-    :param foreign: true for an event or future that a thread of the user's own sets, and no
-        callback: that wakes no executor.
+    :param foreign: true for an event or future that a thread of the user's own may set, which
+        wakes no executor on some releases.
     :param chain: places of the calls that lead from the callback to ``source``, outermost first.
     :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
         an ``RLock``, ends in ``RE_ENTRANT``.

@@ -10,7 +10,7 @@ from ros2cc_extract.cli.shared.arguments import add_paths, release_argument
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS, EXIT_UNDECIDED
 
 if TYPE_CHECKING:
-    from ros2cc_extract.findings.upgrade import Change
+    from ros2cc_extract.findings.upgrade import Change, Side
     from ros2cc_extract.pipeline.check import Outcome
 
 SECONDS, MAX_SECONDS = 20.0, 120.0
@@ -33,22 +33,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.releases import tell_releases
-    from ros2cc_extract.findings.upgrade import changes
+    from ros2cc_extract.findings.upgrade import changes, not_compared
     from ros2cc_extract.spec.releases.lines import newest_of
 
     old, new = newest_of(args.from_release), newest_of(args.to_release)
     tell_releases((old, new), stderr)
     before, after = _checked(args, old, stderr), _checked(args, new, stderr)
-    found = changes(after.units, before.findings, after.findings, old, new)
+    sides = _side(before, old), _side(after, new)
+    found = changes(after.units, *sides)
     for change in found:
         print(_line(change), file=stdout)
         for row in change.because:
             print(f'    because of {row.name}: {row.source}', file=stdout)
+    for unit in sorted(not_compared(*sides)):
+        print(f'{unit}: not compared, because a limit was reached', file=stdout)
     count = f'{len(found)} change{"" if len(found) == 1 else "s"}' if found else 'no change'
     print(f'from rclpy {old} to {new}: {count}', file=stdout)
     if found:
         return EXIT_FINDINGS
     return EXIT_UNDECIDED if before.is_undecided or after.is_undecided else EXIT_CLEAN
+
+
+def _side(outcome: Outcome, release: str) -> Side:
+    from ros2cc_extract.findings.upgrade import Side
+
+    pairs = zip(outcome.units, outcome.judged, strict=False)
+    undecided = frozenset(unit.name for unit, judged in pairs if judged.is_cut)
+    return Side(release=release, findings=outcome.findings, undecided=undecided)
 
 
 def _checked(args: argparse.Namespace, release: str, stderr: TextIO) -> Outcome:

@@ -86,6 +86,13 @@ class Verification:
     notes: tuple[str, ...] = ()
     defect: str = ''
 
+    @property
+    def is_cut(self) -> bool:
+        """True when a limit left a query open of which nothing else was in doubt."""
+        return any(
+            result.verdict is Verdict.UNDECIDED and not result.in_doubt for result in self.results
+        )
+
     @cached_property
     def by_callbacks(self) -> Mapping[tuple[str | None, frozenset[str]], QueryResult]:
         """The first result of each family on the same callbacks, in any order."""

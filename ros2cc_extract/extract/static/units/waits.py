@@ -195,12 +195,17 @@ class UnitWaits(DataWriters):
         return known
 
     def _is_foreign(self, on: object) -> bool:
-        """Whether nothing but threads of the user's own sets what is waited for."""
+        """
+        Whether a thread of the user's own may be the one that sets what is waited for.
+
+        A callback that may set it as well helps only if it comes: until then nobody wakes the
+        executor on releases that ask a coroutine in each lap.
+        """
         if not isinstance(on, SettableRef):
             return False
         wakings = self._world.wakings.get(on.number, ())
         setters = [waking for waking in wakings if waking.word is Word.SET]
-        return bool(setters) and all(is_activity(waking.by) for waking in setters)
+        return any(is_activity(waking.by) for waking in setters)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
         if isinstance(raw.on, ClockRef):

@@ -42,7 +42,8 @@ _FOREIGN = frozenset({'await', UNKNOWN_WAIT, NOT_FOLLOWED})
 _LISTENING = ('recv', 'read', 'accept', 'input')
 _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
-    'only a thread ends it, which wakes no executor: it goes on once something else does so'
+    'a thread may be the one that ends it, which wakes no executor: it goes on once something '
+    'else does so'
 )
 
 

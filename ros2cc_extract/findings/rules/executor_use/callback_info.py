@@ -1,8 +1,9 @@
-"""CC124: a callback has a parameter for which some releases pass nothing."""
+"""CC124 and CC126: a callback has a parameter for which some releases pass nothing."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from functools import partial
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
@@ -12,54 +13,39 @@ from ros2cc_extract.spec.model import Callback, EntityKind
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import MESSAGE_INFO, TIMER_INFO
 
-PASSED_BY: Mapping[EntityKind, Behaviour] = {
-    EntityKind.SUBSCRIPTION: MESSAGE_INFO,
-    EntityKind.TIMER: TIMER_INFO,
-}
-_NEEDS = {
-    EntityKind.SUBSCRIPTION: 'the information of the message, which rclpy passes from 4.0 on: on '
-    'Humble (3.3) each message raises TypeError',
-    EntityKind.TIMER: 'a TimerInfo, which rclpy has from 9.0 (Kilted) on: on Humble and Jazzy it '
-    'cannot be imported',
-}
-_MENDS = {
-    EntityKind.SUBSCRIPTION: 'take the message alone, or give the second parameter a default',
-    EntityKind.TIMER: 'read the clock in the callback instead',
-}
+
+def find(
+    kind: EntityKind, passes: Behaviour, needs: str, mend: str, context: Context
+) -> Iterator[Hit]:
+    """Callbacks of a kind; a note where it is open which release runs them."""
+    is_passed = passes.holds(context.unit.rclpy)
+    for callback in context.written if is_passed is not True else ():
+        if callback.takes_info and callback.entity is kind:
+            yield _hit(callback, needs, mend, None if is_passed is False else Severity.NOTE)
 
 
-def find(context: Context) -> Iterator[Hit]:
-    for callback in context.written:
-        behaviour = PASSED_BY.get(callback.entity) if callback.entity else None
-        passes = behaviour.holds(context.unit.rclpy) if behaviour else True
-        if callback.takes_info and not passes:
-            yield _hit(callback, None if passes is False else Severity.NOTE)
-
-
-def _hit(callback: Callback, severity: Severity | None) -> Hit:
-    assert callback.entity is not None
+def _hit(callback: Callback, needs: str, mend: str, severity: Severity | None) -> Hit:
     return Hit(
         place=callback.defined or callback.source or Place(callback.name),
-        message=f'{callback.display_name} needs {_NEEDS[callback.entity]}',
-        help=_MENDS[callback.entity],
+        message=f'{callback.display_name} needs {needs}',
+        help=mend,
         severity=severity,
         subjects=(callback.name,),
         related=tuple(made_at(callback)),
     )
 
 
-RULE = Rule(
+OF_MESSAGE = Rule(
     code='CC124',
-    slug='callback-info',
+    slug='message-info',
     severity=Severity.ERROR,
-    title='Callback argument that the release does not pass',
-    what='A callback of a subscription has a second parameter, for the information of the '
-    'message, or that of a timer one of type `TimerInfo`. Releases that are older pass nothing '
-    'there. A note where the release is not known; `--rclpy 3.3.21` or `--distro humble` sets it.',
+    title='Subscription that needs what Humble does not pass',
+    what='The callback of a subscription has a second parameter, for the information of the '
+    'message, which Humble does not pass. A note where the release is not known; `--distro '
+    'humble` or `--rclpy 3.3.21` sets it.',
     why='Humble (rclpy 3.3) calls a subscription with the message alone, so each message raises '
-    '`TypeError` and ends the spin; Humble and Jazzy (3.3, 7.1) have no `TimerInfo`. Sources: '
-    'rclpy 3.3.21, 7.1.6 and 9.1.5, `executors.py` (`_take_subscription`, `_take_timer`), '
-    '`subscription.py`, `timer.py`. Measured on 3.3.21, 7.1.6 and 9.1.2.',
+    '`TypeError` and ends the spin. Sources: rclpy 3.3.21, `executors.py` (`_take_subscription`); '
+    '7.1.11, `subscription.py` (`Subscription.CallbackType`). Measured on 3.3.21, 7.1.6, 9.1.2.',
     bad="""\
 class Delay(Node):
     def __init__(self):
@@ -73,12 +59,52 @@ class Delay(Node):
 class Delay(Node):
     def __init__(self):
         super().__init__('delay')
-        self.create_subscription(Stamped, 'words', self.on_word, 10)
+        self.create_subscription(PointStamped, 'words', self.on_point, 10)
 
-    def on_word(self, message):
+    def on_point(self, message):
         self.delay = self.get_clock().now() - Time.from_msg(message.header.stamp)
 """,
     mend='Take the message alone and put what you need into it, or say by `--distro` which '
     'releases run the node.',
-    find=find,
+    find=partial(
+        find,
+        EntityKind.SUBSCRIPTION,
+        MESSAGE_INFO,
+        'the information of the message, which rclpy passes from 4.0 on: on Humble (3.3) each '
+        'message raises TypeError',
+        'take the message alone, or give the second parameter a default',
+    ),
+)
+OF_TIMER = Rule(
+    code='CC126',
+    slug='timer-info',
+    severity=Severity.ERROR,
+    title='Timer that needs what Humble and Jazzy do not pass',
+    what='The callback of a timer has a parameter of type `TimerInfo`, which Humble and Jazzy do '
+    'not have. A note where the release is not known; `--distro jazzy` sets it.',
+    why='From rclpy 9.0 (Kilted) on a parameter with this annotation gets the expected and the '
+    'actual time of the call; before, importing `TimerInfo` raises `ImportError`. Sources: rclpy '
+    '9.1.5, `executors.py` (`_take_timer`); 7.1.11, `timer.py`. Measured on 3.3.21, 7.1.6 and '
+    '9.1.2.',
+    bad="""\
+class Control(Node):
+    def step(self, info: TimerInfo):         # Jazzy has no TimerInfo
+        self.late = info.actual_call_time - info.expected_call_time
+""",
+    good="""\
+class Control(Node):
+    def step(self):
+        now = self.get_clock().now()
+        self.since_last, self.last = now - self.last, now
+""",
+    mend='Read the clock in the callback instead, or say by `--distro` which releases run the '
+    'node.',
+    find=partial(
+        find,
+        EntityKind.TIMER,
+        TIMER_INFO,
+        'a TimerInfo, which rclpy has from 9.0 (Kilted) on: on Humble and Jazzy it cannot be '
+        'imported',
+        'read the clock in the callback instead',
+    ),
 )

@@ -21,6 +21,9 @@ class Link(Node):
         self.line = socket.socket()
         {}
 
+    def timed(self, info: TimerInfo):
+        self.line.recv(1)
+
     def none(self):
         self.line.recv(1)
 
@@ -59,6 +62,7 @@ def scanned(makes: str) -> tuple[list[str], list[str]]:
         SERVICE.format('lambda request: self.line.recv(1)'),
         SUBSCRIPTION.format('self.none'),
         SUBSCRIPTION.format('self.three'),
+        TIMER.format('self.one'),  # only a parameter of type TimerInfo gets something
         TIMER.format('self.two'),
     ],
 )
@@ -75,7 +79,7 @@ def test_what_cannot_be_called_is_told_and_not_followed(makes: str) -> None:
         SUBSCRIPTION.format('self.one'),
         SUBSCRIPTION.format('self.two'),  # the second gets the info of the message
         TIMER.format('self.none'),
-        TIMER.format('self.one'),  # it gets the times of the call, from Kilted on
+        TIMER.format('self.timed'),  # it gets the times of the call, from Kilted on
         SUBSCRIPTION.format('lambda msg, more=2: self.line.recv(1)'),
     ],
 )
