@@ -12,7 +12,7 @@ from ros2cc_extract.findings.waits.workers import EVENTS, MULTI, SINGLE
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
 from ros2cc_extract.spec.effects import Blocking
-from ros2cc_extract.spec.model import EntityKind, Spec
+from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (
     CALL_TAKES_TIMEOUT,
@@ -94,7 +94,8 @@ def _calls_that_raise(unit: Spec) -> Iterator[Felt]:
 
 
 def _timed_calls(unit: Spec) -> Iterator[Blocking]:
-    for doer in (*unit.callbacks, *unit.activities):
+    doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
+    for doer in doers:
         for block in doer.blocking:
             if block.call.rpartition('.')[2] == 'call' and block.seconds is not None:
                 yield block
@@ -111,6 +112,13 @@ def _awaits(unit: Spec) -> Iterator[Felt]:
             if any(block.suspends for block in callback.blocking):
                 place = callback.defined or callback.source
                 yield Felt(place, f'if {callback.display_name} raises there')
+
+
+def _woken_by_threads(unit: Spec) -> Iterator[Felt]:
+    if unit.executor.kind in (SINGLE, MULTI):
+        for block in (block for callback in unit.callbacks for block in callback.blocking):
+            if block.suspends and block.foreign and block.seconds is None:
+                yield Felt(block.source, 'if a thread completes it')
 
 
 def _several_tasks(unit: Spec) -> Iterator[Felt]:
@@ -136,6 +144,7 @@ def _pool(unit: Spec) -> Iterator[Felt]:
 
 _FEELS: tuple[tuple[Behaviour, Feels], ...] = (
     (TASKS_OLDEST_FIRST, _several_tasks),
+    (FUTURE_YIELDS_ITSELF, _woken_by_threads),
     (EVENTS_EXECUTOR, _events),
     (CALL_TAKES_TIMEOUT, _calls_in_time),
     (CALL_TIMEOUT_RAISES, _calls_that_raise),

@@ -45,7 +45,7 @@ OF_MESSAGE = Rule(
     'humble` or `--rclpy 3.3.21` sets it.',
     why='Humble (rclpy 3.3) calls a subscription with the message alone, so each message raises '
     '`TypeError` and ends the spin. Sources: rclpy 3.3.21, `executors.py` (`_take_subscription`); '
-    '7.1.11, `subscription.py` (`Subscription.CallbackType`). Measured on 3.3.21, 7.1.6, 9.1.2.',
+    '7.1.11, `subscription.py` (`CallbackType`). Measured on 3.3.21, rclpy 7.1.6 and 9.1.2.',
     bad="""\
 class Delay(Node):
     def __init__(self):
@@ -84,8 +84,8 @@ OF_TIMER = Rule(
     'not have. A note where the release is not known; `--distro jazzy` sets it.',
     why='From rclpy 9.0 (Kilted) on a parameter with this annotation gets the expected and the '
     'actual time of the call; before, importing `TimerInfo` raises `ImportError`. Sources: rclpy '
-    '9.1.5, `executors.py` (`_take_timer`); 7.1.11, `timer.py`. Measured on 3.3.21, 7.1.6 and '
-    '9.1.2.',
+    '9.1.5, `executors.py` (`_take_timer`); 7.1.11, `timer.py`. Measured on 3.3.21, rclpy 7.1.6 '
+    'and 9.1.2.',
     bad="""\
 class Control(Node):
     def step(self, info: TimerInfo):         # Jazzy has no TimerInfo

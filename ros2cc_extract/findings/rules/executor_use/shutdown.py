@@ -107,7 +107,7 @@ ANSWER_AFTER_SHUTDOWN = Rule(
     'the response raises `InvalidHandle`, which ends the spin; the client waits for an answer '
     'that never comes. Humble and Jazzy destroy nothing. Sources: rclpy 9.1.2, `context.py` '
     '(`Context._cleanup`), `service.py` (`send_response`). Measured: 3 of 3 runs raise on 9.1.2, '
-    '7.1.6 and 7.1.11 end as usual.',
+    'rclpy 7.1.6 and 7.1.11 end as usual.',
     bad="""\
 class Kiosk(Node):
     def on_quit(self, request, response):
