@@ -38,6 +38,9 @@ WORKING_LOOP = 'working loop'
 POLLING_LOOP = 'polling loop'
 """A loop that does nothing but wait until what it asks for has changed."""
 
+ANSWER_LOOP = 'loop for an answer'
+"""A loop that asks a library again and again; another program gives the answer that ends it."""
+
 TURN = 'yield'
 """A coroutine lets the executor run others, and goes on by itself."""
 

@@ -24,7 +24,7 @@ from ros2cc_extract.spec.client_server_pairs import (
     is_done_callback,
     server_of,
 )
-from ros2cc_extract.spec.effects import TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import ANSWER_LOOP, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 
 
@@ -216,6 +216,7 @@ def waits_in(wait: AnyWait) -> str:
         SPIN_FOR_FUTURE: 'a nested spin',
         'polling loop': 'a polling loop',
         WORKING_LOOP: 'its loop',
+        ANSWER_LOOP: 'a loop for an answer',
     }
     return words.get(wait.block.call, wait.block.call)
 

@@ -47,6 +47,7 @@ from ros2cc_extract.extract.static.units.wakers.set_up_wakers import (
     is_of_set_up,
     why_open,
 )
+from ros2cc_extract.extract.static.units.wakers.spins_aside import ender_of_spin
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     forgets,
     is_unheard,
@@ -203,6 +204,9 @@ class UnitWaits(DataWriters):
         return bool(setters) and all(is_activity(waking.by) for waking in setters)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
+        ender = ender_of_spin(self._world, raw, doer)
+        if ender is not None:
+            return replace(named, wakers=(ender,))
         if isinstance(raw.on, ClockRef):
             return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
         if isinstance(raw.on, TopicRef):
