@@ -586,3 +586,13 @@ def test_calls_of_several_clients_at_one_line_are_one_finding() -> None:
     of_thread = only(unit(ONE_THREAD, *callbacks), 'CC102')
     assert 'and 1 more on the only thread' in of_thread.message
     assert 'so nothing can take them: it waits forever' in of_thread.message
+
+
+def test_a_function_that_calls_itself_is_ended_by_an_error() -> None:
+    waits = tuple(replace(wait, recursive=True) for wait in calls('plan_client', call='busy wait'))
+    spec = unit(threads(2), timer('drive', blocking=waits), client('plan_client'))
+    assert only(spec, 'CC101').message == (
+        "drive waits in a function that calls itself for the answer of service 'plan', but the "
+        "client is in the default group of 'arm', which is closed while drive runs: "
+        'RecursionError ends it after some 1,000 calls'
+    )

@@ -13,7 +13,7 @@ from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.capacity import Capacity, capacity_of
 from ros2cc_extract.findings.waits.stuck_callbacks import waits_in_circle
 from ros2cc_extract.findings.waits.verdicts import is_of_repeated, run_in_which_one_hangs
-from ros2cc_extract.findings.waits.waits import Wait, WaitKind, kind_of, waits_of
+from ros2cc_extract.findings.waits.waits import Wait, WaitKind, how_long, kind_of, waits_of
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, When
@@ -150,6 +150,8 @@ def _what_becomes_of(waits: Sequence[Wait]) -> str:
         return 'all waits time out'
     if any(wait.has_timeout for wait in waits):
         return 'all wait, at least until the first time-out'
+    if all(wait.block.recursive for wait in waits):
+        return how_long(waits[0], is_one=False)
     return 'all wait forever'
 
 

@@ -17,6 +17,7 @@ from ros2cc_extract.findings.waits.waits import (
     are_one,
     at_one_place,
     callers_of,
+    how_long,
     kind_of,
     waits_in,
     ways_of_others,
@@ -295,6 +296,8 @@ def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside:
     verb = 'waits' if are_one(waits) else 'wait'
     start = f'{who_waits(waits)} in {call}{named}'
     ends = f'and {verb} forever unless {_others(wait)} ends it'
+    if wait.block.recursive:
+        ends = f'and unless {_others(wait)} ends it, {how_long(wait)}'
     if wait.block.answer_to is not None and is_outside:
         topic = wait.block.answer_to
         ends = (

@@ -66,6 +66,7 @@ from ros2cc_extract.spec.effects import (
 )
 
 POLL = POLLING_LOOP
+_OF_ROUNDS = retry_loops.RAISE_WHEN_OVER | {POLL, WORKING_LOOP, ANSWER_LOOP, 'busy wait'}
 
 
 @dataclass(frozen=True)
@@ -266,6 +267,20 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     if names & (written | set(effects.own[before.own :])):
         return
     _note(machine, loop, frame, tests, names, sent_up_to(effects, before.order))
+
+
+def mark_recursive(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
+) -> None:
+    """What the rounds of a loop wait for is waited for by calls inside calls."""
+    effects = machine.world.effects or EffectLog()
+    lines = range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
+    file = frame.place(loop).file
+    for number, block in enumerate(effects.blocking[before.waits :], before.waits):
+        place = block.source
+        is_here = place is not None and place.file == file and place.line in lines
+        if is_here and block.seconds is None and block.call in _OF_ROUNDS:
+            effects.blocking[number] = replace(block, recursive=True)
 
 
 def _note_own_end(

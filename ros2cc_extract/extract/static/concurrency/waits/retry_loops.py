@@ -23,9 +23,10 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import POLLING_LOOP
 
-_RAISE_WHEN_OVER = frozenset(
+RAISE_WHEN_OVER = frozenset(
     ['Queue.get', 'Queue.put', 'Future.result', 'Future.exception', 'client.call', 'Popen.wait']
 )
+"""Waits that are tried again when their time is over."""
 _TAKES_OUT = frozenset(['pop', 'popleft', 'popitem', 'index', 'remove'])
 """Methods of plain data that raise where there is nothing."""
 
@@ -80,7 +81,7 @@ def _has_timed_waits(effects: EffectLog, first: int, attempt: ast.Try, frame: Fr
     is_any = False
     for number, block in enumerate(effects.blocking[first:], first):
         is_inside = block.source and block.source.file == file and block.source.line in lines
-        if is_inside and block.call in _RAISE_WHEN_OVER:
+        if is_inside and block.call in RAISE_WHEN_OVER:
             is_any = True
             effects.blocking[number] = replace(block, seconds=None, assumed=None)
     return is_any
