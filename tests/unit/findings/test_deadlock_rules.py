@@ -596,3 +596,19 @@ def test_a_function_that_calls_itself_is_ended_by_an_error() -> None:
         "client is in the default group of 'arm', which is closed while drive runs: "
         'RecursionError ends it after some 1,000 calls'
     )
+
+
+def test_whoever_waits_several_times_is_counted_and_named_so() -> None:
+    waits = calls('plan_client')
+    names = ('left', 'right', 'stop')
+    timers = [
+        timer(name, f'of_{name}', function='arm.Arm.drive', defined=at(20), blocking=waits)
+        for name in names[:2]
+    ]
+    stop = timer('stop', 'of_stop', blocking=waits)
+    groups = (*(exclusive(f'of_{name}') for name in names), OTHER)
+    spec = unit(threads(3), *timers, stop, client('plan_client', 'other'), groups=groups)
+    assert only(spec, 'CC103').message == (
+        '3 callbacks can wait at the same time (Arm.drive 2 times, stop) on 3 threads: then none '
+        'is left for the answers and all wait forever'
+    )
