@@ -101,6 +101,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     if world.effects is None and not is_idle(loop):
         return
     place = frame.place(loop)
+    retry_loops.begin(machine, loop, frame)
     _note_rest(machine, loop, frame)
     is_known = told is not None and _note_things(machine, loop, frame, told)
     if not is_known:

@@ -27,8 +27,20 @@ RAISE_WHEN_OVER = frozenset(
     ['Queue.get', 'Queue.put', 'Future.result', 'Future.exception', 'client.call', 'Popen.wait']
 )
 """Waits that are tried again when their time is over."""
+_OF_QUEUES = frozenset(['get', 'get_nowait', 'put', 'put_nowait'])
 _TAKES_OUT = frozenset(['pop', 'popleft', 'popitem', 'index', 'remove'])
 """Methods of plain data that raise where there is nothing."""
+
+
+def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
+    """What a queue refuses at once, and a loop tries until it succeeds, is waited for."""
+    attempt = _attempt(loop) if machine.world.in_callback else None
+    if attempt is None:
+        return
+    parts = (part for statement in attempt.body for part in walk(statement))
+    calls = [part for part in parts if isinstance(part, ast.Call) and name_of(part) in _OF_QUEUES]
+    if len(calls) == 1:
+        machine.world.retried.add(frame.place(calls[0]))
 
 
 def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) -> bool:
