@@ -68,6 +68,7 @@ def races(main: str, callback: str, *, by_thread: str = 'brake.get_name()\n') ->
         'serve(node)\nnode.level = 0',
         'node.level = 0\nserve(node)',
         'serve(node)\nnode.level += 1',
+        'print(node.level)\nserve(node)\nnode.level += 1',
         'serve(node)\nif node.level > 3:\n    node.level = 0',
     ],
 )
