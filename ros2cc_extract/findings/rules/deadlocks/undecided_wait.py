@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import listing, shown
+from ros2cc_extract.findings.base.wording import listing, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
 from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
@@ -23,7 +25,7 @@ from ros2cc_extract.findings.waits.waits import (
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import (
     ENDLESS_LOOP,
     NOT_FOLLOWED,
@@ -72,9 +74,7 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
                 waits.append(wait)
                 reasons[id(wait)] = reason
     if not is_outside:
-        for wait in _cut_short(context, waits):
-            waits.append(wait)
-            reasons[id(wait)] = _limit_of(wait, context)
+        yield from _of_limits(tuple(_cut_short(context, waits)), context)
         for wait in _unwoken(context):
             waits.append(wait)
             reasons[id(wait)] = _WAKES_NOBODY
@@ -105,6 +105,43 @@ def _of_cut(waits: Sequence[AnyWait], why: str) -> Hit:
         subjects=callers_of(waits),
         cause=NOT_FOLLOWED,
     )
+
+
+def _of_limits(waits: Sequence[AnyWait], context: Context) -> Iterator[Hit]:
+    """One line for all waits of a callback about which one limit leaves the question open."""
+    of_callers: dict[tuple[str, str], list[AnyWait]] = {}
+    for wait in waits:
+        of_callers.setdefault((wait.caller.name, _limit_of(wait, context)), []).append(wait)
+    alike: dict[object, tuple[str, list[AnyWait]]] = {}
+    for (_, reason), own in of_callers.items():
+        ways = tuple(dict.fromkeys((wait.place, wait.block.call) for wait in own))
+        alike.setdefault((reason, ways), (reason, []))[1].extend(own)
+    for reason, together in alike.values():
+        yield _of_limit(together, reason, context)
+
+
+def _of_limit(waits: Sequence[AnyWait], reason: str, context: Context) -> Hit:
+    first = waits[0]
+    others: dict[Place, list[AnyWait]] = {}
+    for wait in waits:
+        others.setdefault(wait.place, []).append(wait)
+    here = others.pop(first.place)
+    more = f' and in {plural(len(others), "more place")}' if others else ''
+    there = f'{who_waits(waits)} in {waits_in(first)}{_named(first)}{more}'
+    return replace(
+        _hit(here, reason, context, is_outside=False),
+        message=f'not decided: {there}, and {reason}',
+        subjects=callers_of(waits),
+        related=tuple(
+            Remark(place, f'{who_waits(alike)} here in {waits_in(alike[0])}')
+            for place, alike in others.items()
+        ),
+    )
+
+
+def _named(wait: AnyWait) -> str:
+    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
+    return f' for {what}' if what else ''
 
 
 def _for_messages(context: Context) -> Iterator[AnyWait]:
@@ -291,10 +328,8 @@ def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
 def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside: bool) -> Hit:
     wait = waits[0]
     call, reason = _call_and_reason(wait, reason)
-    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
-    named = f' for {what}' if what else ''
     verb = 'waits' if are_one(waits) else 'wait'
-    start = f'{who_waits(waits)} in {call}{named}'
+    start = f'{who_waits(waits)} in {call}{_named(wait)}'
     ends = f'and {verb} forever unless {_others(wait)} ends it'
     if wait.block.recursive:
         ends = f'and unless {_others(wait)} ends it, {how_long(wait)}'
