@@ -292,14 +292,8 @@ def _is_read_before_spin(first: Use, second: Use) -> bool:
         is_read_before(read, spin, write)
         and not keep_apart(kept_between(read, write, first.doer), second.access.locks)
         for _, read in reads_of(first.doer).get(write.name, ())
-        if write.rests or _is_at_one_line(read, write)  # an update reads where it writes
         for spin in _spins(first.doer)
     )
-
-
-def _is_at_one_line(read: Access, write: Access) -> bool:
-    one, other = read.source, write.source
-    return one is None or other is None or (one.file, one.line) == (other.file, other.line)
 
 
 def _is_stale(first: Use, second: Use) -> bool:

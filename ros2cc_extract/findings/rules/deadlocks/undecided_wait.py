@@ -42,6 +42,7 @@ from ros2cc_extract.verify.results.results import Verdict
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
 _FOREIGN = frozenset({'await', UNKNOWN_WAIT, NOT_FOLLOWED})
+_SPINS = (WaitKind.SPIN, WaitKind.SPUN_FUTURE)
 _LISTENING = ('recv', 'read', 'accept', 'input')
 _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
@@ -88,6 +89,11 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _for_messages(context):
             waits.append(wait)
             reasons[id(wait)] = ''
+    spins = [] if is_outside else [wait for wait in waits if wait.kind in _SPINS]
+    waits = [wait for wait in waits if wait not in spins]
+    for reason in dict.fromkeys(reasons[id(wait)] for wait in spins):
+        alike = [wait for wait in spins if reasons[id(wait)] == reason]
+        yield _of_one_cause(alike, reason, context)
     cut = [wait for wait in waits if wait.block.call == NOT_FOLLOWED]
     for reason in dict.fromkeys(_why(wait.block) for wait in cut):
         yield _of_cut([wait for wait in cut if _why(wait.block) == reason], reason)
@@ -117,10 +123,10 @@ def _of_limits(waits: Sequence[AnyWait], context: Context) -> Iterator[Hit]:
         ways = tuple(dict.fromkeys((wait.place, wait.block.call) for wait in own))
         alike.setdefault((reason, ways), (reason, []))[1].extend(own)
     for reason, together in alike.values():
-        yield _of_limit(together, reason, context)
+        yield _of_one_cause(together, reason, context)
 
 
-def _of_limit(waits: Sequence[AnyWait], reason: str, context: Context) -> Hit:
+def _of_one_cause(waits: Sequence[AnyWait], reason: str, context: Context) -> Hit:
     first = waits[0]
     others: dict[Place, list[AnyWait]] = {}
     for wait in waits:

@@ -6,12 +6,15 @@ asks it spins it until the answer has come. Nothing of the unit runs meanwhile, 
 unit is needed, where no callback of the helper waits or takes a lock itself.
 
 Source: rclpy 7.1.6 and 9.1.2, ``__init__.py`` (``spin_until_future_complete`` adds the node to the
-global executor), ``executors.py`` (it goes round until the future is done or the time is over).
+global executor, and takes out again what it has added), ``executors.py`` (it goes round until the
+future is done or the time is over). Where two such spins overlap, the first that is over takes the
+node away from the other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
 
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
@@ -23,16 +26,33 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.python.values.values import NONE, Const, Instance, options_of
 from ros2cc_extract.extract.static.python.values.values import Value as AnyValue
 from ros2cc_extract.extract.static.units.wakers.data_writers import Doer
+from ros2cc_extract.extract.static.units.whole_program.double_spins import may_overlap
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Waker
 
 FOR_FUTURE = 'spin for future'
+_TAKEN_AWAY = 'another spin of that executor may take the node away'
 
 
-def ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
+def of_spin_aside(world: RosWorld, raw: Blocking, named: Blocking, doer: Doer) -> Blocking | None:
+    """Give a nested spin, or the wait for its future, with who ends it; ``None`` for any other."""
+    ender = _ender_of_spin(world, raw, doer)
+    if ender is not None:
+        return replace(named, wakers=(ender,))
+    spins = _spins_at(world, raw, doer)
+    is_shared = any(_is_aside(spin, world) and _is_shared(spin, world) for spin in spins)
+    if not is_shared or raw.seconds is not None:
+        return None
+    return replace(named, on=Unknown(_TAKEN_AWAY, raw.source))
+
+
+def _ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
     """Who ends a nested spin, or the wait for its future; ``None`` where that is not known."""
-    spins = [s for s in world.inside_spins if s.entity is doer and s.place == raw.source]
+    spins = _spins_at(world, raw, doer)
     if not spins or not all(_is_aside(spin, world) for spin in spins):
+        return None
+    if any(_is_shared(spin, world) for spin in spins) and not _is_over_in_time(raw, doer):
         return None
     by = raw if raw.call == FOR_FUTURE else _future_of(raw, doer)
     if by is raw or (by is None and raw.seconds is None):
@@ -52,6 +72,23 @@ def _ender(raw: Blocking, spins: list[InsideSpin], world: RosWorld) -> Waker | N
     ]
     is_outside = bool(clients) and all(_is_answered_outside(each, world) for each in clients)
     return Waker(by=OUTSIDE, source=raw.source) if is_outside else None
+
+
+def _spins_at(world: RosWorld, raw: Blocking, doer: Doer) -> list[InsideSpin]:
+    return [s for s in world.inside_spins if s.entity is doer and s.place == raw.source]
+
+
+def _is_over_in_time(raw: Blocking, doer: Doer) -> bool:
+    future = _future_of(raw, doer)
+    return raw.seconds is not None or (future is not None and future.seconds is not None)
+
+
+def _is_shared(spin: InsideSpin, world: RosWorld) -> bool:
+    """Whether another callback, or another run, may spin that executor at the same time."""
+    alike = (each for each in world.inside_spins if each.executor is spin.executor)
+    return any(
+        may_overlap(spin, each) for each in alike if each is spin or each.entity is not spin.entity
+    )
 
 
 def _number(raw: Blocking) -> int | None:
