@@ -97,8 +97,8 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
     cut = [wait for wait in waits if wait.block.call == NOT_FOLLOWED]
     for reason in dict.fromkeys(_why(wait.block) for wait in cut):
         yield _of_cut([wait for wait in cut if _why(wait.block) == reason], reason)
-    for alike in at_one_place(wait for wait in waits if wait.block.call != NOT_FOLLOWED):
-        yield _hit(alike, reasons[id(alike[0])], context, is_outside=is_outside)
+    for at_one in at_one_place(wait for wait in waits if wait.block.call != NOT_FOLLOWED):
+        yield _hit(at_one, reasons[id(at_one[0])], context, is_outside=is_outside)
 
 
 def _of_cut(waits: Sequence[AnyWait], why: str) -> Hit:
