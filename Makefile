@@ -116,11 +116,11 @@ waits: $(VENV)/developed
 waits_suite = $(BIN)/python -m tests.random_waits.suite --programs $(PROGRAMS)
 waits_record = build/random_waits_$(1).jsonl
 random_waits_on = $(waits_suite) --python $(1)/bin/python --record $(call waits_record,$(2)) && \
-	$(waits_suite) --python $(1)/bin/python --judge $(call waits_record,$(2))
+	$(waits_suite) --python $(1)/bin/python --judge $(call waits_record,$(2)) $(3)
 random-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	@mkdir -p build
 	$(call random_waits_on,$(JAZZY),jazzy)
-	$(call random_waits_on,$(KILTED),kilted)
+	$(call random_waits_on,$(KILTED),kilted,--known $(call waits_record,jazzy))
 
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)

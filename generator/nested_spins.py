@@ -74,8 +74,15 @@ def is_spin(block: Blocking) -> bool:
     return block.call.rpartition('.')[2].startswith('spin')
 
 
+def is_aside(block: Blocking) -> bool:
+    """True for a nested spin of nodes that nothing else serves: it is told who ends it."""
+    return is_spin(block) and bool(block.wakers)
+
+
 def is_part_of_spin(block: Blocking, callback: Callback) -> bool:
     """True for the waits that a nested spin stands for; a loop that spins waits by spinning."""
+    if is_aside(block):
+        return False
     return is_spin(block) or (block.call == _BUSY_WAIT and any(_steps(callback)))
 
 
@@ -83,11 +90,12 @@ def nested_spins(callback: Callback, spec: Spec) -> Iterator[tuple[Blocking, Nes
     """
     Give the nested spins of a callback in their order, and what the model has of each.
 
-    There is nothing where another executor, or a node of another one, is spun.
+    There is nothing where another executor, or a node of another one, is spun; one that serves
+    nobody here, and whose end is known, is left out.
     """
     loops = [block for block in callback.blocking if block.call == _BUSY_WAIT]
     for block in callback.blocking:
-        if not is_spin(block) or _is_of_another(block, callback):
+        if not is_spin(block) or is_aside(block) or _is_of_another(block, callback):
             continue
         futures = loops if _is_step(block) else _futures_of(block, callback)
         for future in futures or (None,):
@@ -100,7 +108,7 @@ def is_open(spin: NestedSpin | None) -> bool:
 
 
 def _steps(callback: Callback) -> Iterator[Blocking]:
-    return (block for block in callback.blocking if _is_step(block))
+    return (each for each in callback.blocking if _is_step(each) and not is_aside(each))
 
 
 def _is_step(block: Blocking) -> bool:

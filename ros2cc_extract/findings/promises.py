@@ -19,8 +19,8 @@ from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_END
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
-from ros2cc_extract.findings.waits.workers import Workers, workers_of
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
+from ros2cc_extract.spec.model import GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
@@ -150,6 +150,8 @@ class _Unit:
             yield from self._open_waits(promise)
         if promise is Promise.STARVATION:
             yield from _overload(self.unit)
+        if promise is Promise.RACES:
+            yield from _copies(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 
@@ -209,6 +211,26 @@ def _breaks(finding: Finding, promise: Promise) -> bool:
     """A note on settings is as certain as a warning; any other says that it may be no harm."""
     is_sure = finding.severity is not Severity.NOTE or promise is Promise.SETTINGS
     return is_sure and finding.code in _CODES[promise]
+
+
+def _copies(unit: Spec) -> Iterator[str]:
+    """
+    Which callbacks stand for several, and are kept apart by what each of these may have.
+
+    A lock or a group that is made with each of them keeps none of the others out.
+    """
+    if is_one_thread(unit.executor):
+        return
+    groups = {group.name: group for group in unit.groups}
+    for callback in unit.callbacks:
+        group = groups.get(callback.group)
+        is_one = group is not None and group.count == 1
+        if callback.count == 1 or (is_one and group and group.type is GroupType.EXCLUSIVE):
+            continue
+        changes = [write for write in callback.writes if write.rests or write.update]
+        if any(not is_one or write.locks for write in changes):
+            name = callback.display_name
+            yield f'{name} stands for several, each of which may have a group or lock of its own'
 
 
 def _overload(unit: Spec) -> Iterator[str]:

@@ -38,6 +38,12 @@ WORKING_LOOP = 'working loop'
 POLLING_LOOP = 'polling loop'
 """A loop that does nothing but wait until what it asks for has changed."""
 
+ANSWER_LOOP = 'loop for an answer'
+"""A loop that asks a library again and again; another program gives the answer that ends it."""
+
+RECURSION_LIMIT = 1_000
+"""Of CPython, where the program does not set another one."""
+
 TURN = 'yield'
 """A coroutine lets the executor run others, and goes on by itself."""
 
@@ -106,6 +112,8 @@ class Blocking:
     :param at_end: of a thread, where the program ends the wait when its spin is over.
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
         locks held and the wait.
+    :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
+        after ``RECURSION_LIMIT`` calls.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
     :param caught: the exception by which some release says that the time-out is over is caught.
     """
@@ -133,6 +141,7 @@ class Blocking:
     unsent: str | None = None
     at_end: Place | None = None
     repeats: bool = False
+    recursive: bool = False
     times: int = 1
     caught: bool = False
 

@@ -40,4 +40,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC107:27, CC501:27 note
+# finds: CC107:27, CC121:26 note, CC501:27 note

@@ -163,11 +163,21 @@ def run(record: Path, python: str, seeds: Sequence[int]) -> None:
         print(f'{min(start + CHUNK, len(left))} of {len(left)} run', flush=True)
 
 
-def judge_all(record: Path, seeds: Sequence[int], jobs: int = 1) -> None:
-    """Ask the model of each program that was run, and write down what it says."""
+def judge_all(
+    record: Path, seeds: Sequence[int], jobs: int = 1, elsewhere: Path | None = None
+) -> None:
+    """
+    Ask the model of each program that was run, and write down what it says.
+
+    :param elsewhere: what was run on another distribution: the model is the same.
+    """
     known = load(record)
+    told = load(elsewhere) if elsewhere is not None else {}
     left = [seed for seed in seeds if seed in known and known[seed].judged is None]
-    with multiprocessing.Pool(jobs) as pool:
+    same = [seed for seed in left if seed in told and told[seed].judged is not None]
+    add(record, (replace(known[seed], judged=told[seed].judged) for seed in same))
+    left = [seed for seed in left if seed not in set(same)]
+    with multiprocessing.Pool(jobs, maxtasksperchild=CHUNK) as pool:
         for seed, judged in pool.imap_unordered(_judge_seed, left):
             add(record, [replace(known[seed], judged=judged)])
 
@@ -203,6 +213,7 @@ def main() -> int:
     parser.add_argument('--programs', type=int, default=1000)
     parser.add_argument('--record', type=Path, help='what was run; it goes on where it was cut')
     parser.add_argument('--judge', type=Path, help='run nothing, judge what this record has')
+    parser.add_argument('--known', type=Path, help='a record whose programs were judged before')
     parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='who judge at once')
     args = parser.parse_args()
     seeds = range(args.first, args.first + args.programs)
@@ -213,7 +224,7 @@ def main() -> int:
         if args.judge is None:
             run(record, args.python, seeds)
         if args.record is None or args.judge is not None:
-            judge_all(record, seeds, args.jobs)
+            judge_all(record, seeds, args.jobs, args.known)
         if args.python is not None:
             disturb(record, args.python, seeds)
         tally = Tally()

@@ -13,7 +13,7 @@ import pytest
 from tests.random_waits.kinds import KINDS
 from tests.random_waits.programs import program
 from tests.random_waits.recorded import Ran, add, load, unfinished
-from tests.random_waits.suite import ENDS, FOUND, Tally, judge, watch
+from tests.random_waits.suite import ENDS, FOUND, Tally, judge, judge_all, watch
 
 SEEDS = range(30030, 30032)
 
@@ -74,3 +74,13 @@ def test_who_hangs_is_never_said_to_end() -> None:
     assert tally.programs == len(SEEDS)
     assert tally.hung > 0
     assert tally.missed == []
+
+
+def test_what_was_judged_for_one_distribution_holds_for_another(tmp_path: Path) -> None:
+    one, other = tmp_path / 'one.jsonl', tmp_path / 'other.jsonl'
+    add(one, [Ran(1, ('tick_0',), None, {'tick_0': FOUND}), Ran(2, ())])
+    add(other, [Ran(1, ()), Ran(30030, ())])
+    judge_all(other, range(40_000), 1, one)
+    known = load(other)
+    assert known[1] == Ran(1, (), None, {'tick_0': FOUND})
+    assert known[30030].judged == judge(program(30030))

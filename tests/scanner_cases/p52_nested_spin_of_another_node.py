@@ -42,6 +42,7 @@ if __name__ == '__main__':
 #     blocks rclpy.spin_until_future_complete on ? @26
 #     blocks spin for future on ? @26
 #     blocks executor.spin_once on ? 0.1 s @27
+#       ended by time @27
 #     changes rclpy.spin_until_future_complete @26
 # unit second: inner=SingleThreadedExecutor x1 not spun UNRESOLVED, main
 #   group second_default EXCLUSIVE default

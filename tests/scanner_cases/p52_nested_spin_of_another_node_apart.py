@@ -42,7 +42,9 @@ if __name__ == '__main__':
 #   group a_default EXCLUSIVE default
 #   timer tick in a_default every 1
 #     blocks executor.spin_until_future_complete on ? @28>17
+#       ended by time @17
 #     blocks spin for future on ? @28>17
+#       ended by outside @17
 #     blocks rclpy.spin_once on a @29
 #     reads A.asker @28
 #     changes SingleThreadedExecutor.add_node @29

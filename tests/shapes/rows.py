@@ -15,6 +15,8 @@ TABLE = HERE / 'table.yaml'
 # Where something stands for ever, and where it is broken off.
 WAITS, BREAKS = 'waits here', 'breaks here'
 DISTRIBUTIONS = ('jazzy', 'kilted')
+# Between what is observed on one run and on another.
+OTHERWISE = ' or '
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,11 +137,19 @@ def is_operand(read: Access, write: Access) -> bool:
 
 
 def is_read_before(read: Access, act: Act, write: Access) -> bool:
-    """Whether ``act`` stands between the two, or on the line of a write that rests on the read."""
+    """
+    Whether ``act`` stands between the two, or on the line of a write that rests on the read.
+
+    A plain update rests only on what it reads where it writes.
+    """
     if steps(read) < steps(act) < steps(write):
-        return True
+        return write.rests or _line_of(read) == _line_of(write)
     depth, at = len(write.chain), write.source
     way = steps(act)[depth : depth + 1] if act.chain[:depth] == write.chain else ()
     return is_operand(read, write) and any(
         at is not None and (place.file, place.line) == (at.file, at.line) for place in way
     )
+
+
+def _line_of(access: Access) -> tuple[str, int] | None:
+    return (access.source.file, access.source.line or 0) if access.source is not None else None

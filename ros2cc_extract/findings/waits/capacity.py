@@ -29,12 +29,14 @@ class Capacity:
     The largest set of callbacks that can wait at once.
 
     :param together: one such set, without repetitions of a callback with itself.
+    :param times: how often each of them is in the set.
     :param at_least: its size, entities of loops counted as often as they are made, services as
         often as clients in sight may ask them at a time.
     :param unbounded: callbacks that may also overlap themselves, so that no number is enough.
     """
 
     together: tuple[Callback, ...]
+    times: tuple[int, ...]
     at_least: int
     unbounded: tuple[Callback, ...]
 
@@ -51,10 +53,11 @@ def capacity_of(waiters: Sequence[Callback], context: Context) -> Capacity:
     matched: Matching = {}
     for group in edges:
         _augment(group, edges, matched, set())
-    chosen = sorted(number for _, number in matched.values())
+    chosen = Counter(sorted(number for _, number in matched.values()))
     return Capacity(
-        together=tuple(waiters[number] for number in dict.fromkeys(chosen)),
-        at_least=len(chosen),
+        together=tuple(waiters[number] for number in chosen),
+        times=tuple(chosen.values()),
+        at_least=chosen.total(),
         unbounded=tuple(w for w in waiters if can_overlap_itself(w, context)),
     )
 

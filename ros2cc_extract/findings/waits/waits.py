@@ -24,7 +24,7 @@ from ros2cc_extract.spec.client_server_pairs import (
     is_done_callback,
     server_of,
 )
-from ros2cc_extract.spec.effects import TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import ANSWER_LOOP, RECURSION_LIMIT, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 
 
@@ -211,13 +211,24 @@ def name_of_service(client: Callback) -> str:
 
 def waits_in(wait: AnyWait) -> str:
     """Say where it waits: the call, the loop, the nested spin."""
+    if wait.block.recursive:
+        return 'a function that calls itself'
     words = {
         BUSY_WAIT: 'a busy loop',
         SPIN_FOR_FUTURE: 'a nested spin',
         'polling loop': 'a polling loop',
         WORKING_LOOP: 'its loop',
+        ANSWER_LOOP: 'a loop for an answer',
     }
     return words.get(wait.block.call, wait.block.call)
+
+
+def how_long(wait: AnyWait, *, is_one: bool = True) -> str:
+    """Say how long a wait lasts that nobody ends: forever, if it is no recursion."""
+    if wait.block.recursive:
+        whose = 'it' if is_one else 'them'
+        return f'RecursionError ends {whose} after some {RECURSION_LIMIT:,} calls'
+    return 'it waits forever' if is_one else 'they wait forever'
 
 
 def how_it_ends(waits: Sequence[Wait]) -> str:
@@ -229,8 +240,8 @@ def how_it_ends(waits: Sequence[Wait]) -> str:
         raises = ', which from Kilted on raises TimeoutError and ends the spin if it is not caught'
         return f'{runs}{raises if is_call else ""}'
     is_event = wait.block.call == EVENT_WAIT and not is_done_callback(wait.needs[0])
-    forever = 'it waits forever' if is_one else 'they wait forever'
-    return forever + (', unless the event is already set' if is_event else '')
+    unless = ', unless the event is already set' if is_event else ''
+    return how_long(wait, is_one=is_one) + unless
 
 
 def at_one_place(waits: Iterable[W]) -> Iterator[tuple[W, ...]]:

@@ -108,6 +108,7 @@ BLOCKING = record(
                 ('unsent', 'unsent', optional(TEXT)),
                 ('at_end', 'at_end', _OPTIONAL_PLACE),
                 ('repeats', 'repeats', FLAG),
+                ('recursive', 'recursive', FLAG),
                 ('times', 'times', COUNT),
                 ('caught', 'caught', FLAG),
                 ('held', 'held', listing(TEXT)),

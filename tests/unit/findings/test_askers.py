@@ -56,7 +56,7 @@ def main():
 main()
 """
 SINGLE, POOL = 'SingleThreadedExecutor()', 'MultiThreadedExecutor(num_threads=4)'
-MANY = '3 runs can wait at the same time (Gate.open) on 2 threads'
+MANY = '3 runs can wait at the same time (Gate.open 3 times) on 2 threads'
 ITSELF = 'Gate.open may overlap itself in a wait'
 SEND, WAIT = 'call_async', 'call'
 THREE = ('a', 'b', 'c')

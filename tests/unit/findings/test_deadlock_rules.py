@@ -586,3 +586,29 @@ def test_calls_of_several_clients_at_one_line_are_one_finding() -> None:
     of_thread = only(unit(ONE_THREAD, *callbacks), 'CC102')
     assert 'and 1 more on the only thread' in of_thread.message
     assert 'so nothing can take them: it waits forever' in of_thread.message
+
+
+def test_a_function_that_calls_itself_is_ended_by_an_error() -> None:
+    waits = tuple(replace(wait, recursive=True) for wait in calls('plan_client', call='busy wait'))
+    spec = unit(threads(2), timer('drive', blocking=waits), client('plan_client'))
+    assert only(spec, 'CC101').message == (
+        "drive waits in a function that calls itself for the answer of service 'plan', but the "
+        "client is in the default group of 'arm', which is closed while drive runs: "
+        'RecursionError ends it after some 1,000 calls'
+    )
+
+
+def test_whoever_waits_several_times_is_counted_and_named_so() -> None:
+    waits = calls('plan_client')
+    names = ('left', 'right', 'stop')
+    timers = [
+        timer(name, f'of_{name}', function='arm.Arm.drive', defined=at(20), blocking=waits)
+        for name in names[:2]
+    ]
+    stop = timer('stop', 'of_stop', blocking=waits)
+    groups = (*(exclusive(f'of_{name}') for name in names), OTHER)
+    spec = unit(threads(3), *timers, stop, client('plan_client', 'other'), groups=groups)
+    assert only(spec, 'CC103').message == (
+        '3 callbacks can wait at the same time (Arm.drive 2 times, stop) on 3 threads: then none '
+        'is left for the answers and all wait forever'
+    )

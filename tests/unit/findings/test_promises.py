@@ -139,3 +139,62 @@ def test_a_finding_of_one_unit_is_not_about_its_neighbours() -> None:
     assert about([named], unit, [unit, other, beside]) == ([named], [])
     assert about([named], other, [unit, other, beside]) == ([], [])
     assert about([named], beside, [unit, other, beside]) == ([], [named])
+
+
+COPIES = """\
+import sys
+import threading
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Counter:
+    def __init__(self, node, topic):
+        self.node, self.lock = node, threading.Lock()
+        group = {}
+        node.create_subscription(String, topic, self.on_text, 1, callback_group=group)
+
+    def on_text(self, msg):
+        with {}:
+            total = self.node.total
+            self.node.get_logger().info('one more')
+            self.node.total = total + len(msg.data)
+
+
+class Counters(Node):
+    def __init__(self):
+        super().__init__('counters')
+        self.total = 0
+        self.shared = MutuallyExclusiveCallbackGroup()
+        self.counters = [Counter(self, topic) for topic in sys.argv[1:]]
+
+
+rclpy.init()
+executor = {}
+executor.add_node(Counters())
+executor.spin()
+"""
+POOL, OPEN = 'MultiThreadedExecutor(4)', 'ReentrantCallbackGroup()'
+
+
+@pytest.mark.parametrize(
+    ('group', 'executor', 'mark'),
+    [
+        (OPEN, POOL, 'OPEN'),
+        ('MutuallyExclusiveCallbackGroup()', POOL, 'OPEN'),
+        ('node.shared', POOL, 'KEPT'),
+        (OPEN, 'SingleThreadedExecutor()', 'KEPT'),
+    ],
+)
+def test_what_each_copy_has_for_itself_keeps_no_other_out(
+    group: str, executor: str, mark: str
+) -> None:
+    [unit] = scan_text(COPIES.format(group, 'self.lock', executor), 'arm.py').units
+    verification = verify_unit(close(unit), Options(profile=Profile.RCLPY))
+    judged = {each.promise: each for each in judge(unit, verification, ())}
+    races = judged[Promise.RACES]
+    told = 'Counter.on_text stands for several, each of which may have a group or lock of its own'
+    assert (races.mark.name, races.reason) == (mark, told if mark == 'OPEN' else '')

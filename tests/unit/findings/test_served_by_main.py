@@ -68,6 +68,7 @@ def races(main: str, callback: str, *, by_thread: str = 'brake.get_name()\n') ->
         'serve(node)\nnode.level = 0',
         'node.level = 0\nserve(node)',
         'serve(node)\nnode.level += 1',
+        'print(node.level)\nserve(node)\nnode.level += 1',
         'serve(node)\nif node.level > 3:\n    node.level = 0',
     ],
 )
@@ -96,3 +97,45 @@ def test_what_was_tested_before_a_spin_may_be_gone_after_it() -> None:
 def test_callbacks_that_a_thread_runs_come_in_anywhere() -> None:
     thread = 'threading.Thread(target=serve, args=(brake,), daemon=True).start()\n'
     assert 'CC301' in races('serve(node)\nnode.level += 1', COUNT, by_thread=thread)
+
+
+POOL = """\
+import threading
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Bool, Int32
+
+class Brake(Node):
+    def __init__(self):
+        super().__init__('brake')
+        self.create_subscription(Int32, 'level', self.on_level, 1)
+        self.watcher = Node('watcher')
+        self.others = MultiThreadedExecutor(2)
+        self.others.add_node(self.watcher)
+        threading.Thread(target=self.others.spin, daemon=True).start()
+        self.level = 0
+
+    def on_level(self, msg):
+        self.level += self.step()
+
+    def step(self):
+        return 1
+
+def main():
+    rclpy.init()
+    executor, brake = MultiThreadedExecutor(4), Brake()
+    {}
+
+if __name__ == '__main__':
+    main()
+"""
+EVER = 'executor.add_node(brake)\n    executor.spin()'
+STEP = 'executor.add_node(brake)\n    executor.spin_once()\n    brake.level = 3'
+
+
+@pytest.mark.parametrize(('spins', 'codes'), [(EVER, []), (STEP, ['CC301'])])
+def test_a_pool_that_main_spins_for_ever_runs_nothing_before(spins: str, codes: list[str]) -> None:
+    units = scan_text(POOL.format(spins)).units
+    found = findings_of(units, [], [None] * len(units))
+    assert sorted({each.code for each in found if each.code.startswith('CC3')}) == codes

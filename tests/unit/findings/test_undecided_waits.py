@@ -18,7 +18,7 @@ from finding_units import (
 )
 
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, Act, Blocking, Needs, Waker
+from ros2cc_extract.spec.effects import ANSWER_LOOP, OUTSIDE, TIME, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
 
@@ -155,3 +155,23 @@ def places_by(waker: str) -> Blocking:
     (wait,) = calls(None, call='Semaphore.acquire')
     gives = Waker(by=waker, after=1 if waker == 'dock' else 0)
     return replace(wait, resource='places', needs=Needs.EACH, initial=2, wakers=(gives,))
+
+
+def test_a_spin_of_a_node_that_nothing_else_serves_rests_on_who_answers_it() -> None:
+    elsewhere = Unknown('an entity of another executor')
+    spin = Blocking(call='rclpy.spin_until_future_complete', on=elsewhere, source=at(40))
+    future = replace(spin, call='spin for future', wakers=(Waker(by=OUTSIDE),))
+    told = (replace(spin, wakers=(Waker(by=TIME),)), future)
+    assert found(unit(threads(2), timer('feed', blocking=(spin,)))) == ['CC120:40 note']
+    finding = only(unit(threads(2), timer('feed', blocking=told)), 'CC121')
+    assert finding.message == (
+        'feed waits in a nested spin without a time-out, and waits forever unless something '
+        'outside its executor ends it'
+    )
+    assert found(unit(threads(2), timer('feed', blocking=told))) == ['CC121:40 note']
+
+
+def test_a_loop_for_an_answer_rests_on_who_gives_it() -> None:
+    loop = Blocking(call=ANSWER_LOOP, source=at(40), wakers=(Waker(by=OUTSIDE),))
+    finding = only(unit(threads(2), timer('feed', blocking=(loop,))), 'CC121')
+    assert finding.message.startswith('feed waits in a loop for an answer without a time-out')

@@ -218,3 +218,25 @@ def test_a_service_that_overlaps_itself_weighs_more_where_a_run_shows_that_it_ha
         client('ask', 'free', key='quote'),
     )
     assert only(spec, 'CC103', judged(spec)).severity is expected
+
+
+def test_one_limit_is_one_line_however_many_waits_it_leaves_open() -> None:
+    waits = (*calls('jobs', 40, call='Event.wait'), *calls('more', 44, call='Event.wait'))
+    known = tuple(
+        replace(wait, resource=wait.on, wakers=(Waker(by='on_stop'),)) for wait in (*waits, *waits)
+    )
+    drive, turn = (timer(name, blocking=known) for name in ('drive', 'turn'))
+    spec = unit(threads(2), drive, turn, subscription('on_stop', 'other'))
+    verdicts = progress(Verdict.UNDECIDED, 'drive', 'turn')
+    late = replace(
+        verdicts, results=tuple(replace(r, reason='10 s are over') for r in verdicts.results)
+    )
+    finding = only(spec, 'CC120', late)
+    assert finding.message == (
+        'not decided: drive, turn wait in Event.wait for jobs and in 1 more place, and 10 s are '
+        'over'
+    )
+    assert finding.subjects == ('drive', 'turn')
+    assert [(remark.place, remark.text) for remark in finding.related] == [
+        (at(44), 'drive, turn wait here in Event.wait')
+    ]

@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
 from ros2cc_extract.extract.static.concurrency.waits import counted_tests, polling_loops
+from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Told
@@ -93,6 +94,8 @@ class Notes(Effects):
         """After one round it shows what the loop waits for."""
         assert begun is None or isinstance(begun, polling_loops.Mark)
         polling_loops.note(self, node, frame, begun)
+        if begun is not None and is_recursion(node):
+            polling_loops.mark_recursive(self, node, frame, begun)
 
     def note_results(self, value: Value, place: Place) -> None:
         """Whoever goes over what ``Executor.map`` gives waits for it."""

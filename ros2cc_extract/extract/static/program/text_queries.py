@@ -6,6 +6,9 @@ import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
+RECURSION = 'recursion'
+"""Marks a loop that is written as calls of a function by itself."""
+
 CHANGING_METHODS = frozenset(
     {
         'append',
@@ -180,3 +183,8 @@ def _reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr 
 def is_test(name: str) -> bool:
     """Whether test runners take a function of this name for a test."""
     return name.startswith('test')
+
+
+def is_recursion(loop: ast.While) -> bool:
+    """True for a loop that stands for calls of a function by itself."""
+    return isinstance(loop.test, ast.Constant) and loop.test.kind == RECURSION

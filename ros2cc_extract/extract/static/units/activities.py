@@ -84,12 +84,14 @@ def facts_of(state: ActivityState) -> FunctionFacts:
 
 def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) -> tuple[Act, ...]:
     """
-    Where ``main`` runs the callbacks of ``nodes``, if nobody else does, and on its one thread.
+    Where ``main`` runs the callbacks of ``nodes``, if nobody else does.
 
-    Then it stands still while they run, and they do while it goes on.
+    Then it stands still while they run, and they do while it goes on: by its one thread, or in
+    a spin for ever, whose pool runs nothing before.
     """
     spins = [spin for spin in world.spins.values() if not set(nodes).isdisjoint(spin.nodes)]
-    executors = {spin.executor for spin in spins} | {each.executor for each in world.inside_spins}
+    executors = {spin.executor for spin in spins if not spin.for_ever}
+    executors |= {each.executor for each in world.inside_spins}
     is_alone = (
         state.kind is ActivityKind.MAIN
         and not any(spin.in_thread or spin.from_callback for spin in spins)
@@ -99,7 +101,7 @@ def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) 
     return tuple(
         Act(name=spin.how, source=spin.place, chain=chain)
         for spin in spins
-        if is_alone and not spin.for_ever
+        if is_alone
         for chain in spin.chains
     )
 

@@ -47,6 +47,7 @@ from ros2cc_extract.extract.static.units.wakers.set_up_wakers import (
     is_of_set_up,
     why_open,
 )
+from ros2cc_extract.extract.static.units.wakers.spins_aside import of_spin_aside
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     forgets,
     is_unheard,
@@ -208,6 +209,9 @@ class UnitWaits(DataWriters):
         return any(is_activity(waking.by) for waking in setters)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
+        spin = of_spin_aside(self._world, raw, named, doer)
+        if spin is not None:
+            return spin
         if isinstance(raw.on, ClockRef):
             return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
         if isinstance(raw.on, TopicRef):

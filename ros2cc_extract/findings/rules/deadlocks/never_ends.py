@@ -40,6 +40,7 @@ from ros2cc_extract.findings.waits.waits import (
     are_one,
     at_one_place,
     callers_of,
+    how_long,
     kind_of,
     waits_in,
     ways_of_others,
@@ -132,7 +133,7 @@ def _once_used_up(wait: Wait, context: Context) -> Hit:
     return Hit(
         place=wait.place,
         message=f'{who} waits in {waits_in(wait)} for {what} once that is used up, and '
-        f'{cannot}: it waits forever',
+        f'{cannot}: {how_long(wait)}',
         help=f'let {kept or by} run beside {who}, on a thread and in a group of its own, or do '
         'not wait'
         if givers
@@ -193,7 +194,7 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
     severity = Severity.WARNING if is_counted or _keeps_the_program(first) else None
     return Hit(
         place=first.wait.place,
-        message=f'{who}{named}, but {reason}: it waits forever{where}',
+        message=f'{who}{named}, but {reason}: {how_long(first.wait)}{where}',
         help=_help_where_repeated(repeated) if where else _help(first, together, context),
         severity=Severity.NOTE if where else severity,
         subjects=tuple(dict.fromkeys([*names, *first.enders])),

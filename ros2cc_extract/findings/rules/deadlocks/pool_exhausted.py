@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import called, plural, shown
+from ros2cc_extract.findings.base.wording import called, listing, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
 from ros2cc_extract.findings.waits.capacity import Capacity, capacity_of
 from ros2cc_extract.findings.waits.stuck_callbacks import waits_in_circle
 from ros2cc_extract.findings.waits.verdicts import is_of_repeated, run_in_which_one_hangs
-from ros2cc_extract.findings.waits.waits import Wait, WaitKind, kind_of, waits_of
+from ros2cc_extract.findings.waits.waits import Wait, WaitKind, how_long, kind_of, waits_of
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, When
@@ -150,6 +151,8 @@ def _what_becomes_of(waits: Sequence[Wait]) -> str:
         return 'all waits time out'
     if any(wait.has_timeout for wait in waits):
         return 'all wait, at least until the first time-out'
+    if all(wait.block.recursive for wait in waits):
+        return how_long(waits[0], is_one=False)
     return 'all wait forever'
 
 
@@ -164,7 +167,7 @@ def _awaited(waits: Sequence[Wait]) -> str:
 def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severity | None) -> Hit:
     asked = [each for each in capacity.together if each.askers and each.count == 1]
     runs = 'run' if asked and len(capacity.together) < capacity.at_least else 'callback'
-    names = shown(capacity.together)
+    names = _counted(capacity)
     return Hit(
         place=_first(waits, capacity).place,
         message=f'{plural(capacity.at_least, runs)} can wait at the same time ({names}) {rest}',
@@ -174,6 +177,14 @@ def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severit
         chain=_first(waits, capacity).chain,
         related=(*_others(waits, capacity), *_asked(capacity)),
     )
+
+
+def _counted(capacity: Capacity) -> str:
+    """Name those who can wait together, and how often each that is there several times."""
+    times: Counter[str] = Counter()
+    for callback, number in zip(capacity.together, capacity.times, strict=True):
+        times[called(callback)] += number
+    return listing(name if n == 1 else f'{name} {n} times' for name, n in times.items())
 
 
 def _asked(capacity: Capacity) -> Iterator[Remark]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
+from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import listing, shown
+from ros2cc_extract.findings.base.wording import listing, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
 from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
@@ -17,12 +19,13 @@ from ros2cc_extract.findings.waits.waits import (
     are_one,
     at_one_place,
     callers_of,
+    how_long,
     kind_of,
     waits_in,
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import (
     ENDLESS_LOOP,
     NOT_FOLLOWED,
@@ -39,6 +42,7 @@ from ros2cc_extract.verify.results.results import Verdict
 CODE = 'CC120'
 _TO_THE_END = frozenset({'Thread.join', 'polling loop'})
 _FOREIGN = frozenset({'await', UNKNOWN_WAIT, NOT_FOLLOWED})
+_SPINS = (WaitKind.SPIN, WaitKind.SPUN_FUTURE)
 _LISTENING = ('recv', 'read', 'accept', 'input')
 _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
@@ -72,9 +76,7 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
                 waits.append(wait)
                 reasons[id(wait)] = reason
     if not is_outside:
-        for wait in _cut_short(context, waits):
-            waits.append(wait)
-            reasons[id(wait)] = _limit_of(wait, context)
+        yield from _of_limits(tuple(_cut_short(context, waits)), context)
         for wait in _unwoken(context):
             waits.append(wait)
             reasons[id(wait)] = _WAKES_NOBODY
@@ -88,11 +90,16 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _for_messages(context):
             waits.append(wait)
             reasons[id(wait)] = ''
+    spins = [] if is_outside else [wait for wait in waits if wait.kind in _SPINS]
+    waits = [wait for wait in waits if wait not in spins]
+    for reason in dict.fromkeys(reasons[id(wait)] for wait in spins):
+        alike = [wait for wait in spins if reasons[id(wait)] == reason]
+        yield _of_one_cause(alike, reason, context)
     cut = [wait for wait in waits if wait.block.call == NOT_FOLLOWED]
     for reason in dict.fromkeys(_why(wait.block) for wait in cut):
         yield _of_cut([wait for wait in cut if _why(wait.block) == reason], reason)
-    for alike in at_one_place(wait for wait in waits if wait.block.call != NOT_FOLLOWED):
-        yield _hit(alike, reasons[id(alike[0])], context, is_outside=is_outside)
+    for at_one in at_one_place(wait for wait in waits if wait.block.call != NOT_FOLLOWED):
+        yield _hit(at_one, reasons[id(at_one[0])], context, is_outside=is_outside)
 
 
 def _of_cut(waits: Sequence[AnyWait], why: str) -> Hit:
@@ -105,6 +112,43 @@ def _of_cut(waits: Sequence[AnyWait], why: str) -> Hit:
         subjects=callers_of(waits),
         cause=NOT_FOLLOWED,
     )
+
+
+def _of_limits(waits: Sequence[AnyWait], context: Context) -> Iterator[Hit]:
+    """One line for all waits of a callback about which one limit leaves the question open."""
+    of_callers: dict[tuple[str, str], list[AnyWait]] = {}
+    for wait in waits:
+        of_callers.setdefault((wait.caller.name, _limit_of(wait, context)), []).append(wait)
+    alike: dict[object, tuple[str, list[AnyWait]]] = {}
+    for (_, reason), own in of_callers.items():
+        ways = tuple(dict.fromkeys((wait.place, wait.block.call) for wait in own))
+        alike.setdefault((reason, ways), (reason, []))[1].extend(own)
+    for reason, together in alike.values():
+        yield _of_one_cause(together, reason, context)
+
+
+def _of_one_cause(waits: Sequence[AnyWait], reason: str, context: Context) -> Hit:
+    first = waits[0]
+    others: dict[Place, list[AnyWait]] = {}
+    for wait in waits:
+        others.setdefault(wait.place, []).append(wait)
+    here = others.pop(first.place)
+    more = f' and in {plural(len(others), "more place")}' if others else ''
+    there = f'{who_waits(waits)} in {waits_in(first)}{_named(first)}{more}'
+    return replace(
+        _hit(here, reason, context, is_outside=False),
+        message=f'not decided: {there}, and {reason}',
+        subjects=callers_of(waits),
+        related=tuple(
+            Remark(place, f'{who_waits(alike)} here in {waits_in(alike[0])}')
+            for place, alike in others.items()
+        ),
+    )
+
+
+def _named(wait: AnyWait) -> str:
+    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
+    return f' for {what}' if what else ''
 
 
 def _for_messages(context: Context) -> Iterator[AnyWait]:
@@ -291,11 +335,11 @@ def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
 def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside: bool) -> Hit:
     wait = waits[0]
     call, reason = _call_and_reason(wait, reason)
-    what = wait.block.resource or (wait.block.on if isinstance(wait.block.on, str) else None)
-    named = f' for {what}' if what else ''
     verb = 'waits' if are_one(waits) else 'wait'
-    start = f'{who_waits(waits)} in {call}{named}'
+    start = f'{who_waits(waits)} in {call}{_named(wait)}'
     ends = f'and {verb} forever unless {_others(wait)} ends it'
+    if wait.block.recursive:
+        ends = f'and unless {_others(wait)} ends it, {how_long(wait)}'
     if wait.block.answer_to is not None and is_outside:
         topic = wait.block.answer_to
         ends = (

@@ -72,6 +72,20 @@ def test_a_handler_that_begins_anew_tries_again() -> None:
 
 
 @pytest.mark.parametrize(
+    ('does', 'expected'),
+    [
+        (LOOP.format('count()'), [False]),
+        (AGAIN.format('return self.tick(times)'), [True]),
+        (RETRY.format('self.tick(times)'), [True]),
+    ],
+)
+def test_calls_inside_calls_end_by_an_error(does: str, expected: list[bool]) -> None:
+    units = scan_text(PROGRAM.format(does.replace('\n', '\n        '))).units
+    blocks = [block for unit in units for each in unit.callbacks for block in each.blocking]
+    assert [block.recursive for block in blocks if 'loop' in block.call] == expected
+
+
+@pytest.mark.parametrize(
     'does',
     [
         LOOP.format('repeat(None, 5)'),

@@ -61,7 +61,13 @@ def verdict(**parts: str) -> str:
     return judge(program(**parts)).get('take', ENDS)
 
 
-@pytest.mark.parametrize('kind', [ITEMS, DEQUE, QUEUE], ids=['items', 'deque', 'queue'])
+NOT_YET = QUEUE | {'attempt': 'self.items.get(block=False)'}
+NO_ROOM = {'made': 'queue.Queue(maxsize=1)', 'attempt': 'self.items.put_nowait(1)'}
+NO_ROOM |= {'error': 'queue.Full', 'fills': 'self.items.get_nowait()'}
+KINDS = {'items': ITEMS, 'deque': DEQUE, 'queue': QUEUE, 'at once': AT_ONCE, 'not yet': NOT_YET}
+
+
+@pytest.mark.parametrize('kind', KINDS.values(), ids=KINDS)
 @pytest.mark.parametrize('leaves', ['break', 'return'])
 @pytest.mark.parametrize('test', ['True', 'rclpy.ok()'])
 def test_it_waits_for_who_cannot_run(kind: dict[str, str], leaves: str, test: str) -> None:
@@ -69,8 +75,15 @@ def test_it_waits_for_who_cannot_run(kind: dict[str, str], leaves: str, test: st
     assert verdict(**kind, leaves=leaves, test=test, group='other') == ENDS
 
 
+def test_room_in_a_queue_is_waited_for_too() -> None:
+    both = NO_ROOM | {'attempt': '(self.items.put_nowait(1), self.items.put_nowait(2))'}
+    assert verdict(**NO_ROOM) == FOUND
+    assert verdict(**NO_ROOM, group='other') != FOUND
+    assert verdict(**both) == UNDECIDED
+
+
 def test_what_no_data_tells_is_undecided() -> None:
-    assert verdict(**AT_ONCE) == UNDECIDED
+    assert verdict(**ITEMS | {'attempt': 'plant.take()'}) == UNDECIDED
 
 
 @pytest.mark.parametrize('kind', [ITEMS, DEQUE, QUEUE, AT_ONCE])

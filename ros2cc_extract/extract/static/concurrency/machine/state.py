@@ -223,6 +223,8 @@ class ConcurrentWorld(World):
     :param outside: what code waits for that is no callback.
     :param set_up: its waits as the specification tells them, each once.
     :param asked_until: calls in the tests of loops that only their answer ends.
+    :param retried: calls that a loop tries again and again until they raise no error.
+    :param asked_outside: calls by which a library asks others outside whether something is over.
     :param over: what it has ended.
     """
 
@@ -264,6 +266,8 @@ class ConcurrentWorld(World):
     outside: list[OutsideWait] = field(default_factory=list)
     set_up: dict[object, SetUpWait] = field(default_factory=dict)
     asked_until: set[Place] = field(default_factory=set)
+    retried: set[Place] = field(default_factory=set)
+    asked_outside: set[Place] = field(default_factory=set)
     over: list[Over] = field(default_factory=list)
     timed_joins: list[TimedJoin] = field(default_factory=list)
     after_spin: bool = False

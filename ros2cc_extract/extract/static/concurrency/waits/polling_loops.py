@@ -56,9 +56,17 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import ENDLESS_LOOP, POLLING_LOOP, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import (
+    ANSWER_LOOP,
+    ENDLESS_LOOP,
+    POLLING_LOOP,
+    TIME,
+    WORKING_LOOP,
+    Blocking,
+)
 
 POLL = POLLING_LOOP
+_OF_ROUNDS = retry_loops.RAISE_WHEN_OVER | {POLL, WORKING_LOOP, ANSWER_LOOP, 'busy wait'}
 
 
 @dataclass(frozen=True)
@@ -93,10 +101,11 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     if world.effects is None and not is_idle(loop):
         return
     place = frame.place(loop)
+    retry_loops.begin(machine, loop, frame)
     _note_rest(machine, loop, frame)
     is_known = told is not None and _note_things(machine, loop, frame, told)
     if not is_known:
-        is_known = _note_by_name(machine, loop, frame)
+        is_known = _note_by_name(machine, loop, frame) or _note_answer(machine, loop, frame)
     if world.in_callback and not is_known and spins(loop):
         # How many callbacks run before it ends is not one.
         reason = f'what ends the loop: {ast.unparse(loop.test)}'
@@ -126,6 +135,16 @@ def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> 
                 owner = machine.evaluate(part.func.value, frame)
                 machine.note_blocking(waited, owner, None, frame.place(part))
     return is_known
+
+
+def _note_answer(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
+    """Whether the test asks a library that asks others outside; the loop waits for these."""
+    world = machine.world
+    calls = (frame.place(part) for part in ast.walk(loop.test) if isinstance(part, ast.Call))
+    is_asked = any(place in world.asked_outside for place in calls)
+    if is_asked and world.effects is not None:
+        machine.note_blocking(ANSWER_LOOP, None, None, frame.place(loop))
+    return is_asked
 
 
 def _is_retried(call: ast.Call, frame: Frame) -> bool:
@@ -249,6 +268,20 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     if names & (written | set(effects.own[before.own :])):
         return
     _note(machine, loop, frame, tests, names, sent_up_to(effects, before.order))
+
+
+def mark_recursive(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
+) -> None:
+    """What the rounds of a loop wait for is waited for by calls inside calls."""
+    effects = machine.world.effects or EffectLog()
+    lines = range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
+    file = frame.place(loop).file
+    for number, block in enumerate(effects.blocking[before.waits :], before.waits):
+        place = block.source
+        is_here = place is not None and place.file == file and place.line in lines
+        if is_here and block.seconds is None and block.call in _OF_ROUNDS:
+            effects.blocking[number] = replace(block, recursive=True)
 
 
 def _note_own_end(
@@ -384,7 +417,7 @@ def _is_told(
     """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
     inside = effects.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(machine, block.call)]
-    if any(b.call == 'busy wait' or b.suspends or 'spin' in b.call for b in others):
+    if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):
         return True
     return bool(others) and machine.world.activity is None
 

@@ -23,11 +23,24 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import POLLING_LOOP
 
-_RAISE_WHEN_OVER = frozenset(
+RAISE_WHEN_OVER = frozenset(
     ['Queue.get', 'Queue.put', 'Future.result', 'Future.exception', 'client.call', 'Popen.wait']
 )
+"""Waits that are tried again when their time is over."""
+_OF_QUEUES = frozenset(['get', 'get_nowait', 'put', 'put_nowait'])
 _TAKES_OUT = frozenset(['pop', 'popleft', 'popitem', 'index', 'remove'])
 """Methods of plain data that raise where there is nothing."""
+
+
+def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
+    """What a queue refuses at once, and a loop tries until it succeeds, is waited for."""
+    attempt = _attempt(loop) if machine.world.in_callback else None
+    if attempt is None:
+        return
+    parts = (part for statement in attempt.body for part in walk(statement))
+    calls = [part for part in parts if isinstance(part, ast.Call) and name_of(part) in _OF_QUEUES]
+    if len(calls) == 1:
+        machine.world.retried.add(frame.place(calls[0]))
 
 
 def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) -> bool:
@@ -80,7 +93,7 @@ def _has_timed_waits(effects: EffectLog, first: int, attempt: ast.Try, frame: Fr
     is_any = False
     for number, block in enumerate(effects.blocking[first:], first):
         is_inside = block.source and block.source.file == file and block.source.line in lines
-        if is_inside and block.call in _RAISE_WHEN_OVER:
+        if is_inside and block.call in RAISE_WHEN_OVER:
             is_any = True
             effects.blocking[number] = replace(block, seconds=None, assumed=None)
     return is_any

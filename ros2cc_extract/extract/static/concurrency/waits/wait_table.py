@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.spec.effects import (
+    ANSWER_LOOP,
     AWAIT,
     NOT_FOLLOWED,
     OUTSIDE,
@@ -91,6 +92,7 @@ WAITS: dict[str, WaitRow] = {
     'time.sleep': SLEEP,
     'asyncio.sleep': SLEEP,
     TURN: SLEEP,
+    ANSWER_LOOP: OF_OUTSIDE,
     **dict.fromkeys(CALLS, OF_OUTSIDE),
     **dict.fromkeys(READS_OF_CAMERAS, SLEEP),
 }

@@ -33,14 +33,15 @@ def may_be_full(queue: Instance) -> bool:
     return not is_number or size.value > 0
 
 
-def _waits(call: Call, position: int) -> bool:
-    """``block`` is true unless it is said otherwise."""
+def _waits(machine: ConcurrentMachine, call: Call, position: int) -> bool:
+    """``block`` is true unless it is said otherwise; who tries until it succeeds waits as well."""
     block = call.argument(position, 'block')
-    return not (isinstance(block, Const) and not block.value)
+    is_refused = isinstance(block, Const) and not block.value
+    return not is_refused or call.place in machine.world.retried
 
 
 def _get(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    if _waits(call, 0):
+    if _waits(machine, call, 0):
         machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
     machine.note_wake(receiver, Word.GET, call.place)
     _move(machine, receiver, Word.GET)
@@ -57,7 +58,7 @@ def _move(machine: ConcurrentMachine, queue: Value, word: Word) -> None:
 
 
 def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(call, 1):
+    if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(machine, call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, receiver, call)
     machine.note_wake(receiver, Word.PUT, call.place, is_sign=_is_sign(call))
@@ -73,6 +74,8 @@ def _is_sign(call: Call) -> bool:
 
 def _without_waiting(word: Word) -> Handler:
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+        if call.place in machine.world.retried:
+            _note_retried(machine, receiver, word, call)
         if word is Word.PUT:
             give_items(machine, receiver, call)
         is_sign = word is Word.PUT and _is_sign(call)
@@ -83,6 +86,14 @@ def _without_waiting(word: Word) -> Handler:
         return item or machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
     return handler
+
+
+def _note_retried(machine: ConcurrentMachine, queue: Value, word: Word, call: Call) -> None:
+    """A loop tries until it succeeds."""
+    if word is Word.GET:
+        machine.note_blocking('Queue.get', queue, None, call.place)
+    elif word is Word.PUT and isinstance(queue, Instance) and may_be_full(queue):
+        machine.note_blocking('Queue.put', queue, None, call.place)
 
 
 def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:

@@ -2,8 +2,8 @@
 Functions that begin anew by calling themselves: loops, written as recursion.
 
 ``if self.pose is None: time.sleep(0.1); return self.go()`` waits as a ``while`` does, and so does
-a handler that ends in ``self.connect()``. Only calls that hand on all parameters as they are, with
-nothing to be done behind them, are such.
+a handler that ends in ``self.connect()``, until Python raises ``RecursionError``. Only calls that
+hand on all parameters as they are, with nothing to be done behind them, are such.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
+from ros2cc_extract.extract.static.program.text_queries import RECURSION, noted_on, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -60,8 +60,8 @@ def _attempt(statement: ast.Try, function: Function, behind: Sequence[ast.stmt])
 
 
 def _loop(inside: list[ast.stmt], at: ast.stmt) -> ast.While:
-    loop = ast.While(ast.copy_location(ast.Constant(True), at), inside, [])
-    return ast.copy_location(loop, at)
+    test = ast.copy_location(ast.Constant(True, kind=RECURSION), at)
+    return ast.copy_location(ast.While(test, inside, []), at)
 
 
 def _begins_anew(

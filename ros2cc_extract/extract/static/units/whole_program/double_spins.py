@@ -79,7 +79,7 @@ def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:
     told: set[int] = set()
     for one, rival in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
         is_told = id(one.entity) in told and id(rival.entity) in told
-        if one.executor is rival.executor and not is_told and _may_overlap(one, rival):
+        if one.executor is rival.executor and not is_told and may_overlap(one, rival):
             told |= {id(one.entity), id(rival.entity)}
             is_same = _asks_the_same((one.how, one.timeout), (rival.how, rival.timeout))
             words = f'another callback, which may run at the same time, does too ({rival.place})'
@@ -104,7 +104,8 @@ def _owners(entity: EntityState) -> tuple[Instance, ...]:
     return tuple(each for each in known if isinstance(each, Instance))
 
 
-def _may_overlap(one: InsideSpin, other: InsideSpin) -> bool:
+def may_overlap(one: InsideSpin, other: InsideSpin) -> bool:
+    """Whether two callbacks, or two runs of one, may spin one executor at the same time."""
     is_one = one.entity is other.entity
     if set(one.held) & set(other.held) or (is_one and one is not other):
         return False

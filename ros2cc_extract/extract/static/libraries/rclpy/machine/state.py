@@ -266,6 +266,8 @@ class InsideSpin:
     A callback spins an executor.
 
     :param held: the locks that are held meanwhile.
+    :param nodes: those that it has then.
+    :param is_for_library: a library spins, until somebody outside answers.
     """
 
     entity: EntityState
@@ -274,6 +276,8 @@ class InsideSpin:
     timeout: Value | None
     place: Place
     held: tuple[str, ...]
+    nodes: tuple[Instance, ...] = ()
+    is_for_library: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -266,13 +266,22 @@ def note_served_inside(nodes: Sequence[Instance], how: str, place: Place) -> Non
 
 
 def note_inside(
-    machine: RosMachine, executor: Instance, how: str, timeout: Value | None, place: Place
+    machine: RosMachine,
+    executor: Instance,
+    how: str,
+    timeout: Value | None,
+    place: Place,
+    nodes: tuple[Instance, ...],
+    *,
+    is_for_library: bool = False,
 ) -> None:
-    """A callback spins ``executor``."""
+    """A callback spins ``executor``, which has ``nodes`` then."""
     world = machine.world
     if world.current is not None:
         given = None if timeout == NONE else timeout
-        spin = InsideSpin(world.current, executor, how, given, place, world.held)
+        spin = InsideSpin(
+            world.current, executor, how, given, place, world.held, nodes, is_for_library
+        )
         world.inside_spins.append(spin)
 
 
@@ -282,7 +291,9 @@ def _method_spin(how: str, ever: bool) -> Handler:
         future = future_of(call, 0, how)
         if machine.note_nested_spin(f'executor.{how}', None, receiver, future, call.place):
             note_served_inside(nodes_of(receiver), how, call.place)
-            note_inside(machine, receiver, f'executor.{how}', future[1], call.place)
+            note_inside(
+                machine, receiver, f'executor.{how}', future[1], call.place, nodes_of(receiver)
+            )
         else:
             record_spin(machine, receiver, how, call.place, ever, future[1])
             machine.note_outside_wait(how, *future, call.place, nodes_of(receiver))

@@ -42,6 +42,8 @@ _REQUESTS = (
     'load_parameter_file',
 )
 _NAVIGATOR = 'nav2_simple_commander.robot_navigator.BasicNavigator'
+_PATIENCE_S = 0.1
+"""So long the navigator spins while it looks whether a task is complete."""
 _MOVEIT = 'pymoveit2.MoveIt2'
 _PADDING_S = 2.0
 """What a buffer client waits beyond the time-out it was given, unless told otherwise."""
@@ -120,6 +122,13 @@ def _spin_navigator(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return machine.mystery('answer of the navigation', call.place)
 
 
+def _ask_navigator(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    how = 'spin_until_future_complete'
+    machine.world.asked_outside.add(call.place)
+    spin_in_passing(machine, receiver, how, call.place, Const(_PATIENCE_S))
+    return machine.mystery('whether the navigation is over', call.place)
+
+
 def _make_moveit(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     node = as_node(machine, call.argument(0, 'node'))
@@ -159,7 +168,6 @@ _NAVIGATE = [
     'getPathThroughPoses',
     'goThroughPoses',
     'goToPose',
-    'isTaskComplete',
     'lifecycleShutdown',
     'lifecycleStartup',
     'smoothPath',
@@ -190,7 +198,10 @@ TABLE = Library(
         _NAVIGATOR: LibraryClass(
             init=_make_navigator,
             bases=(NODE,),
-            methods=dict.fromkeys(_NAVIGATE, _spin_navigator),
+            methods={
+                **dict.fromkeys(_NAVIGATE, _spin_navigator),
+                'isTaskComplete': _ask_navigator,
+            },
         ),
         _MOVEIT: LibraryClass(init=_make_moveit, methods=dict.fromkeys(_MOVE, _spin_moveit)),
     },

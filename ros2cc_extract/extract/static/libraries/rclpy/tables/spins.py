@@ -98,6 +98,8 @@ def _spin_node(
     place: Place,
     ever: bool,
     future: Awaited,
+    *,
+    is_for_library: bool = False,
 ) -> None:
     node = as_node(machine, node_value)
     if node is None or machine.world.retelling:
@@ -109,7 +111,16 @@ def _spin_node(
         current = machine.world.current
         is_own = current is not None and current.node is node
         if _is_executor(spun) and not is_own:
-            note_inside(machine, spun, f'rclpy.{how}', future[1], place)
+            nodes = tuple(dict.fromkeys((*nodes_of(spun), node)))
+            note_inside(
+                machine,
+                spun,
+                f'rclpy.{how}',
+                future[1],
+                place,
+                nodes,
+                is_for_library=is_for_library,
+            )
         return
     executor = global_executor(machine) if given == NONE else as_executor(machine, given, place)
     _warn_of_theft(machine, node, executor, how, place)
@@ -123,9 +134,16 @@ def _spin_node(
         remove_node(machine, executor, node)
 
 
-def spin_in_passing(machine: RosMachine, node: Value, how: str, place: Place) -> None:
-    """A library spins ``node`` by the global executor until something has come."""
-    _spin_node(machine, node, NONE, how, place, False, (None, None))
+def spin_in_passing(
+    machine: RosMachine, node: Value, how: str, place: Place, timeout: Value | None = None
+) -> None:
+    """
+    A library spins ``node`` by the global executor until something has come.
+
+    :param timeout: after which it goes on in any case.
+    """
+    future = (None, timeout)
+    _spin_node(machine, node, NONE, how, place, False, future, is_for_library=True)
 
 
 def _warn_of_theft(
