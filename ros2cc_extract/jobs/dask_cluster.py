@@ -15,7 +15,6 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
@@ -24,6 +23,7 @@ from ros2cc_extract.cache_file import tool_version
 from ros2cc_extract.deadline import GRACE_S, Deadline
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.jobs.pools import Answers
+from ros2cc_extract.light_dataclasses import dataclass
 
 Job = TypeVar('Job')
 Answer = TypeVar('Answer')
