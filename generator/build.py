@@ -8,9 +8,8 @@ executor's semantics. Knows nothing of how a model is explored.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -32,6 +31,7 @@ from ros2cc_extract.generator.queries import (
 )
 from ros2cc_extract.generator.template_files import PUBLISHED, Profile, Text, choose_sources
 from ros2cc_extract.generator.unit import Unit, number_unit
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 
 if TYPE_CHECKING:
@@ -300,14 +300,6 @@ def _fill(template: str, **values: object) -> str:
 @cache
 def _environment() -> Environment:
     # Imported late: who reads kept verdicts starts faster without.
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from ros2cc_extract.generator.templates import environment
 
-    return Environment(
-        loader=FileSystemLoader(Path(__file__).parent / 'profiles'),
-        autoescape=lambda name: name is not None and name.endswith('.xml.j2'),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        auto_reload=False,
-    )
+    return environment()

@@ -8,7 +8,7 @@ the state after the step; one that ends in ``before``, in the state before it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from ros2cc_extract.light_dataclasses import dataclass
 
 _MARK, _BEFORE = 'event ', ' before'
 

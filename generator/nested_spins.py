@@ -10,10 +10,10 @@ node out of the executor it is in), ``executors.py`` (``spin_until_future_comple
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import client_before
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, Spec

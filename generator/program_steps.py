@@ -7,10 +7,11 @@ They are taken in their order; a callback may end before any wait, and gives its
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 
 from ros2cc_extract.generator.nested_spins import NestedSpin, SpinEnd
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Blocking, Waker
 
 

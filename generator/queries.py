@@ -9,12 +9,13 @@ callback, its generator per group, as here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from itertools import combinations
 
 from ros2cc_extract.generator.nested_spins import Spun
 from ros2cc_extract.generator.unit import Unit, UnitActivity, UnitCallback, UnitGroup
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 class Family(Enum):

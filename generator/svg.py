@@ -8,10 +8,11 @@ that the file gives, lines of text follow each other at ``LINE_HEIGHT``.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from html import escape
 from math import hypot
 from xml.etree import ElementTree
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 RADIUS = 11.0
 LINE_HEIGHT = 17.0

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from typing import TYPE_CHECKING
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind
+from ros2cc_extract.light_dataclasses import dataclass
 
 if TYPE_CHECKING:
     from ros2cc_extract.generator.unit import Unit

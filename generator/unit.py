@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.nested_spins import Refusal, Spun
@@ -21,6 +20,7 @@ from ros2cc_extract.generator.waits import (
     modelled_activities,
     waits_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.client_server_pairs import server_of
 from ros2cc_extract.spec.close import ClosedSpec

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.generator.nested_spins import NestedSpin
 from ros2cc_extract.generator.program_steps import WaitKind
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)

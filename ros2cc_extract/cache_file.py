@@ -118,10 +118,10 @@ def load_content(path: Path) -> bytes | None:
     return content
 
 
-def store_content(path: Path, content: bytes) -> None:
-    """Write whole or not at all."""
+def store_content(path: Path, content: bytes) -> bool:
+    """Write whole or not at all, and say which."""
     if len(content) > MOST_BYTES - _HEADER_BYTES:
-        return
+        return False
     name = None
     try:
         _make_private(path.parent)
@@ -136,6 +136,8 @@ def store_content(path: Path, content: bytes) -> None:
             Path(name).unlink(missing_ok=True)
         if not isinstance(error, OSError):
             raise
+        return False
+    return True
 
 
 def _header(name: str, content: bytes) -> bytes:

@@ -9,8 +9,9 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from types import FrameType
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 GRACE_S = 2.0
 """So long whoever looks at the clock may take to tell what is done."""

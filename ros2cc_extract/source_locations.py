@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True, order=True)

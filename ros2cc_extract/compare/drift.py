@@ -9,10 +9,11 @@ come from the same scanner, so what differs was changed.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import Enum
 from typing import TypeVar
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Access, Act, Blocking
 from ros2cc_extract.spec.model import Callback, CallbackGroup, Executor, Spec

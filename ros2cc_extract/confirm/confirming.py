@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.confirm.judging import confirmed, not_confirmed
 from ros2cc_extract.confirm.observations import Observations
@@ -11,6 +11,7 @@ from ros2cc_extract.confirm.outcomes import Judgement, Outcome
 from ros2cc_extract.confirm.processes import started
 from ros2cc_extract.confirm.recorded_runs import recorded_run
 from ros2cc_extract.confirm.schedules import Schedule
+from ros2cc_extract.light_dataclasses import dataclass
 
 LIMIT_S = 30.0
 # Who was held before a write that often, and nobody else wrote, is given up.

@@ -6,12 +6,13 @@ import contextlib
 import json
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.extract.live.hang_analysis.samples import Look, look_of
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, explain
+from ros2cc_extract.light_dataclasses import dataclass
 
 Row = Mapping[str, Any]
 MOST_STEPS = 2000

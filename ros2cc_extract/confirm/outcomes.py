@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.confirm.observations import Observations, Sample
 from ros2cc_extract.confirm.schedules import Point
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Frame
+from ros2cc_extract.light_dataclasses import dataclass
 
 APART_S = 2.0
 """Between the two explanations that must agree."""

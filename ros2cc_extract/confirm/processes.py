@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import IO
 
@@ -22,6 +22,7 @@ from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
 from ros2cc_extract.extract.live.steering.stubs import TEXTS_VARIABLE
+from ros2cc_extract.light_dataclasses import dataclass
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
 # The ports of domains up to 101 stay below Linux' ephemeral ports.

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_regular
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
 

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from operator import attrgetter
 from typing import TypeVar
 
 from ros2cc_extract.conform.observations import Act, Observation
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Spec
 
 Value = TypeVar('Value')

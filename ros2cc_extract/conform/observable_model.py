@@ -9,7 +9,6 @@ observer of the executor sees, and for which callback.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.api import Model
 from ros2cc_extract.checker.engines.generated_successors import Moving, Plan
@@ -18,6 +17,7 @@ from ros2cc_extract.checker.network.network import Edge, Network, Process
 from ros2cc_extract.checker.network.semantics import Edges, Semantics
 from ros2cc_extract.conform.observations import Act
 from ros2cc_extract.generator.events import read_annotation
+from ros2cc_extract.light_dataclasses import dataclass
 
 #: Template, location before and after, event: what is seen.
 _SEEN = (

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 from ros2cc_extract.conform.trace import Event, Subject, Trace
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import EntityKind, GroupType, Spec
 
 #: Who collects looks at the group just before it is told; so long after its last step, the thread

@@ -12,12 +12,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from math import inf
 
 from ros2cc_extract.conform.observable_model import Move, ObservedModel
 from ros2cc_extract.conform.observations import Act, Observation
+from ros2cc_extract.light_dataclasses import dataclass
 
 #: How far observations of different threads may be out of order, in time and past how many others:
 #: tried one after the other.

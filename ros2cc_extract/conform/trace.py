@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from types import NoneType
 from typing import Any
@@ -11,6 +11,7 @@ from typing import Any
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MOST_BYTES = 1_000_000_000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from operator import attrgetter
 
 from ros2cc_extract.checker.api import read_model
@@ -24,6 +24,7 @@ from ros2cc_extract.conform.trace import Trace
 from ros2cc_extract.conform.unobserved_facts import Gap, gaps
 from ros2cc_extract.generator.build import Freedom, Profile, render
 from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
 from ros2cc_extract.spec.confidence import DEFAULT_COUNT
 from ros2cc_extract.spec.model import Spec

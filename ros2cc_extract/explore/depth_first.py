@@ -13,12 +13,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.explore.exploring import Budget, Exploration, note
 from ros2cc_extract.explore.scenario import Row
 from ros2cc_extract.explore.watching import Process, Seen
 from ros2cc_extract.extract.live.exploring.policies import BEGIN, callback_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 
 Step = tuple[str, str]

@@ -5,12 +5,13 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 
 from ros2cc_extract.explore.failures import Kind
 from ros2cc_extract.explore.scenario import PLAIN, Found, Row
 from ros2cc_extract.explore.watching import Process, Seen
+from ros2cc_extract.light_dataclasses import dataclass
 
 A_PROCESS = 20
 """

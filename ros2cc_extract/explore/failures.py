@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import (
     Standing,
     Verdict,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 
 _OF_LIBRARIES = re.compile(r'/(site-packages|dist-packages|lib/python3[.\d]*)/')
 _OF_TOOL = f'{Path(__file__).resolve().parents[1]}{os.sep}'

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.explore.exploring import PLAIN_S
 from ros2cc_extract.explore.failures import Failure
 from ros2cc_extract.explore.scenario import PLAIN, Found, Row
 from ros2cc_extract.explore.watching import Process
+from ros2cc_extract.light_dataclasses import dataclass
 
 PROCESSES, TAILS = 3, 5
 """So many processes are tried, and in each so often what leads to the failure directly."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from ros2cc_extract.explore.failures import Failure, Kind
 from ros2cc_extract.explore.points import Point
 from ros2cc_extract.files import read_regular
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _VERSION = 1

@@ -6,7 +6,7 @@ import functools
 import os
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.confirm.observations import Row, Rows, Sample, sample_of
 from ros2cc_extract.confirm.processes import Node, started_beside
@@ -20,6 +20,7 @@ from ros2cc_extract.explore.failures import (
 )
 from ros2cc_extract.explore.scenario import Scenario, plan_text
 from ros2cc_extract.extract.live.exploring.exploration import VARIABLE
+from ros2cc_extract.light_dataclasses import dataclass
 
 # For an import of large packages, the discovery of DDS, and who offers what is asked for.
 START_S = 40.0

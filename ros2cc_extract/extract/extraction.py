@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.node_graph import NodeGraph

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.identifiers import mend
 
 

@@ -8,7 +8,6 @@ is open. It is broken only where a finding says so. Everything else is undecided
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.diagnostics import Severity
@@ -20,6 +19,7 @@ from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification

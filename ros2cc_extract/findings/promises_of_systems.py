@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from ros2cc_extract.findings.answers_of_others import waited_until_there
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.promises import DEADLOCK, Judgement, Mark, Promise
 from ros2cc_extract.findings.waits.verdicts import PROGRESS
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec

@@ -8,12 +8,13 @@ What a project demands of its callbacks, decided on the verdicts of its models.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.rules.reading.requirements import UNDECIDED, UNKNOWN_NAME, VIOLATED
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.rules.registry import BY_CODE
 from ros2cc_extract.findings.waits.workers import EVENTS, MULTI, SINGLE
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
 from ros2cc_extract.spec.effects import Blocking

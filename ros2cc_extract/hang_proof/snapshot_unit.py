@@ -10,11 +10,11 @@ may end a wait is taken too wide, as in the graph.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, locks_held
 from ros2cc_extract.extract.live.hang_analysis.samples import Entity, Executor, Look
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Standing
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Blocking, Needs, Waker
 from ros2cc_extract.spec.model import (
     Callback,

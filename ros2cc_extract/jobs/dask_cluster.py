@@ -15,7 +15,6 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
@@ -24,6 +23,7 @@ from ros2cc_extract.cache_file import tool_version
 from ros2cc_extract.deadline import GRACE_S, Deadline
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.jobs.pools import Answers
+from ros2cc_extract.light_dataclasses import dataclass
 
 Job = TypeVar('Job')
 Answer = TypeVar('Answer')
@@ -35,6 +35,7 @@ LOOK_S = 1.0
 WITHOUT_WORKERS_S = 20.0
 """A nanny starts another worker by then."""
 FETCHING_S = 60.0
+BATCHES_OF_A_WORKER = 16
 _ONE_AT_A_TIME = threading.Lock()
 
 
@@ -152,36 +153,62 @@ def _answers(
 ) -> Iterator[tuple[int, Answer]]:
     """Give what workers answer, as long as there are any."""
     ended: SimpleQueue[int] = SimpleQueue()
-    futures = client.map(partial(_there, tool_version(), work), jobs, pure=False)
-    for number, future in enumerate(futures):
-        future.add_done_callback(lambda _, number=number: ended.put(number))
-    left, alone_s = len(jobs), 0.0
+    batches = _batches(len(jobs), len(client.nthreads()))
+    given = [[jobs[number] for number in batch] for batch in batches]
+    futures = client.map(partial(_there, tool_version(), work), given, pure=False)
+    for place, future in enumerate(futures):
+        future.add_done_callback(lambda _, place=place: ended.put(place))
+    left, alone_s = len(batches), 0.0
     while left and not _is_past(until):
         try:
-            number = ended.get(timeout=LOOK_S)
+            place = ended.get(timeout=LOOK_S)
         except Empty:
             alone_s = 0.0 if _has_workers(client) else alone_s + LOOK_S
             if alone_s > WITHOUT_WORKERS_S:
                 return
             continue
         left -= 1
-        answer = _fetched(futures[number])
-        if answer is not None:
-            yield number, answer[0]
+        answers = _fetched(futures[place]) or ()
+        for number, answer in zip(batches[place], answers, strict=False):
+            if answer is not None:
+                yield number, answer[0]
 
 
-def _there(version: str, work: Callable[[Job], Answer], job: Job) -> Answer:
-    """Run on a worker, also on one that has come later; threads of one wait for each other."""
+def _batches(jobs: int, workers: int) -> list[range]:
+    """
+    Which jobs are one task of Dask, whose scheduler needs some ms for each.
+
+    Each worker gets several, so that at the end none of them has much more to do than another.
+    """
+    size = max(1, jobs // (BATCHES_OF_A_WORKER * max(1, workers)))
+    return [range(begin, min(begin + size, jobs)) for begin in range(0, jobs, size)]
+
+
+def _there(
+    version: str, work: Callable[[Job], Answer], jobs: Sequence[Job]
+) -> list[tuple[Answer] | None]:
+    """
+    Run on a worker, also on one that has come later; threads of one wait for each other.
+
+    :return: an answer for each job; ``None`` for one that fails here, as the others may not.
+    """
     if tool_version() != version:
         raise RuntimeError('this worker runs another version')
     with _ONE_AT_A_TIME:
-        return work(job)
+        return [_tried(work, job) for job in jobs]
 
 
-def _fetched(future: Any) -> tuple[Any] | None:
-    """The answer; ``None`` where there is none to be had, whatever the reason."""
+def _tried(work: Callable[[Job], Answer], job: Job) -> tuple[Answer] | None:
     try:
-        return (future.result(timeout=FETCHING_S),)
+        return (work(job),)
+    except Exception:  # done once more where it can be shown
+        return None
+
+
+def _fetched(future: Any) -> Any:
+    """The result of a task; ``None`` where there is none to be had, whatever the reason."""
+    try:
+        return future.result(timeout=FETCHING_S)
     except BaseException as error:
         # A lost future ends by ``CancelledError``, which is no ``Exception`` in some versions.
         if isinstance(error, KeyboardInterrupt | SystemExit | GeneratorExit):

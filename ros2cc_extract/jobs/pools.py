@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.jobs.process_pool import ProcessPool
+from ros2cc_extract.light_dataclasses import dataclass
 
 Job = TypeVar('Job')
 Answer = TypeVar('Answer')

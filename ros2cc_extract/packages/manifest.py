@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
 from xml.etree import ElementTree
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import DISK, OnError, read_regular, real_path
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MANIFEST = 'package.xml'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TextIO
 
@@ -27,6 +27,7 @@ from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDEC
 from ros2cc_extract.findings.system_findings import findings_of_system
 from ros2cc_extract.findings.waits_across_executors import without_what_is_told
 from ros2cc_extract.jobs.pools import Pool
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.progress import bar
 from ros2cc_extract.pipeline.shards import Shard

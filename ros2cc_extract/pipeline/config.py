@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, cast
 
@@ -14,6 +14,7 @@ from ros2cc_extract.files import DISK, read_named
 from ros2cc_extract.findings.filters.selection import Selection
 from ros2cc_extract.findings.requirements import Requirement, read_requirements
 from ros2cc_extract.findings.rules.registry import BY_CODE
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import Assumptions, read_assumptions
 from ros2cc_extract.version import PROGRAM

@@ -11,7 +11,7 @@ import hashlib
 import io
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 from pathlib import Path
 from time import monotonic
@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.program.project import python_files
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES
 from ros2cc_extract.files import DISK, read_regular
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.check import Job, Outcome, check_paths
 from ros2cc_extract.revision.git import Repository as GitRepository
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.cache_file import tool_version
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.sources import read_input
 from ros2cc_extract.pipeline.unit_jobs import KEPT, Kept
 from ros2cc_extract.pipeline.unit_task import Examined

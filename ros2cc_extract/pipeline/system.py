@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -13,6 +13,7 @@ from ros2cc_extract.extract.launch.api import Launch, launch
 from ros2cc_extract.extract.launch.workspace.packages import Executable, Known
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import Files
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown, shown_name
 from ros2cc_extract.spec.model import Unresolved
 from ros2cc_extract.spec.node_graph import NodeGraph

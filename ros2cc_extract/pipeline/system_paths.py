@@ -8,7 +8,6 @@ of its launch files; where it has none, one of all programs in it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
@@ -16,6 +15,7 @@ from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.launch.language.recognition import is_launch_file
 from ros2cc_extract.files import Files, open_regular
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.program_systems import system_of_programs
 from ros2cc_extract.pipeline.sources import RECORDING_SUFFIX, SPEC_SUFFIXES
 from ros2cc_extract.pipeline.system import Kept

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
@@ -21,6 +21,7 @@ from ros2cc_extract.errors import InputError
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.jobs.pools import Pool, Processes
 from ros2cc_extract.jobs.process_pool import usable_cores
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.progress import Meter
 from ros2cc_extract.pipeline.unit_task import Examined, Task
 from ros2cc_extract.plain_data import Packer

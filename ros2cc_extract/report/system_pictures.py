@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.shared.system_circles import in_circles
 from ros2cc_extract.report.shared.system_layout import FROM
 from ros2cc_extract.spec.system.model import Connection, Process, System

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
-from dataclasses import dataclass
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.text.spec import describe_executor
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, CallbackGroup, GroupType, Spec

@@ -15,12 +15,12 @@ import selectors
 import subprocess
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.jobs.process_pool import ends_with_us
+from ros2cc_extract.light_dataclasses import dataclass
 
 KNOWN = 'name a revision git knows'
 PATIENCE_S = 300.0

@@ -10,12 +10,12 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import DISK, OnError, Walked, too_large
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.revision.git import Repository, objects
 from ros2cc_extract.source_locations import Place
 

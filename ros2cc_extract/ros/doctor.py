@@ -8,12 +8,12 @@ Source of the interface: ros2doctor 0.36.1, ``ros2doctor/api/__init__.py``.
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity, unreadable_folder
 from ros2cc_extract.errors import Ros2ccError
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.packages.manifest import MANIFEST, python_files
 from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config

@@ -8,9 +8,10 @@ A model with a hole in it cannot be built by accident, because the generator tak
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from ros2cc_extract.errors import IncompleteSpecError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
@@ -60,7 +61,7 @@ def waited_for(spec: Spec) -> frozenset[str]:
     return frozenset(waker.by for block in blocks for waker in block.wakers)
 
 
-def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:
+def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:  # noqa: B008 - frozen value
     """
     Decide every open fact of ``spec`` by ``policy``.
 

@@ -9,8 +9,9 @@ unit stands still in the program; what a pool of few threads holds up is judged 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import client_before, server_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (

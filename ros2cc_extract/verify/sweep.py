@@ -7,12 +7,13 @@ A sweep answers what one verification cannot: from how many threads on a verdict
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family
 from ros2cc_extract.jobs.pools import Pool, in_order
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.results import Verification

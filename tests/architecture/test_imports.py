@@ -31,6 +31,7 @@ LEAVES = {
     'file_ownership',
     'identity_memo',
     'deadline',
+    'light_dataclasses',
 }
 ALLOWED = {
     '__main__': {'*'},

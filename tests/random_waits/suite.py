@@ -20,13 +20,14 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.deadline import Deadline
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.generator.build import Family, Profile
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.search.options import Options

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ros2cc_extract.checker.analyses.dead_variables import Forgetting, forget
 from ros2cc_extract.checker.network.network import Network
 from ros2cc_extract.checker.network.semantics import Edges, State
+from ros2cc_extract.light_dataclasses import dataclass
 
 if TYPE_CHECKING:
     from ros2cc_extract.checker.analyses.symmetry import Family

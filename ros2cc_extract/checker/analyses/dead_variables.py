@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.analyses.effects import (
     ConditionalRead,
@@ -36,6 +36,7 @@ from ros2cc_extract.checker.network.network import (
 from ros2cc_extract.checker.network.partial_evaluation import Substitution
 from ros2cc_extract.checker.network.semantics import Edges, State
 from ros2cc_extract.checker.network.traversal import walk
+from ros2cc_extract.light_dataclasses import dataclass
 
 MAX_NODES = 2048
 _MAX_CONTROL_VALUES = 64

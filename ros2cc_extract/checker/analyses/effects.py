@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.network.network import (
     Assign,
@@ -21,6 +21,7 @@ from ros2cc_extract.checker.network.network import (
     Var,
 )
 from ros2cc_extract.checker.network.traversal import children, function_expressions, walk
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 def slots_of(target: Element | Var) -> range:

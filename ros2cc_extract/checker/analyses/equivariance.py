@@ -10,7 +10,7 @@ of the operands of ``&&``, ``||`` and ``+``, into which quantifiers over all pro
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.checker.network.network import (
@@ -42,6 +42,7 @@ from ros2cc_extract.checker.network.network import (
     While,
 )
 from ros2cc_extract.checker.network.traversal import walk
+from ros2cc_extract.light_dataclasses import dataclass
 
 _COMMUTING = (Op.AND, Op.OR, Op.ADD)
 

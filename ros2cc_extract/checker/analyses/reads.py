@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.network.network import (
     AtLocation,
@@ -14,6 +14,7 @@ from ros2cc_extract.checker.network.network import (
     Var,
 )
 from ros2cc_extract.checker.network.traversal import function_expressions, walk
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(eq=False)

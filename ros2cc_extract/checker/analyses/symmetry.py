@@ -12,7 +12,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.analyses.effects import Effects
 from ros2cc_extract.checker.analyses.equivariance import Equivariance, Exchange, Pick
@@ -32,6 +31,7 @@ from ros2cc_extract.checker.network.network import (
     Var,
 )
 from ros2cc_extract.checker.network.traversal import function_expressions, walk
+from ros2cc_extract.light_dataclasses import dataclass
 
 #: What it costs to compare an edge with what an exchange makes of it, in nodes.
 _NODES_OF_EDGE = 10

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 from ros2cc_extract.checker.engines.limits import Limits, Progress
@@ -12,6 +11,7 @@ from ros2cc_extract.checker.engines.search import Reductions, SearchResult
 from ros2cc_extract.checker.engines.terms import EngineKind, Fairness
 from ros2cc_extract.checker.network.network import Network, Property
 from ros2cc_extract.errors import ToolNotFoundError
+from ros2cc_extract.light_dataclasses import dataclass
 
 _MEND = 'install a C++ compiler and Python.h, then install this package again'
 

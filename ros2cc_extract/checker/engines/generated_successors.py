@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from ros2cc_extract.checker.engines.generated_python import INDENT, SourceWriter
@@ -21,6 +20,7 @@ from ros2cc_extract.checker.network.network import Check, Direction, Edge, Expr,
 from ros2cc_extract.checker.network.semantics import EdgeRef
 from ros2cc_extract.checker.network.traversal import walk
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 
 Edges = tuple[EdgeRef, ...]
 _TOO_DEEP = ModelFormatError(

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from ros2cc_extract.deadline import Deadline
+from ros2cc_extract.light_dataclasses import dataclass
 
 try:
     import resource

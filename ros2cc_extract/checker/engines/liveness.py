@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.engines.search import End
 from ros2cc_extract.checker.engines.state_graph import DEADLOCK, Graph
+from ros2cc_extract.light_dataclasses import dataclass
 
 Inside = Callable[[int], int]
 

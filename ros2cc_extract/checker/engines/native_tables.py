@@ -8,7 +8,7 @@ operations come from the core itself.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.analyses.dead_variables import Forgetting
@@ -40,6 +40,7 @@ from ros2cc_extract.checker.network.network import (
     Unary,
     Var,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 
 if TYPE_CHECKING:
     from ros2cc_extract.checker.analyses.symmetry import Family as Members

@@ -8,7 +8,7 @@ must agree with this engine.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.analyses.canonical_states import Reducer
 from ros2cc_extract.checker.analyses.dead_variables import Forgetting, forgettings
@@ -34,6 +34,7 @@ from ros2cc_extract.checker.engines.terms import Fairness
 from ros2cc_extract.checker.network.network import Expr, Network, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Semantics
 from ros2cc_extract.checker.network.traversal import mentions_deadlock
+from ros2cc_extract.light_dataclasses import dataclass
 
 _LOOK_EVERY = 256
 _MAX_CACHED_PREDICATES = 200_000

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
@@ -11,6 +10,7 @@ from ros2cc_extract.checker.engines.terms import Verdict
 from ros2cc_extract.checker.network.arithmetic import negation
 from ros2cc_extract.checker.network.network import Expr, Property, QueryKind
 from ros2cc_extract.checker.network.semantics import Edges, State
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 class End(Enum):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 DEADLOCK, IDLE = 1, 2
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.checker.analyses.reads import reads_of
 from ros2cc_extract.checker.network.network import Expr, Network
 from ros2cc_extract.checker.network.semantics import State
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True)

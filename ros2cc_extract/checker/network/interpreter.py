@@ -7,7 +7,7 @@ The engines must agree with this module; evidence is replayed by it.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.checker.network.arithmetic import OPERATIONS
@@ -40,6 +40,7 @@ from ros2cc_extract.checker.network.network import (
     While,
 )
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 def site_error(site: Site, value: int) -> ModelFormatError:

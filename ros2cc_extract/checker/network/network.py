@@ -8,9 +8,9 @@ where they can fail; arithmetic never leaves 32 bits unchecked.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 INT32 = (-(2**31), 2**31 - 1)

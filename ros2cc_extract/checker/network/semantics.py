@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.network.interpreter import Interpreter, Memory
 from ros2cc_extract.checker.network.network import Direction, Edge, Expr, Network
+from ros2cc_extract.light_dataclasses import dataclass
 
 #: Process number and edge number within the process.
 EdgeRef = tuple[int, int]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from ros2cc_extract.checker.engines.search import INTERRUPTED
 from ros2cc_extract.checker.engines.terms import Verdict
 from ros2cc_extract.checker.runs.run import Run
 from ros2cc_extract.checker.uppaal.files.query_file import Query
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,6 @@ semantics and then replayed like a path of our own, before anybody sees it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.engines.search import End, StatePath
 from ros2cc_extract.checker.engines.terms import Fairness
@@ -19,6 +18,7 @@ from ros2cc_extract.checker.runs.run import Run
 from ros2cc_extract.checker.uppaal.files.query_file import Query
 from ros2cc_extract.checker.uppaal.model import Model
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _MEND = 'the run must be one of this very model and query'

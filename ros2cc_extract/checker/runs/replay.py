@@ -8,7 +8,7 @@ ends are established here anew. A disagreement is a defect of this tool.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.engines.search import End, Reduce, StatePath
 from ros2cc_extract.checker.engines.terms import Fairness
@@ -18,6 +18,7 @@ from ros2cc_extract.checker.network.traversal import mentions_deadlock
 from ros2cc_extract.checker.runs.run import EdgeRef, Naming, Run, Step
 from ros2cc_extract.checker.uppaal.elaboration.elaborate import Elaboration
 from ros2cc_extract.errors import CoreMismatchError
+from ros2cc_extract.light_dataclasses import dataclass
 
 _MEND = 'please report this model: it is a defect of the checker'
 

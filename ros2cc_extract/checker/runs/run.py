@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.network.interpreter import Interpreter, Memory
 from ros2cc_extract.checker.network.network import Expr, Network
 from ros2cc_extract.checker.network.semantics import State
 from ros2cc_extract.checker.uppaal.elaboration.elaborate import Elaboration
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 

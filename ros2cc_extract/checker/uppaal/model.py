@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.checker.network.network import Network
@@ -16,6 +15,7 @@ from ros2cc_extract.checker.uppaal.files.query_file import (
 )
 from ros2cc_extract.errors import InputError, ModelFormatError
 from ros2cc_extract.files import read_named
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MOST_MODEL_BYTES = 64_000_000

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN
+from ros2cc_extract.light_dataclasses import dataclass
 
 if TYPE_CHECKING:
     from ros2cc_extract.packages.manifest import Package

@@ -6,7 +6,8 @@ import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 REQUESTS = (signal.SIGTERM, signal.SIGHUP)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic
@@ -15,6 +14,7 @@ from ros2cc_extract.extract.launch.markup.files import read_frontend
 from ros2cc_extract.extract.launch.python.files import read_python
 from ros2cc_extract.extract.launch.workspace.packages import Known, Packages
 from ros2cc_extract.files import Files
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.system.launched import Launched
 
 

@@ -15,12 +15,12 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Container, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live import ptrace_entry
 from ros2cc_extract.file_ownership import open_to_others, user_of_process
+from ros2cc_extract.light_dataclasses import dataclass
 
 # A process that runs Python lets us in within milliseconds: the lock of the interpreter is asked
 # for, and given up every 5 ms (`sys.getswitchinterval`).

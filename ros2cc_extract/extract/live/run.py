@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
@@ -25,6 +24,7 @@ from ros2cc_extract.extract.live.recordings.output_files import (
 )
 from ros2cc_extract.extract.live.recordings.recording import Recording, read_recording
 from ros2cc_extract.extract.live.recordings.trace import Trace, read_trace
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 

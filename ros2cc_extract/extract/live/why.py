@@ -6,7 +6,6 @@ import functools
 import json
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
@@ -28,6 +27,7 @@ from ros2cc_extract.extract.live.injection import (
 )
 from ros2cc_extract.files import read_regular
 from ros2cc_extract.jobs.process_pool import ProcessPool
+from ros2cc_extract.light_dataclasses import dataclass
 
 T = TypeVar('T')
 # From when it was let in; a busy process on a busy machine takes a second for each look.

@@ -8,11 +8,12 @@ tables of the reports are all made from them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding, Remark
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Activity, Callback, CallbackGroup, GroupType, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour

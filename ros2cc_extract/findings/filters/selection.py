@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from ros2cc_extract.findings.base.fingerprints import relative
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)

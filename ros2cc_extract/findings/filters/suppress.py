@@ -11,12 +11,12 @@ import io
 import re
 import tokenize
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.rules.reading.diagnostics import UNUSED_IGNORE
 from ros2cc_extract.findings.rules.registry import BY_CODE, BY_SLUG
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _MARK = 'ros2cc:'

@@ -8,12 +8,12 @@ whatever lock each of them holds.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races.critical_sections import is_operand, kept_between
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.waits.workers import runs_in_parallel
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import FLAG, SHARED, Access
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind
 from ros2cc_extract.spec.program_order import steps

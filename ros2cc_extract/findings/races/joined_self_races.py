@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.wording import called, listing, shown
 from ros2cc_extract.findings.races.race_texts import IN_ONE_PIECE
 from ros2cc_extract.findings.races.self_races import SelfRace, SelfRaceKind
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 _TWICE = {

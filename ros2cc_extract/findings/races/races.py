@@ -10,7 +10,7 @@ A plain assignment is atomic in CPython; what breaks is *read, then write*: an u
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from itertools import combinations
 
@@ -41,6 +41,7 @@ from ros2cc_extract.findings.waits.concurrent_threads import (
 from ros2cc_extract.findings.waits.overlap import Overlap, interleaves, overlap
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access, Act
 from ros2cc_extract.spec.model import Activity, Callback
@@ -63,7 +64,6 @@ class RaceKind(Enum):
 
 _OWN_HARM = (RaceKind.CHANGED_IN_LOOP, RaceKind.CLEARED_IN_USE, RaceKind.TORN)
 """What not every other write does."""
-
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
 
 

@@ -8,7 +8,7 @@ on an earlier read, as a test or a copy; and what a run has written, waits, and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 from ros2cc_extract.findings.races.critical_sections import (
@@ -20,6 +20,7 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.races import Use
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.spec.program_order import steps

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.one_shot_timers import cancels_too_late
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Callback, EntityKind, When
 from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
 

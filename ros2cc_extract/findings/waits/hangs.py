@@ -8,9 +8,10 @@ could happen has happened; most of it has no part in the wait.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
 

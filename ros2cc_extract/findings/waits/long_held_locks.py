@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.waits.concurrent_threads import beside
 from ros2cc_extract.findings.waits.overlap import overlap
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import FLAG, RE_ENTRANT, SHARED, Act
 from ros2cc_extract.spec.model import Callback
 

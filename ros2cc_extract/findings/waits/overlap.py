@@ -6,13 +6,12 @@ Nothing is claimed of callbacks whose group or executor could not be followed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.capacity import can_overlap_itself
 from ros2cc_extract.findings.waits.verdicts import CAN_OVERLAP, verdict_on
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread, runs_in_parallel
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 from ros2cc_extract.verify.results.evidence import Evidence

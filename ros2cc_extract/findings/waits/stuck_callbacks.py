@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called, listing, plural
@@ -11,6 +10,7 @@ from ros2cc_extract.findings.waits.hangs import Standstill, open_waits
 from ros2cc_extract.findings.waits.verdicts import PROGRESS, is_of_repeated, refuting_run
 from ros2cc_extract.findings.waits.waits import AnyWait, WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
 from ros2cc_extract.spec.effects import Blocking, Needs
 from ros2cc_extract.spec.model import Activity, Callback

@@ -8,8 +8,7 @@ Source: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``SingleThreadedExecutor``,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Executor
 

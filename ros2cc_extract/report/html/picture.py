@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.html.findings import Numbered
 from ros2cc_extract.report.html.parts import SEVERITY_WORDS, items, span, tag
 from ros2cc_extract.report.html.runs import COLOURS

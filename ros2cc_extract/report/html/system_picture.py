@@ -8,9 +8,9 @@ goes through is red; what is not in sight is dashed.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from html import escape
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.html.parts import items, span, tag
 from ros2cc_extract.report.shared.system_circles import in_circles
 from ros2cc_extract.report.shared.system_layout import FROM, columns_of, rows_of

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.promises import Judgement
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.verify.results.results import Verification

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.verify.results.evidence import Evidence, Moment
 
 

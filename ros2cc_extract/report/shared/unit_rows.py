@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Executor, Spec

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.report.shared.checked import Checked
 from ros2cc_extract.report.shared.counts import counted
 from ros2cc_extract.report.shared.last_line import last_line

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.releases.lines import Release, release_of, representatives
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 Release = tuple[int, int, int]
 _RELEASE = re.compile(r'(\d+)\.(\d+)\.(\d+)')

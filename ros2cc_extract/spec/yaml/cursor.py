@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from typing import TypeVar, cast
 
 import yaml
 
 from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)

@@ -8,10 +8,11 @@ what a schema says of them. ``record`` turns rows into a codec for the whole val
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import Enum
 from typing import Any, Protocol
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.yaml.codecs import FLAG, PLACE, TEXT, Codec, JsonSchema, optional
 from ros2cc_extract.spec.yaml.cursor import Cursor

@@ -8,7 +8,6 @@ them. Writing and reading is the identity on values, and on every text written h
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +15,7 @@ import yaml
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.files import read_named
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (

@@ -9,7 +9,7 @@ unit: there the others may just get no data. And the slice holds the rivals that
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from ros2cc_extract.checker.api import (
@@ -25,6 +25,7 @@ from ros2cc_extract.checker.api import (
 from ros2cc_extract.generator import build
 from ros2cc_extract.generator.queries import structural_starvation
 from ros2cc_extract.generator.unit import number_unit
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.results.evidence import LOST, Evidence

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 #: Words of each kind and form; what stands in brackets is said where all its fields are known.
 WORDS = {

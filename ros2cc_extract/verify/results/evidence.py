@@ -7,9 +7,10 @@ A run that shows why a verdict is as it is: what happens in each step, and where
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import MappingProxyType
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.events import Event
 

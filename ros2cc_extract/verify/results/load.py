@@ -10,11 +10,12 @@ end, so a member gets what those served before it leave; one thread serves all i
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from math import ceil
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, rank_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
 from ros2cc_extract.verify.results.rates import Demand, demand_of
 

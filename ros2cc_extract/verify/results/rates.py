@@ -7,8 +7,9 @@ Stated by hand, measured in a live run, or read from the source: the first that 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec

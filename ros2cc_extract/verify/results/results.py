@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ros2cc_extract.checker.engines.terms import Verdict as Verdict
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.load import Load
 

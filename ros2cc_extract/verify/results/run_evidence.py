@@ -9,7 +9,7 @@ somebody else is told by its comments or its locations.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.checker.api import EdgeRef, Run, StateView
@@ -17,6 +17,7 @@ from ros2cc_extract.generator.events import Annotation, FieldText, read_annotati
 from ros2cc_extract.generator.program_steps import gives
 from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import actors_of, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.display_names import display_names
 from ros2cc_extract.spec.model import OF_LOOP, Spec

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from ros2cc_extract.cache_file import load_value, store_value
 from ros2cc_extract.checker.api import CheckResult, Verdict
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.plain_data import Packer
 
 Question = tuple[object, ...]

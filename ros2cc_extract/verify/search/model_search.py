@@ -7,7 +7,7 @@ Every run that is handed on was replayed by the checker.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from ros2cc_extract.checker.api import (
@@ -25,6 +25,7 @@ from ros2cc_extract.checker.refutation.random_runs import dive
 from ros2cc_extract.checker.refutation.waypoints import refute
 from ros2cc_extract.generator import build
 from ros2cc_extract.identity_memo import known_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.evidence import Evidence

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ros2cc_extract.checker.engines.limits import Limits, Progress
 from ros2cc_extract.checker.engines.terms import EngineKind, Fairness
 from ros2cc_extract.generator.template_files import Profile, Text
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 
 if TYPE_CHECKING:

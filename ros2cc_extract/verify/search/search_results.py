@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.checker.api import CheckResult, Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.results import QueryResult, open_result
 

@@ -9,10 +9,11 @@ slice that the claim is asked of, so that what is refuted there is refuted.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.checker.api import Limits
 from ros2cc_extract.generator.build import Family, Query
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import GroupType
 from ros2cc_extract.verify.search.search_results import Found, Key, key_of

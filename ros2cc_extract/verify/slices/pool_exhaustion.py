@@ -9,11 +9,12 @@ waypoints: one after the other gets data, runs and waits.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Profile, Query, queries_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult

@@ -10,12 +10,13 @@ What may happen in it says nothing, unless the unit may do without these waits i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.generator.program_steps import NamedWait, WaitKind
 from ros2cc_extract.generator.waits import actors_of, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import is_client, server_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.effects import Blocking

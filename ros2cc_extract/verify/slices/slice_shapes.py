@@ -7,7 +7,7 @@ Parts of one shape have one model up to names, and so the same verdicts.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.generator.executor_kinds import (
     GUARD_RANK,
@@ -21,6 +21,7 @@ from ros2cc_extract.generator.omissions import left_out_of_models
 from ros2cc_extract.generator.program_steps import NamedWait, Resource
 from ros2cc_extract.generator.unit import resources_of
 from ros2cc_extract.generator.waits import foreign_wakes, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import server_of
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec

@@ -9,7 +9,7 @@ does too, as docs/profile-rclpy.md (*Slices*) argues. Where that does not hold t
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from functools import cached_property
 
@@ -18,6 +18,7 @@ from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind,
 from ros2cc_extract.generator.nested_spins import Refusal, SpinEnd, Spun
 from ros2cc_extract.generator.program_steps import WaitKind
 from ros2cc_extract.generator.waits import asks_the_graph, is_absent, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import (
     client_before,
     is_client,

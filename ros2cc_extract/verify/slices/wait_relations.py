@@ -7,11 +7,11 @@ Found once for each unit, and read by the names of callbacks.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from ros2cc_extract.generator.program_steps import Lock, NamedWait, Resource
 from ros2cc_extract.generator.waits import actors_of, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.client_server_pairs import server_of
 from ros2cc_extract.spec.model import Callback, CallbackType, GroupType, Spec
 

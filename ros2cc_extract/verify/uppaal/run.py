@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 from ros2cc_extract.checker.api import EdgeRef, Model, Run, StateView
 from ros2cc_extract.checker.runs.printed_runs import NamedState, where_time_passes
 from ros2cc_extract.checker.uppaal.files.document import TemplateNode, read_document
 from ros2cc_extract.errors import InputError
+from ros2cc_extract.light_dataclasses import dataclass
 
 _MEND_LINES = 'save the model from UPPAAL, which writes each edge on lines of its own'
 

@@ -17,13 +17,14 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.errors import ToolNotFoundError
 from ros2cc_extract.jobs.process_pool import ends_with_us
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.uppaal.verifyta_processes import Runs
 from ros2cc_extract.verify.uppaal.verifyta_trace import PrintedRun, read_runs

@@ -81,6 +81,19 @@ def grumbling(here: int, job: int) -> tuple[int, bool]:
 
 
 @needs_dask
+def test_answers_of_many_jobs_are_in_order(cluster: Cluster) -> None:
+    """More jobs than tasks, and each task is of several."""
+    there = in_order(cluster_at(cluster.address), squared, range(100))
+    assert there == [(n * n, False) for n in range(100)]
+
+
+@needs_dask
+def test_what_fails_of_many_is_done_here(cluster: Cluster) -> None:
+    there = in_order(cluster_at(cluster.address), partial(grumbling, os.getpid()), range(100))
+    assert there == [(n * n, bool(n % 2)) for n in range(100)]
+
+
+@needs_dask
 def test_what_fails_there_is_done_here(cluster: Cluster) -> None:
     assert in_order(cluster_at(cluster.address), partial(grumbling, os.getpid()), range(4)) == [
         (0, False),
@@ -154,7 +167,21 @@ def test_a_worker_of_another_version_is_told() -> None:
 
 def test_a_worker_of_another_version_that_comes_later_answers_nothing() -> None:
     with pytest.raises(RuntimeError):
-        tested._there('another', squared, 3)
+        tested._there('another', squared, [3])
+
+
+def test_many_jobs_are_few_tasks() -> None:
+    assert tested._batches(0, 2) == []
+    assert tested._batches(40, 2) == [range(n, n + 1) for n in range(40)]
+    many = tested._batches(400, 2)
+    assert (len(many), many[:2], many[-1]) == (34, [range(0, 12), range(12, 24)], range(396, 400))
+    assert [n for batch in many for n in batch] == list(range(400))
+    assert len(tested._batches(400, 0)) == 16
+
+
+def test_one_job_of_a_batch_that_fails_takes_no_other_with_it() -> None:
+    there = tested._there(tool_version(), partial(grumbling, -1), [2, 3, 4])
+    assert there == [((4, False),), None, ((16, False),)]
 
 
 def test_both_pools_say_what_they_are() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.network.network import Const, Expr
 from ros2cc_extract.checker.uppaal.elaboration.expressions import Expressions
@@ -19,6 +19,7 @@ from ros2cc_extract.checker.uppaal.elaboration.types import (
 )
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 

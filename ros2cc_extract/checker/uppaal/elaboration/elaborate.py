@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.checker.network.arithmetic import const, truth
@@ -44,6 +44,7 @@ from ros2cc_extract.checker.uppaal.files.document import Document, EdgeNode, Tem
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.checker.uppaal.language.parsing import Start, parse, parse_query
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MAX_EDGES = 250_000

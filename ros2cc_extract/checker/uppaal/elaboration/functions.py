@@ -8,7 +8,6 @@ that is one ``return`` is put in place of the call.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.network.arithmetic import TRUE, choice, const, is_atomic
 from ros2cc_extract.checker.network.network import (
@@ -52,6 +51,7 @@ from ros2cc_extract.checker.uppaal.elaboration.types import (
 )
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 
 _MAX_FRAME = 65536
 #: Nodes of an expression that may stand in place of a call; calls inside calls can double them.

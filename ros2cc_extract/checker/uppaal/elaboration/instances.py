@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.network.arithmetic import const
 from ros2cc_extract.checker.uppaal.elaboration.expressions import Expressions
@@ -22,6 +21,7 @@ from ros2cc_extract.checker.uppaal.elaboration.types import (
 from ros2cc_extract.checker.uppaal.files.document import TemplateNode
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 
 MAX_PROCESSES = 4096
 

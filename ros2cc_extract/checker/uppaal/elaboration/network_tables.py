@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.checker.network.network import (
     Channel,
@@ -16,6 +16,7 @@ from ros2cc_extract.checker.network.network import (
     Variable,
 )
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MAX_VARIABLES = 1_000_000

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 
 from ros2cc_extract.checker.network.network import Const, Expr
 from ros2cc_extract.checker.uppaal.language import syntax
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 #: Range of a plain ``int``. Source: UPPAAL documentation, page "Types".
@@ -95,7 +96,7 @@ class Reference:
     type: Type
     base: int
     length: int
-    offset: Expr = Const(0, 0)  # noqa: RUF009 - frozen value
+    offset: Expr = Const(0, 0)
     values: tuple[int, ...] = ()
     is_read_only: bool = False
 

@@ -9,10 +9,11 @@ Element names: UPPAAL documentation, page "XML file format" (flat-1_x DTD).
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from xml.parsers import expat
 
 from ros2cc_extract.errors import ModelFormatError
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 MAX_DEPTH = 64

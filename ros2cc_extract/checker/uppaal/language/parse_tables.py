@@ -1,16 +1,20 @@
 """
-The tables that lark makes from the grammar, made once and kept in the cache.
+The tables that lark makes from the grammar, made once and kept.
 
-Making them takes half of the time that a small model needs. Lark has a cache of its own, of
-pickles, which could make anything run; here they are kept as JSON, and lark makes of them what a
-parser consists of. Works with lark 1.x and with lark-parser 0.12, which ROS environments bring.
+Making them takes half of the time that a small model needs. They are kept where Python keeps the
+byte code of this module, or in the user's cache where the user cannot write there. Lark has a
+cache of its own, of pickles, which could make anything run; here they are kept as JSON, and lark
+makes of them what a parser consists of. Works with lark 1.x and with lark-parser 0.12, which ROS
+environments bring.
 """
 
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import json
-from dataclasses import dataclass
+import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +22,8 @@ from ros2cc_extract.cache_file import (
     default_cache_folder,
     load_content,
     store_content,
-    tool_version,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 
 if TYPE_CHECKING:
     from lark import Lark, Transformer
@@ -40,14 +44,13 @@ class Grammar:
 
     def parser(self, builder: Transformer[Any, Any]) -> Lark:
         """Give its parser; ``builder`` makes the values of the rules."""
-        folder = default_cache_folder()
-        path = folder / f'{self._key}.tables' if folder is not None else None
-        known = _loaded(path, builder) if path is not None else None
-        if known is not None:
-            return known
+        paths = [folder / f'{self._key}.tables' for folder in _folders()]
+        for path in paths:
+            known = _loaded(path, builder)
+            if known is not None:
+                return known
         made = self._made(builder)
-        if path is not None:
-            store_content(path, _told(made))
+        any(store_content(path, _told(made)) for path in paths)
         return made
 
     def _made(self, builder: Transformer[Any, Any]) -> Lark:
@@ -63,8 +66,16 @@ class Grammar:
         """Equal where the tables are: they are of lark's own making."""
         import lark
 
-        text = '\0'.join((tool_version(), lark.__version__, self.text, *self.starts))
+        text = '\0'.join((lark.__version__, self.text, *self.starts))
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _folders() -> list[Path]:
+    """Where tables may be kept, the best place first."""
+    bytecode = Path(importlib.util.cache_from_source(__file__)).parent
+    users = default_cache_folder()
+    takes_more = os.access(bytecode, os.W_OK) and not sys.dont_write_bytecode
+    return [*([bytecode] if takes_more else []), *([users] if users is not None else [])]
 
 
 def _told(parser: Lark) -> bytes:

@@ -5,9 +5,9 @@ Parses the texts of a model with lark.
 from __future__ import annotations
 
 import functools
-import importlib.resources
 import re
 from enum import Enum
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2cc_extract.checker.uppaal.language import syntax
@@ -71,7 +71,7 @@ def _parser() -> Lark:
     from ros2cc_extract.checker.uppaal.language.parse_tables import Grammar
     from ros2cc_extract.checker.uppaal.language.tree_builder import TreeBuilder
 
-    text = importlib.resources.files(__package__).joinpath('grammar.lark').read_text('utf-8')
+    text = Path(__file__).with_name('grammar.lark').read_text('utf-8')
     return Grammar(text, tuple(start.value for start in Start)).parser(TreeBuilder())
 
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.checker.uppaal.language import syntax
+from ros2cc_extract.light_dataclasses import dataclass
 
 MAX_DEPTH = 100
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from ros2cc_extract.light_dataclasses import dataclass
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ same actions.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.launch.language.substitutions import Expression
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
 

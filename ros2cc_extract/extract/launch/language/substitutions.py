@@ -7,8 +7,7 @@ is told by ``evaluation.py``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 
 

@@ -6,11 +6,12 @@ Documents that define entities are refused: nothing here expands any.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from xml.parsers import expat
 
 import yaml
 
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
 _DEEPEST = 60

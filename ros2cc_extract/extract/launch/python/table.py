@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.extract.launch.python import paths
@@ -31,6 +30,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     Value,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 PREFIX = 'launch.'

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.extract.launch.workspace.cmake import installed_programs, targets_of
 from ros2cc_extract.extract.static.packaging.api import declarations
 from ros2cc_extract.extract.static.packaging.declarations import Declarations
 from ros2cc_extract.files import Files
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 
 _MANIFEST = 'package.xml'

@@ -8,13 +8,13 @@ little old, because it is only ever replaced as a whole.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.files import read_named, real_path
 from ros2cc_extract.json_text import read_json
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.plain_data import Packer
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Distribution, Measured

@@ -12,7 +12,6 @@ import json
 import mmap
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from heapq import heappush, heappushpop
 from itertools import pairwise
 from pathlib import Path
@@ -30,6 +29,7 @@ from ros2cc_extract.extract.live.recorder.events import (
 from ros2cc_extract.extract.live.recordings.collect import home_of
 from ros2cc_extract.extract.live.recordings.recording import Recording
 from ros2cc_extract.files import open_regular
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 FORMAT = 'ros2cc trace'

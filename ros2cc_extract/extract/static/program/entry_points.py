@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 import contextlib
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from ros2cc_extract.extract.static.program.source import SIZE_LIMIT_BYTES, SourceFile
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.files import Files
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _SCRIPT_FILES = ('setup.py', 'setup.cfg', 'pyproject.toml')

@@ -9,13 +9,14 @@ import io
 import re
 import tokenize
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from pathlib import Path
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.program.newer_syntax import WITHOUT_FILE, needs_newer_python
 from ros2cc_extract.files import DISK, Files
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 SIZE_LIMIT_BYTES = 8_000_000

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.values_during_waits import show_to_callbacks
@@ -33,6 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded, note_cut_run
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.unfit_callbacks import is_unfit
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
@@ -55,6 +54,7 @@ from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads im
 )
 from ros2cc_extract.extract.static.units.whole_program.taken_messages import note_taken
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import note_unanswered
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 

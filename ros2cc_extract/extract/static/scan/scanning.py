@@ -12,7 +12,7 @@ import os
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.units.entity_aliases import each_once
 from ros2cc_extract.extract.static.units.units import joined_of, specs_of
 from ros2cc_extract.extract.static.units.whole_program.node_graphs import graphs_of
 from ros2cc_extract.jobs.process_pool import ProcessPool
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec

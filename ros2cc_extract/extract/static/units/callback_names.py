@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -21,6 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
 

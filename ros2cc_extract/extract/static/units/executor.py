@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.extract.static.concurrency.machine.state import SetUpWait
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.python.values.values import Class, Instance
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
 

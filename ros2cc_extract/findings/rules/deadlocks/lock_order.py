@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Severity
@@ -12,6 +11,7 @@ from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
 from ros2cc_extract.findings.base.wording import called, made_at
 from ros2cc_extract.findings.waits.concurrent_threads import beside, node_of, repeats_freely
 from ros2cc_extract.findings.waits.overlap import overlap, overlaps_itself
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Activity

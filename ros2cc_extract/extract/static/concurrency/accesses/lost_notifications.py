@@ -9,7 +9,7 @@ notifier writes, or has begun in that hold what notifies: that cannot go on befo
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import lock_of, locks_named
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
 from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.values.values import Instance
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
 

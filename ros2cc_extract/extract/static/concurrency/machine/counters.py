@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
 
 from ros2cc_extract.extract.static.python.values.values import Class, Const, Instance, Value
+from ros2cc_extract.light_dataclasses import dataclass
 
 MOST = 3
 """A model counts no more writes than these: who gives so many gives more."""

@@ -7,7 +7,7 @@ Who runs as a callback is for the model of a library to say; here each is a ``Do
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import Call, Heaped, Instance, Path, Value
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind, When

@@ -8,7 +8,7 @@ What each does stands in ``outside_calls.py``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from ros2cc_extract.light_dataclasses import dataclass
 
 WAIT_KEY = 'cv2.waitKey'
 

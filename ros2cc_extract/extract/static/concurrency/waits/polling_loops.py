@@ -8,7 +8,7 @@ reads ends it.
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
@@ -55,6 +55,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import (
     ANSWER_LOOP,

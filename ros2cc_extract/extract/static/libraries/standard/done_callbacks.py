@@ -10,7 +10,6 @@ executor takes has that executor, whose tasks they are then. Sources: rclpy 7.1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
@@ -32,6 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import ActivityKind
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.extract.static.program.text_queries import mangled
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts
@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 

@@ -8,12 +8,13 @@ those of Python itself, to the interpreter.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
 from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 AWAITED = '__awaited__'

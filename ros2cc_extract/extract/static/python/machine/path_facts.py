@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from functools import reduce
 
@@ -23,6 +22,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from typing import TypeVar
 
@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
     options_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Access, Act
 from ros2cc_extract.spec.model import When

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Mystery,
     Value,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
 _PLAIN = frozenset({'enum.Enum'})

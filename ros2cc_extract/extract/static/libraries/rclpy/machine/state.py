@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,
@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, G
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 from ros2cc_extract.spec.model import EntityKind, GroupType, When

@@ -7,8 +7,6 @@ Positions and names of arguments: rclpy 7.1.6, ``node.py``. Only ``create_timer`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import (
     note_begun,
     note_made,
@@ -65,6 +63,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import EntityKind, GroupType
 

@@ -6,12 +6,11 @@ Source: rclpy 7.1.6, ``qos.py`` (what a profile is not told it takes from ``qos_
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import NONE, Call, Instance, Value
+from ros2cc_extract.light_dataclasses import dataclass
 
 PROFILE = 'rclpy.qos.QoSProfile'
 
