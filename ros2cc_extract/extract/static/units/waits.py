@@ -196,12 +196,7 @@ class UnitWaits(DataWriters):
         return known
 
     def _is_foreign(self, on: object) -> bool:
-        """
-        Whether a thread of the user's own may be the one that sets what is waited for.
-
-        A callback that may set it as well helps only if it comes: until then nobody wakes the
-        executor on releases that ask a coroutine in each lap.
-        """
+        """Whether a thread may be the one that sets it: a callback beside it helps only if it comes."""
         if not isinstance(on, SettableRef):
             return False
         wakings = self._world.wakings.get(on.number, ())
