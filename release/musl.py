@@ -18,9 +18,10 @@ from release.debian import SUITES, fetched_sources
 
 COMPILER = 'musl-gcc'
 CONFIGURED = 'configured'
-# As CPython's configure asks gcc, which would name the system that it runs on.
+# CPython's configure asks gcc, and its setup.py (3.11) does too, with one hyphen; gcc would name the
+# system that it runs on, whose headers are not those of musl.
 WRAPPER = """#!/bin/sh
-case " $* " in *" --print-multiarch "*) echo x86_64-linux-musl; exit 0;; esac
+case " $* " in *"-print-multiarch "*) echo x86_64-linux-musl; exit 0;; esac
 exec musl-gcc "$@"
 """
 # musl brings no headers of the kernel; those of Linux serve every C library.

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import random
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -164,6 +163,8 @@ def flight_records(chance: random.Random, canary: Path) -> Attempt:
     }
     special = {n: chance.choice(sorted(KINDS)) for n in names if chance.random() < 0.1}
 
+    has_folder = chance.random() < 0.1
+
     def prepare(folder: Path) -> None:
         live = folder / 'live'
         live.mkdir()
@@ -173,8 +174,8 @@ def flight_records(chance: random.Random, canary: Path) -> Attempt:
                 KINDS[special[name]](live / name)
             else:
                 (live / name).write_bytes(content)
-        if chance.random() < 0.1:
-            shutil.copytree(live, live / f'{stem}{COPY}folder{RAW_SUFFIX}')
+        if has_folder:
+            (live / f'{stem}{COPY}folder{RAW_SUFFIX}').mkdir()
 
     asked = (
         ('collect', 'live', '-o', 'out.yaml', '--trace', 'out.jsonl'),

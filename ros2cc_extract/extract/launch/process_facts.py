@@ -34,6 +34,7 @@ class ProcessFacts:
         self._context = context
         self._evaluator = evaluator
         self._packages = packages
+        self._read: dict[str, Sequence[SetParameter] | Unknown] = {}
 
     def of_node(self, action: StartNode) -> Launched:
         """What ``Node`` and the like start."""
@@ -131,7 +132,10 @@ class ProcessFacts:
         if not self._packages.has(Path(path)):
             open_facts.append(('parameters', Unknown(f'parameter file {path} is not there')))
             return
-        found = parameters_in(self._packages.text(Path(path)), shown_name(path))
+        found = self._read.get(path)
+        if found is None:
+            found = parameters_in(self._packages.text(Path(path)), shown_name(path))
+            self._read[path] = found
         if isinstance(found, Unknown):
             open_facts.append(('parameters', found))
         else:

@@ -1,0 +1,42 @@
+"""Launch files that are small and stand for more than anybody takes: told, at little cost."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.attack import launch_bombs
+from tests.attack.launch_bombs import Bomb
+from tests.unit.launch.following import followed, lines
+
+SIZE = 40
+MOST_S = 8.0
+LARGE = 'launch file is too large to be followed'
+WORDS = {
+    'texts_that_double': 'texts of the launch are too long to be put together',
+    'aliases_that_double': 'the YAML holds too much by its aliases',
+    'lists_of_actions_that_double': 'it is too long to be followed',
+    'substitutions_that_double': 'it is too long to be followed',
+    'functions_that_return_themselves': LARGE,
+    'handlers_of_each_other': 'it is nested too deeply',
+    'nodes_without_number': 'launch starts more than can be followed',
+}
+
+
+@pytest.mark.parametrize('name', WORDS)
+def test_what_is_too_large_is_told(name: str, tmp_path: Path) -> None:
+    bomb: Bomb = getattr(launch_bombs, name)(SIZE)
+    begun = time.process_time()
+    found = followed(tmp_path, bomb[1].removeprefix(launch_bombs.HEAD), bomb[0])
+    assert time.process_time() - begun < MOST_S
+    said = [each.message for each in found.noticed]
+    said += [str(why) for each in found.processes for _, why in each.open]
+    said += [str(each.name) for each in found.processes]
+    assert any(WORDS[name] in each for each in said), said[:3]
+
+
+def test_as_many_processes_as_robots_have(tmp_path: Path) -> None:
+    nodes = ''.join(f'<node pkg="p" exec="e" name="n{n}"/>' for n in range(900))
+    assert len(lines(followed(tmp_path, f'<launch>{nodes}</launch>', 'a.launch.xml'))) == 900
