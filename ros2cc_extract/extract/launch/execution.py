@@ -40,7 +40,7 @@ from ros2cc_extract.spec.system.names import Remap, joined_namespace
 _DEEPEST = 25
 _MOST_ACTIONS = 50_000
 # Some thousand processes, or fewer with more that is said of each.
-_MOST_COST, _COST_OF_PROCESS, _LETTERS_FOR_ONE = 100_000, 100, 100
+_MOST_COST, _COST_OF_PROCESS, _COST_OF_FACT, _LETTERS_FOR_ONE = 100_000, 100, 4, 100
 Load = Callable[[Path, Context], Sequence[Action]]
 UNRESOLVED = 'launch-unresolved'
 """Slug of what a launch file says that could not be told."""
@@ -229,7 +229,7 @@ def _cost_of(launched: Launched) -> int:
     told = (launched.name, launched.namespace, *launched.remaps, *launched.command)
     letters = sum(len(str(each)) for each in told if each is not None)
     facts = len(launched.remaps) + len(launched.parameters)
-    return _COST_OF_PROCESS + facts + letters // _LETTERS_FOR_ONE
+    return _COST_OF_PROCESS + _COST_OF_FACT * facts + letters // _LETTERS_FOR_ONE
 
 
 def _below(base: Value | None, pushed: Value) -> Value:

@@ -134,7 +134,12 @@ class ProcessFacts:
             return
         found = self._read.get(path)
         if found is None:
-            found = parameters_in(self._packages.text(Path(path)), shown_name(path))
+            content = self._packages.content(Path(path))
+            found = (
+                Unknown('parameter file cannot be read', Place(shown_name(path)))
+                if content is None
+                else parameters_in(content, shown_name(path))
+            )
             self._read[path] = found
         if isinstance(found, Unknown):
             open_facts.append(('parameters', found))

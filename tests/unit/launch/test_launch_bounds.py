@@ -40,3 +40,18 @@ def test_what_is_too_large_is_told(name: str, tmp_path: Path) -> None:
 def test_as_many_processes_as_robots_have(tmp_path: Path) -> None:
     nodes = ''.join(f'<node pkg="p" exec="e" name="n{n}"/>' for n in range(900))
     assert len(lines(followed(tmp_path, f'<launch>{nodes}</launch>', 'a.launch.xml'))) == 900
+
+
+def test_a_parameter_file_that_cannot_be_read_leaves_the_parameters_open(tmp_path: Path) -> None:
+    node = '<node pkg="p" exec="e"><param from="$(dirname)/p.yaml"/></node>'
+    xml = f'<launch>{node}</launch>'
+    folder = tmp_path / 'robot' / 'launch'
+    folder.mkdir(parents=True)
+    for text, told in (
+        ('/**:\n  ros__parameters: {a: 1}\n', ['node p e a=1']),
+        ('#' * 1_000_001, ['node p e ?parameters']),
+        ('/**: &a\n  ros__parameters: *a\n', ['node p e ?parameters']),
+        ('[' * 1_000, ['node p e ?parameters']),
+    ):
+        (folder / 'p.yaml').write_text(text)
+        assert lines(followed(tmp_path, xml, 'a.launch.xml')) == told

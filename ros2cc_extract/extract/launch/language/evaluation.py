@@ -30,7 +30,7 @@ from ros2cc_extract.extract.launch.language.substitutions import (
 from ros2cc_extract.source_locations import Unknown
 
 # Of all texts that are put together in one launch: what refers to what refers to it doubles.
-_MOST_LETTERS = 5_000_000
+_MOST_LETTERS = 2_000_000
 _TRUE, _FALSE = ('true', '1'), ('false', '0')
 ShareOf = Callable[[str], FilePath | None]
 
