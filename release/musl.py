@@ -18,7 +18,7 @@ from release.debian import SUITES, fetched_sources
 
 COMPILER = 'musl-gcc'
 CONFIGURED = 'configured'
-# CPython's configure asks gcc, and its setup.py (3.11) does too, with one hyphen; gcc would name the
+# CPython's configure asks gcc, and the setup.py of 3.11 too, with one hyphen; gcc would name the
 # system that it runs on, whose headers are not those of musl.
 WRAPPER = """#!/bin/sh
 case " $* " in *"-print-multiarch "*) echo x86_64-linux-musl; exit 0;; esac
