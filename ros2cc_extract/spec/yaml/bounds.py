@@ -13,6 +13,8 @@ from typing import Any
 
 import yaml
 
+# PyYAML's own, or that of libyaml.
+Mark = yaml.Mark | Any
 LOADER: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 MOST_DEPTH = 100
 # Far more than a specification, a launch file or a file of parameters of that size holds.
@@ -27,7 +29,7 @@ class UnboundedYamlError(Exception):
     """What is not composed, with its reason and the place where it was noticed."""
 
     problem: str
-    mark: yaml.Mark | None
+    mark: Mark | None
 
 
 def composed(text: str) -> Iterator[yaml.Node | None]:
@@ -57,7 +59,7 @@ def check(text: str) -> None:
 
     :raises yaml.YAMLError, UnboundedYamlError: as ``composed``.
     """
-    sizes: dict[str, int] = {}
+    sizes: dict[str | None, int] = {}
     # Anchors and sizes of the collections that are open.
     inside: list[tuple[str | None, int]] = []
     for event in yaml.parse(text, Loader=LOADER):
@@ -80,10 +82,10 @@ def check(text: str) -> None:
 
 def _add(
     inside: list[tuple[str | None, int]],
-    sizes: dict[str, int],
+    sizes: dict[str | None, int],
     anchor: str | None,
     size: int,
-    mark: yaml.Mark | None,
+    mark: Mark | None,
 ) -> None:
     """Count a node that is whole to what it stands in."""
     if size > _MOST_NODES:
