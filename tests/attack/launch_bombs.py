@@ -181,6 +181,27 @@ def entry_points_that_double(size: int) -> Bomb:
     return of_xml(NODE, setup__py=text, CMakeLists__txt='')
 
 
+def faults_of_setup_cfg(size: int) -> Bomb:
+    line = ('console_scints]\n', '  a = b.c:d\n', '[x]\n', 'a\n')[size % 4]
+    text = '[options.entry_points]\nconsole_scripts =\n' + line * (15_000 * size // len(line))
+    return of_xml(numbered(NODE, 20), setup__cfg=text, CMakeLists__txt='')
+
+
+def programs_without_number(size: int) -> Bomb:
+    names = numbered('"p#" = "systems.relay:main"\n', 400 * size)
+    text = f'[project.scripts]\n{names}'
+    return of_xml(numbered(NODE, 20), pyproject__toml=text, CMakeLists__txt='')
+
+
+def long_names(size: int) -> Bomb:
+    push = f'<push-ros-namespace namespace="{"x" * 8_000 * size}"/>\n'
+    return of_xml(push, numbered(NODE, 50 * size))
+
+
+def many_settings(size: int) -> Bomb:
+    return of_xml(numbered('<let name="a#" value="1"/>\n', 400 * size), NODE)
+
+
 BOMBS: tuple[Callable[[int], Bomb], ...] = (
     includes_of_itself,
     includes_that_double,
@@ -204,6 +225,10 @@ BOMBS: tuple[Callable[[int], Bomb], ...] = (
     variables_of_cmake,
     brackets_of_cmake,
     entry_points_that_double,
+    faults_of_setup_cfg,
+    programs_without_number,
+    long_names,
+    many_settings,
 )
 
 
