@@ -31,7 +31,7 @@ from ros2cc_extract.extract.launch.language.actions import (
 from ros2cc_extract.extract.launch.language.context import Context, Value
 from ros2cc_extract.extract.launch.language.evaluation import Evaluator
 from ros2cc_extract.extract.launch.language.substitutions import Expression
-from ros2cc_extract.extract.launch.process_facts import ProcessFacts
+from ros2cc_extract.extract.launch.process_facts import ProcessFacts, allowed
 from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.source_locations import Place, Unknown, shown_name
 from ros2cc_extract.spec.system.launched import Launched
@@ -136,9 +136,11 @@ class Execution:
             self._set_configuration(action)
         elif isinstance(action, PushNamespace):
             pushed = self._sure(self._evaluator.value(action.namespace))
-            self._context.scope = replace(scope, namespace=_below(scope.namespace, pushed))
+            below = allowed(_below(scope.namespace, pushed))
+            self._context.scope = replace(scope, namespace=below)
         elif isinstance(action, PushRemap):
-            old, new = self._evaluator.value(action.old), self._evaluator.value(action.new)
+            old = allowed(self._evaluator.value(action.old))
+            new = allowed(self._evaluator.value(action.new))
             if isinstance(old, Unknown) or isinstance(new, Unknown) or self._doubts:
                 self._note(action.place, Unknown('remap of the scope is not known'))
             else:

@@ -55,3 +55,17 @@ def test_a_parameter_file_that_cannot_be_read_leaves_the_parameters_open(tmp_pat
     ):
         (folder / 'p.yaml').write_text(text)
         assert lines(followed(tmp_path, xml, 'a.launch.xml')) == told
+
+
+def test_names_that_ros_does_not_take_are_open(tmp_path: Path) -> None:
+    xml = """<launch>
+      <node pkg="p" exec="a" name="{long}"/>
+      <node pkg="p" exec="b" namespace="{most}"><remap from="{long}" to="x"/></node>
+      <group><push-ros-namespace namespace="{most}"/><node pkg="p" exec="c" namespace="n"/></group>
+    </launch>"""
+    text = xml.format(long='x' * 256, most='y' * 254)
+    assert lines(followed(tmp_path, text, 'a.launch.xml')) == [
+        'node p a name=?',
+        f'node p b ns=/{"y" * 254} ?remappings',
+        'node p c ns=?',
+    ]
