@@ -138,7 +138,6 @@ SUBCOMMANDS: dict[str, tuple[str, ...]] = {
     'upgrade': ('upgrade', '--from', 'jazzy', '--to', 'kilted', 'node.py'),
     'fleet': ('fleet', '.', '-o', 'out'),
     'why': ('why', '4194304'),
-    'why, all': ('why', '--all'),
     'confirm': ('confirm', 'node.py', '--python', '/bin/false'),
     'confirm, again': ('confirm', '--replay', 'confirm.json', '--python', '/bin/echo'),
     'explore': ('explore', '--python', '/bin/echo', '--', '/bin/true'),
