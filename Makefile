@@ -147,8 +147,11 @@ fuzz-parsers: $(VENV)/developed
 # What strangers may do to us, in the numbers of record: hostile files, caches, repositories, users,
 # signals and environments; a table at the end says how many of each class, and what gave way.
 ATTACKS ?= 5000
+# Of a class: a test that takes longer ends all, and the table is lost.
+ATTACK_SECONDS ?= 7200
 attack: $(VENV)/developed $(JAZZY)/installed
-	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' tests/attack --at-least $(ATTACKS) $(PYTEST_FLAGS)
+	$(call pytest_with,$(JAZZY)) -m 'slow or not slow' --timeout $(ATTACK_SECONDS) tests/attack \
+	    --at-least $(ATTACKS) $(PYTEST_FLAGS)
 
 lint: $(VENV)/developed
 	$(BIN)/ruff check .

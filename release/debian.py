@@ -133,8 +133,9 @@ def fetched_sources(suite: str, packages: list[str], folder: Path) -> list[Path]
     """Give the archives of what others wrote of some packages; nothing where they are not had."""
     if not shutil.which('apt-get') or not _archive():
         return []
-    folder.mkdir(parents=True)
-    fetch = ['--download-only', 'source', *packages]
+    folder.mkdir(parents=True, exist_ok=True)
+    # Not what Debian adds to them: a mirror that is behind may have lost the newest of that.
+    fetch = ['--download-only', '--tar-only', 'source', *packages]
     name = ARCHITECTURES[os.uname().machine]
     if not _apt(suite, name, folder.with_name(f'{folder.name}-apt'), fetch, folder):
         return []

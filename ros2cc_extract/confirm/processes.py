@@ -203,15 +203,53 @@ def _domain() -> Iterator[int]:
     domains = _domains()
     for number in random.sample(domains, len(domains)):
         path = Path(tempfile.gettempdir()) / f'ros2cc-confirm-{os.getuid()}-{number}.lock'
-        with path.open('w') as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            if str(number) != own:
+        with _held(path) as is_ours:
+            if is_ours and str(number) != own:
                 yield number
                 return
     raise InputError('all domains of ROS are in use')
+
+
+@contextmanager
+def _held(path: Path) -> Iterator[bool]:
+    """
+    Hold a file against other runs of ours, and remove it in the end.
+
+    It lies where every user may put one: no link is followed, nothing is written to it, and one
+    that cannot be had counts as held.
+    """
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC | os.O_NONBLOCK
+    try:
+        descriptor = os.open(path, flags, 0o600)
+    except OSError:
+        yield False
+        return
+    try:
+        # Who held it before may have removed it meanwhile, and the next one has another.
+        is_ours = _is_locked(descriptor) and _is_at(descriptor, path)
+        try:
+            yield is_ours
+        finally:
+            if is_ours:
+                with contextlib.suppress(OSError):
+                    path.unlink()
+    finally:
+        os.close(descriptor)
+
+
+def _is_locked(descriptor: int) -> bool:
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def _is_at(descriptor: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(descriptor), path.lstat())
+    except OSError:
+        return False
 
 
 def _domains() -> range:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TextIO
 
-from ros2cc_extract.diagnostics import Diagnostic
+from ros2cc_extract.diagnostics import Diagnostic, unreadable_folder
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.launch.language.recognition import is_launch_file
 from ros2cc_extract.files import Files, open_regular
@@ -162,7 +162,8 @@ def _of_specification(path: Path) -> Side:
 def _of_folder(
     path: Path, arguments: Mapping[str, str], stderr: TextIO, files: Files, *, cached: bool
 ) -> Side:
-    launches = list(launch_files_in(path, files))
+    barred: list[Diagnostic] = []
+    launches = list(launch_files_in(path, files, barred))
     if not launches:
         scanned = system_of_programs(path, stderr, files, cached=cached)
         return Side(str(path), (scanned.system,), scanned.extraction.diagnostics)
@@ -171,14 +172,22 @@ def _of_folder(
         scan_launch_files([each], arguments, stderr, cached=cached, files=files, kept=kept)
         for each in launches
     ]
-    told = dict.fromkeys(d for each in found for d in each.extraction.diagnostics)
+    told = dict.fromkeys([*barred, *(d for each in found for d in each.extraction.diagnostics)])
     return Side(str(path), tuple(each.system for each in found), tuple(told))
 
 
-def launch_files_in(folder: Path, files: Files) -> Iterator[Path]:
-    """The launch files below a folder, by path."""
+def launch_files_in(folder: Path, files: Files, barred: list[Diagnostic]) -> Iterator[Path]:
+    """
+    The launch files below a folder, by path.
+
+    :param barred: gets the folders that could not be looked into.
+    """
+
+    def tell(error: OSError) -> None:
+        barred.append(unreadable_folder(error))
+
     found: list[Path] = []
-    for base, folders, names in files.walk(folder, lambda error: None):
+    for base, folders, names in files.walk(folder, tell):
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
         paths: Iterable[Path] = (Path(base) / name for name in sorted(names))
         found += [path for path in paths if is_launch_file(path, files)]

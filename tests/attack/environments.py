@@ -16,9 +16,13 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from tests.attack.hostile import MODELS, recorded
+from ros2cc_extract.confirm.schedules import write_schedule
+from ros2cc_extract.explore.scenario import write_found
+from tests.attack.hostile import MODELS
+from tests.attack.hostile_replays import SCHEDULE, recorded
 from tests.support.packages import DEADLOCK, MANIFEST
 from tests.unit.conform.test_conform_command import SPEC, trace_lines
+from tests.unit.explore.test_explore_scenarios import FOUND, SCENARIO
 
 UNPRIVILEGED = '+dac_read_search'
 NOBODY = (
@@ -128,6 +132,16 @@ SUBCOMMANDS: dict[str, tuple[str, ...]] = {
     'diff': ('diff', 'good.yaml', 'good.yaml'),
     'init': ('init', '.'),
     'merge': ('merge', 'good.yaml', 'good.yaml'),
+    'system': ('system', 'arm.launch.xml'),
+    'system, html': ('system', '.', '--output-format', 'html'),
+    'check a launch file': ('check', 'arm.launch.xml'),
+    'upgrade': ('upgrade', '--from', 'jazzy', '--to', 'kilted', 'node.py'),
+    'fleet': ('fleet', '.', '-o', 'out'),
+    'why': ('why', '4194304'),
+    'confirm': ('confirm', 'node.py', '--python', '/bin/false'),
+    'confirm, again': ('confirm', '--replay', 'confirm.json', '--python', '/bin/echo'),
+    'explore': ('explore', '--python', '/bin/echo', '--', '/bin/true'),
+    'explore, again': ('explore', '--replay', 'explore.json'),
     'surrogates': ('check', 'nowhere\udcff\udc80.py'),
 }
 
@@ -140,6 +154,10 @@ def fill(folder: Path) -> None:
     (folder / 'trace.jsonl').write_text(''.join(f'{line}\n' for line in trace_lines()))
     shutil.copy(MODELS[0], folder / 'model.xml')
     (folder / 'package.xml').write_text(MANIFEST.format(name='arm'))
+    (folder / 'arm.launch.xml').write_text('<launch><node pkg="arm" exec="node.py"/></launch>')
+    (folder / 'CMakeLists.txt').write_text('install(PROGRAMS node.py DESTINATION lib/arm)')
+    (folder / 'confirm.json').write_text(write_schedule(SCHEDULE))
+    (folder / 'explore.json').write_text(write_found(FOUND, SCENARIO, None))
     (folder / 'live').mkdir()
     (folder / 'live' / '7-1.json').write_text(json.dumps(recorded()))
     folder.chmod(0o755)

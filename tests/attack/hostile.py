@@ -19,6 +19,19 @@ import yaml
 from ros2cc_extract.extract.live.recorder.events import RAW_SUFFIX
 from tests.attack.arena import Attempt
 from tests.attack.bombs import bomb
+from tests.attack.hostile_replays import (
+    confirm_schedules,
+    explore_schedules,
+    flight_records,
+    recorded,
+)
+from tests.attack.hostile_systems import (
+    json_systems,
+    launch_bombs,
+    launch_files,
+    system_specs,
+    workspaces,
+)
 from tests.attack.mutations import as_json, damaged, reshaped, with_words
 from tests.attack.repositories import ATTACKS
 from tests.attack.test_special_files import KINDS
@@ -77,10 +90,17 @@ def json_of(tree: object, chance: random.Random, canary: Path) -> bytes:
 def sources(chance: random.Random, canary: Path) -> Attempt:
     text = text_of(chance.choice(TEXTS), OF_PYTHON, chance, canary)
     line = f'{chance.choice(RUNS)}\n'.replace('CANARY', str(canary)).encode()
-    command = chance.choice(('check', 'check', 'spec', 'spec', 'spec', 'model', 'verify'))
-    more = {'check': ('--timeout', '2', '--no-cache'), 'verify': SMALL, 'model': ('-o', 'out')}
+    command = chance.choice(
+        ('check', 'check', 'spec', 'spec', 'spec', 'model', 'verify', 'upgrade', 'system')
+    )
+    more = {
+        'check': ('--timeout', '2', '--no-cache'),
+        'verify': SMALL,
+        'model': ('-o', 'out'),
+        'upgrade': ('--from', 'jazzy', '--to', 'kilted'),
+    }
     return Attempt(
-        (command, 'node.py', *more.get(command, ())),
+        (command, '.' if command == 'system' else 'node.py', *more.get(command, ())),
         writing(node__py=line + text if chance.random() < 0.8 else text + b'\n' + line),
         ('out',),
     )
@@ -174,16 +194,6 @@ def configurations(chance: random.Random, canary: Path) -> Attempt:
     return Attempt(('check', 'node.py'), files)
 
 
-def recorded() -> dict[str, object]:
-    own = recordings
-    return own.data(
-        executors=[own.executor(1)],
-        nodes=[own.node(2, 'arm', own.stay(1, 10, None))],
-        groups=[own.group(3, node=2, default=True)],
-        entities=[own.timer(4, 2, 3, 'arm.Arm.tick'), own.timer(5, 2, 3, 'arm.Arm.tock')],
-    )
-
-
 def recordings_of(chance: random.Random, canary: Path) -> Attempt:
     raw = b''.join(recordings.event(n * 1000, 7, 'begin', 4) for n in range(40))
     is_raw = chance.random() < 0.3
@@ -271,6 +281,10 @@ NAMES = (
     '.git',
     '.gitignore',
     'evil.jsonl',
+    'evil.launch.xml',
+    'evil.launch.yaml',
+    'evil.launch.py',
+    'CMakeLists.txt',
 )
 READERS: tuple[tuple[str, ...], ...] = (
     ('check', '.'),
@@ -288,6 +302,16 @@ READERS: tuple[tuple[str, ...], ...] = (
     ('conform', 'evil.jsonl', 'clean.py'),
     ('collect', '.', '-o', 'out.yaml'),
     ('init', '.'),
+    ('system', '.'),
+    ('system', 'evil.launch.xml'),
+    ('system', 'evil.launch.yaml', 'evil.launch.py'),
+    ('system', 'evil.yaml'),
+    ('check', 'evil.launch.py'),
+    ('diff', '.', 'evil.yaml'),
+    ('upgrade', '--from', 'jazzy', '--to', 'kilted', '.'),
+    ('fleet', '.', '-o', 'out'),
+    ('explore', '--replay', 'evil.json'),
+    ('confirm', '--replay', 'evil.json'),
 )
 FIFOS = {'evil.yaml'}
 """What is named as a specification may be a pipe, and is waited for then."""
@@ -318,6 +342,16 @@ CLASSES: dict[str, tuple[Draw, int, int]] = {
     'baselines': (baselines, 6, 250),
     'configurations': (configurations, 6, 300),
     'recordings': (recordings_of, 10, 400),
+    'flight records': (flight_records, 10, 400),
+    'schedules of explore': (explore_schedules, 10, 300),
+    'schedules of confirm': (confirm_schedules, 10, 300),
+    'launch files in XML': (launch_files('.xml'), 10, 400),
+    'launch files in YAML': (launch_files('.yaml'), 10, 400),
+    'launch files in Python': (launch_files('.py'), 10, 400),
+    'launch files that explode': (launch_bombs, 4, 150),
+    'workspaces': (workspaces, 8, 300),
+    'systems': (system_specs, 10, 400),
+    'systems in JSON': (json_systems, 6, 200),
     'git configurations': (git_configurations, 6, 300),
     'special files': (special_files, 8, 400),
 }

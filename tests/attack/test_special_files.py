@@ -189,6 +189,20 @@ def test_an_unreadable_folder_is_told_and_weighs(mode: int, barred: bool, folder
 
 
 @as_root
+def test_an_unreadable_folder_among_launch_files_is_told(folder: Path) -> None:
+    """One that only the search for launch files would come by."""
+    launch = folder / 'arm.launch.xml'
+    launch.write_text('<launch/>')
+    (folder / 'hidden').mkdir(mode=0o000)
+    prefix = WITHOUT_RIGHTS if os.geteuid() == 0 else ()
+    plain = run_tool('system', '.', cwd=folder, prefix=prefix)
+    strict = run_tool('system', '.', '--strict', cwd=folder, prefix=prefix)
+    (folder / 'hidden').chmod(0o700)
+    assert 'hidden: error: cannot be looked into' in plain.err
+    assert (plain.status, strict.status) == (0, 2)
+
+
+@as_root
 def test_the_linter_fails_on_an_unreadable_folder(folder: Path) -> None:
     hidden = folder / 'hidden'
     hidden.mkdir(mode=0o000)

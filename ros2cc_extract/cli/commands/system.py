@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import add_cache_argument
-from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_UNDECIDED
+from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR, EXIT_UNDECIDED
 from ros2cc_extract.cli.shared.running import add_running_arguments, running_sides
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.output import write_text
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.files import DISK
-    from ros2cc_extract.pipeline.sources import print_diagnostics
+    from ros2cc_extract.pipeline.sources import has_barred, has_unread, print_diagnostics
     from ros2cc_extract.pipeline.system_paths import sides_of
     from ros2cc_extract.pipeline.system_sources import divided
     from ros2cc_extract.spec.system.system_yaml import system_schema
@@ -66,10 +66,13 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if not sides:
         mend = 'name a launch file or a folder, or look at what runs by --running'
         raise InputError('no path given', None, mend)
-    print_diagnostics([d for side in sides for d in side.diagnostics], stderr)
+    noticed = [d for side in sides for d in side.diagnostics]
+    print_diagnostics(noticed, stderr)
     systems = sides[0].systems if len(sides) == 1 else (_joined(sides, stderr),)
     write_text(_written(systems, args.output_format, sides[0]), args.output, stdout)
-    is_open = any(system.unresolved for system in systems)
+    if args.strict and has_barred(noticed):
+        return EXIT_ERROR
+    is_open = any(system.unresolved for system in systems) or has_unread(noticed)
     return EXIT_UNDECIDED if args.strict and is_open else EXIT_CLEAN
 
 

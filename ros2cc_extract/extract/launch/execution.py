@@ -31,7 +31,7 @@ from ros2cc_extract.extract.launch.language.actions import (
 from ros2cc_extract.extract.launch.language.context import Context, Value
 from ros2cc_extract.extract.launch.language.evaluation import Evaluator
 from ros2cc_extract.extract.launch.language.substitutions import Expression
-from ros2cc_extract.extract.launch.process_facts import ProcessFacts
+from ros2cc_extract.extract.launch.process_facts import ProcessFacts, allowed
 from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.source_locations import Place, Unknown, shown_name
 from ros2cc_extract.spec.system.launched import Launched
@@ -39,6 +39,8 @@ from ros2cc_extract.spec.system.names import Remap, joined_namespace
 
 _DEEPEST = 25
 _MOST_ACTIONS = 50_000
+# Some thousand processes, or fewer with more that is said of each.
+_MOST_COST, _COST_OF_PROCESS, _COST_OF_FACT, _LETTERS_FOR_ONE = 100_000, 100, 4, 100
 Load = Callable[[Path, Context], Sequence[Action]]
 UNRESOLVED = 'launch-unresolved'
 """Slug of what a launch file says that could not be told."""
@@ -65,7 +67,7 @@ class Execution:
         self._facts = ProcessFacts(context, self._evaluator, packages)
         self._doubts: list[Unknown] = []
         self._later: list[str] = []
-        self._depth = self._steps = 0
+        self._depth = self._steps = self._cost = 0
 
     def include(self, path: Path) -> None:
         """Follow a launch file."""
@@ -117,6 +119,11 @@ class Execution:
             self._set(action)
 
     def _start(self, launched: Launched) -> None:
+        was_followed, self._cost = self._cost <= _MOST_COST, self._cost + _cost_of(launched)
+        if self._cost > _MOST_COST:
+            if was_followed:
+                self._note(launched.source, Unknown('launch starts more than can be followed'))
+            return
         conditional = self._doubts[-1] if self._doubts else None
         later = self._later[-1] if self._later else ''
         self.found.append(replace(launched, conditional=conditional, later=later))
@@ -129,9 +136,11 @@ class Execution:
             self._set_configuration(action)
         elif isinstance(action, PushNamespace):
             pushed = self._sure(self._evaluator.value(action.namespace))
-            self._context.scope = replace(scope, namespace=_below(scope.namespace, pushed))
+            below = allowed(_below(scope.namespace, pushed))
+            self._context.scope = replace(scope, namespace=below)
         elif isinstance(action, PushRemap):
-            old, new = self._evaluator.value(action.old), self._evaluator.value(action.new)
+            old = allowed(self._evaluator.value(action.old))
+            new = allowed(self._evaluator.value(action.new))
             if isinstance(old, Unknown) or isinstance(new, Unknown) or self._doubts:
                 self._note(action.place, Unknown('remap of the scope is not known'))
             else:
@@ -215,6 +224,14 @@ class Execution:
                 help='what it would start is missing from the system',
             )
         )
+
+
+def _cost_of(launched: Launched) -> int:
+    """What comes after grows with it: each node has what rclpy makes, under names of its own."""
+    told = (launched.name, launched.namespace, *launched.remaps, *launched.command)
+    letters = sum(len(str(each)) for each in told if each is not None)
+    facts = len(launched.remaps) + len(launched.parameters)
+    return _COST_OF_PROCESS + _COST_OF_FACT * facts + letters // _LETTERS_FOR_ONE
 
 
 def _below(base: Value | None, pushed: Value) -> Value:

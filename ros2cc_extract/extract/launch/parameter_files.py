@@ -13,27 +13,33 @@ import yaml
 
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.launched import SetParameter
+from ros2cc_extract.spec.yaml.bounds import LOADER, UnboundedYamlError, check, composed_alone
 
 _PARAMETERS = 'ros__parameters'
 _DEEPEST = 20
-_LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
+_SCALARS = (bool, int, float, str, type(None))
 
 
 def parameters_in(text: str, shown: str) -> tuple[SetParameter, ...] | Unknown:
     """The parameters that a file sets."""
     try:
-        root = yaml.compose(text, Loader=_LOADER)
+        root = composed_alone(text)
+    except UnboundedYamlError as error:
+        return Unknown(f'parameter file: {error.problem}', Place(shown))
     except (yaml.YAMLError, RecursionError, ValueError):
         return Unknown('parameter file is no YAML', Place(shown))
     return tuple(_of_nodes(root, '', shown, 0))
 
 
 def read_value(text: str) -> object:
-    """A value as YAML reads it; the text itself where that fails."""
+    """A value as YAML reads it; the text itself where that fails, or gives what ROS has not."""
     try:
-        return yaml.load(text, Loader=_LOADER)
-    except (yaml.YAMLError, RecursionError, ValueError):
+        check(text)
+        value = yaml.load(text, Loader=LOADER)
+    except (yaml.YAMLError, UnboundedYamlError, RecursionError, ValueError):
         return text
+    each = value if isinstance(value, list) else [value]
+    return value if all(isinstance(one, _SCALARS) for one in each) else text
 
 
 def _of_nodes(

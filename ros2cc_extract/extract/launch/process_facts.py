@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 from ros2cc_extract.extract.launch.language.actions import (
     Constant,
@@ -24,7 +25,10 @@ from ros2cc_extract.spec.system.names import Remap, joined_namespace, read_remap
 
 _ROS_ARGUMENTS = '--ros-args'
 _REMAP, _PARAMETER, _FILE = ('-r', '--remap'), ('-p', '--param'), ('--params-file',)
+# rmw (Jazzy): RMW_NODE_NAME_MAX_NAME_LENGTH, and less for a topic or a namespace.
+_MOST_LETTERS = 255
 Open = list[tuple[str, Unknown]]
+V = TypeVar('V', Value, Value | None)
 
 
 class ProcessFacts:
@@ -34,6 +38,7 @@ class ProcessFacts:
         self._context = context
         self._evaluator = evaluator
         self._packages = packages
+        self._read: dict[str, Sequence[SetParameter] | Unknown] = {}
 
     def of_node(self, action: StartNode) -> Launched:
         """What ``Node`` and the like start."""
@@ -48,8 +53,8 @@ class ProcessFacts:
             source=action.place,
             package=self._optional(action.package),
             executable=self._optional(action.executable),
-            name=self._optional(action.name) or None,
-            namespace=self._namespace(action.namespace),
+            name=allowed(self._optional(action.name) or None),
+            namespace=allowed(self._namespace(action.namespace)),
             remaps=tuple(remaps),
             parameters=tuple(parameters),
             open=tuple(open_facts),
@@ -95,7 +100,7 @@ class ProcessFacts:
 
     def _remaps(self, action: StartNode, open_facts: Open) -> Iterator[Remap]:
         for old, new in action.remaps:
-            left, right = self._evaluator.value(old), self._evaluator.value(new)
+            left, right = (allowed(self._evaluator.value(each)) for each in (old, new))
             why = next((each for each in (left, right) if isinstance(each, Unknown)), None)
             if why is not None:
                 open_facts.append(('remappings', why))
@@ -131,7 +136,15 @@ class ProcessFacts:
         if not self._packages.has(Path(path)):
             open_facts.append(('parameters', Unknown(f'parameter file {path} is not there')))
             return
-        found = parameters_in(self._packages.text(Path(path)), shown_name(path))
+        found = self._read.get(path)
+        if found is None:
+            content = self._packages.content(Path(path))
+            found = (
+                Unknown('parameter file cannot be read', Place(shown_name(path)))
+                if content is None
+                else parameters_in(content, shown_name(path))
+            )
+            self._read[path] = found
         if isinstance(found, Unknown):
             open_facts.append(('parameters', found))
         else:
@@ -168,3 +181,10 @@ class ProcessFacts:
             elif flag in _FILE:
                 parameters.extend(self._from_file(word, open_facts))
         return tuple(parameters), remaps
+
+
+def allowed(name: V) -> V | Unknown:
+    """A name, unless it is longer than ROS takes: a process with it does not come up."""
+    if isinstance(name, str) and len(name) > _MOST_LETTERS:
+        return Unknown(f'name of {len(name)} letters: ROS allows {_MOST_LETTERS}')
+    return name

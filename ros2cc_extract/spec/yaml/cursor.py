@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from enum import Enum
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import yaml
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.yaml.bounds import TOO_DEEP, UnboundedYamlError, composed
 
-_LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 _TAG = 'tag:yaml.org,2002:'
-MOST_DEPTH = 100
 _KINDS = {
     'map': 'a mapping',
     'seq': 'a list',
@@ -158,44 +157,23 @@ def compose(text: str, file: str) -> Iterator[Cursor]:
     :raises SpecFormatError: when the text is no YAML.
     """
     try:
-        _check_depth(text, file)
-        for root in yaml.compose_all(text, Loader=_LOADER):
+        for root in composed(text):
             if root is not None:
                 yield Cursor(root, file)
+    except UnboundedYamlError as error:
+        raise SpecFormatError(error.problem, _place_of(error.mark, file), _NO_YAML) from None
     except yaml.MarkedYAMLError as error:
         raise SpecFormatError(_problem(error), _error_place(error, file), _NO_YAML) from None
     except yaml.YAMLError as error:
         raise SpecFormatError(str(error).splitlines()[0], Place(file), _NO_YAML) from None
 
 
-def _check_depth(text: str, file: str) -> None:
-    """
-    Refuse what libyaml would compose by calls of itself until the stack is full.
-
-    PyYAML 6.0.2 composes recursively in C, and nothing bounds it; reading events keeps a list.
-    That of 6.0.4 ends at 1,000 levels, which it may have read before it gives the first event.
-    """
-    depth = 0
-    for event in yaml.parse(text, Loader=_LOADER):
-        if isinstance(event, yaml.CollectionStartEvent):
-            depth += 1
-        elif isinstance(event, yaml.CollectionEndEvent):
-            depth -= 1
-        if depth > MOST_DEPTH:
-            raise SpecFormatError(
-                _TOO_DEEP,
-                _place_of(cast('yaml.Mark | None', event.start_mark), file),
-                _NO_YAML,
-            )
-
-
 _NO_YAML = 'a specification is a YAML mapping with the key node'
-_TOO_DEEP = 'the YAML is nested too deeply'
 
 
 def _problem(error: yaml.MarkedYAMLError) -> str:
     if 'nesting depth' in (error.problem or ''):
-        return _TOO_DEEP
+        return TOO_DEEP
     return f'no valid YAML: {error.problem or error.context or "cannot be parsed"}'
 
 

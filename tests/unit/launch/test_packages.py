@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -90,3 +91,26 @@ def test_what_of_a_setup_file_is_not_known_is_told(tmp_path: Path) -> None:
     why = 'console scripts: mine.scripts is not followed'
     assert packages(home).unread('robot') == (Unknown(why, place),)
     assert packages(home).unread('elsewhere') == ()
+
+
+def test_variables_that_double_are_put_in_up_to_a_bound(tmp_path: Path) -> None:
+    """Of 2 to the 60 words there would be no end; what comes before them is still read."""
+    home = package(tmp_path)
+    doubled = 'set(A ${A} ${A})\nset(B "${B}${B}")\n' * 60
+    (home / 'CMakeLists.txt').write_text(
+        'install(PROGRAMS talk.py DESTINATION lib/robot)\nset(A a.py)\nset(B b)\n'
+        f'{doubled}install(PROGRAMS ${{A}} ${{B}} DESTINATION lib/robot)\n'
+        'set(C late.py)\ninstall(PROGRAMS ${C} DESTINATION lib/robot)\n'
+    )
+    for name in ('talk.py', 'late.py'):
+        (home / name).write_text('')
+    assert packages(home).executable('robot', 'talk.py') == Executable(home / 'talk.py')
+    assert packages(home).executable('robot', 'late.py') is None
+
+
+def test_a_word_without_an_end_is_looked_at_once(tmp_path: Path) -> None:
+    home = package(tmp_path)
+    begun = time.process_time()
+    (home / 'CMakeLists.txt').write_text('a' * 900_000 + '\n' + 'set(' * 20_000)
+    assert packages(home).executable('robot', 'talk.py') is None
+    assert time.process_time() - begun < 5

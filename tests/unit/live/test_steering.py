@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -172,4 +173,8 @@ def test_a_place_within_a_line_is_told_only_there(
 ) -> None:
     assert lines_told(tmp_path, told, 'wait', first=3, last=3, column=9)[:1] == [('reached', 0)]
     (tmp_path / 'report').unlink()
-    assert lines_told(tmp_path, told, 'wait', first=3, last=3, column=60) == []
+    elsewhere = lines_told(tmp_path, told, 'wait', first=3, last=3, column=60)
+    # Python 3.10 does not say where in a line an instruction stands: all of the line counts.
+    assert elsewhere == (
+        [] if sys.version_info >= (3, 11) else [('reached', 0), ('passed', 0)] * 2
+    )

@@ -292,8 +292,9 @@ def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     scenario, found = read_found(args.replay)
     python = _python_of(args, scenario.command)
-    release_of(python)
+    # Before all else: the interpreter, too, may be one that the file names.
     ask_to_run(shlex.join(scenario.command), stderr, yes=args.yes)
+    release_of(python)
     deadline = time.monotonic() + args.max_seconds
 
     def once(rows: Sequence[Row], until: object) -> Process:

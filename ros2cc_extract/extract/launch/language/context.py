@@ -38,12 +38,15 @@ class Context:
     The state of one launch.
 
     :ivar unset: arguments without a value that something asked for, by name, with the place.
+    :ivar steps: of Python files that were followed.
+    :ivar letters: of texts that were put together.
     """
 
     def __init__(self, arguments: dict[str, str]) -> None:
         self.scope = Scope(configurations=dict(arguments))
         self.file = ''
         self.unset: dict[str, Place | None] = {}
+        self.steps = self.letters = 0
 
     def set(self, name: str, value: Value) -> None:
         """Set a configuration for what follows in this scope."""

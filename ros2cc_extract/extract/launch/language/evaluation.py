@@ -8,7 +8,7 @@ Source: launch (Jazzy) ``substitutions/``, ``conditions/evaluate_condition_expre
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path as FilePath
 
 from ros2cc_extract.extract.launch.language.actions import Condition
@@ -29,6 +29,8 @@ from ros2cc_extract.extract.launch.language.substitutions import (
 )
 from ros2cc_extract.source_locations import Unknown
 
+# Of all texts that are put together in one launch: what refers to what refers to it doubles.
+_MOST_LETTERS = 2_000_000
 _TRUE, _FALSE = ('true', '1'), ('false', '0')
 ShareOf = Callable[[str], FilePath | None]
 
@@ -52,6 +54,12 @@ class Evaluator:
             if isinstance(part, Unknown):
                 return part
             parts.append(part)
+        return parts[0] if len(parts) == 1 else self._joined(parts)
+
+    def _joined(self, parts: Sequence[str]) -> Value:
+        self._context.letters += sum(map(len, parts)) + 1
+        if self._context.letters > _MOST_LETTERS:
+            return Unknown('texts of the launch are too long to be put together')
         return ''.join(parts)
 
     def holds(self, condition: Condition) -> bool | Unknown:
@@ -109,7 +117,9 @@ class Evaluator:
             if isinstance(value, Unknown):
                 return value
             parts.append(value)
-        return os.path.join(*parts) if parts else ''  # noqa: PTH118
+        joined = self._joined(parts)
+        is_known = parts and not isinstance(joined, Unknown)
+        return os.path.join(*parts) if is_known else joined  # noqa: PTH118
 
     def _share(self, part: Share) -> Value:
         name = self.value(part.package)

@@ -13,9 +13,9 @@ import yaml
 
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.yaml.bounds import UnboundedYamlError, composed_alone
 
 _DEEPEST = 60
-_LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 
 
 @dataclass
@@ -67,7 +67,9 @@ def read_xml(data: bytes, shown: str) -> Element | Unknown:
 def read_yaml(data: bytes, shown: str) -> Element | Unknown:
     """The root of a YAML file: ``launch`` with a list of one-key mappings."""
     try:
-        root = yaml.compose(data.decode(errors='replace'), Loader=_LOADER)
+        root = composed_alone(data.decode(errors='replace'))
+    except UnboundedYamlError as error:
+        return Unknown(error.problem, Place(shown, error.mark.line + 1 if error.mark else 1, 1))
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         mark = getattr(error, 'problem_mark', None)
         line = mark.line + 1 if mark is not None else 1

@@ -37,7 +37,8 @@ from ros2cc_extract.source_locations import Place, Unknown
 
 _START = 'generate_launch_description'
 _LIBRARIES = ('launch', 'launch_ros', 'launch_xml', 'launch_yaml')
-_STEPS = 200_000
+# Of one piece, and of all files of a launch with all that their functions give.
+_STEPS, _STEPS_IN_ALL = 200_000, 800_000
 
 
 class _LaunchInterpreter(Interpreter):
@@ -106,8 +107,9 @@ class PythonFile:
 
     def _bounded(self, act: Callable[[], None], place: Place) -> list[Action]:
         """Do ``act``; what is too large or nested too deeply is told."""
-        machine = self._machine
-        machine.steps, machine.step_limit = 0, _STEPS
+        machine, context = self._machine, self._context
+        machine.steps = context.steps
+        machine.step_limit = min(context.steps + _STEPS, _STEPS_IN_ALL)
         try:
             with scanning_limits():
                 act()
@@ -116,6 +118,7 @@ class PythonFile:
         except RecursionError:
             return [Unfollowed(place=place, why=Unknown('it is nested too deeply'))]
         finally:
+            context.steps = machine.steps
             machine.stack.clear()
             machine.depth = 0
             machine.world.path, machine.world.stopped = (), False

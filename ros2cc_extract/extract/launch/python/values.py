@@ -56,6 +56,7 @@ _CONDITIONS = {
     'LaunchConfigurationEquals': 'equals',
     'LaunchConfigurationNotEquals': 'differs',
 }
+_STEPS_OF_ONE = 2
 _SCALARS = (str, int, float, bool)
 
 
@@ -79,7 +80,12 @@ class Values:
         self._machine = machine
 
     def items(self, value: Value | None, place: Place) -> tuple[list[Value], Unknown | None]:
-        """The items of a list, and why there may be more."""
+        """
+        The items of a list, and why there may be more.
+
+        :raises BudgetError: as ``expression``.
+        """
+        self._machine.charge(_STEPS_OF_ONE)
         if value is None or value == NONE:
             return [], None
         if isinstance(value, Mystery):
@@ -90,7 +96,13 @@ class Values:
         return list(items), rest
 
     def expression(self, value: Value | None, place: Place) -> Expression:
-        """What a text, a substitution or a list of these stands for."""
+        """
+        What a text, a substitution or a list of these stands for.
+
+        :raises BudgetError: where so much is made of it, an object that stands in several places
+            once for each.
+        """
+        self._machine.charge(_STEPS_OF_ONE)
         if value is None or value == NONE:
             return ()
         if isinstance(value, Const):
@@ -209,6 +221,7 @@ class Values:
         self, value: Mapping, prefix: Expression, place: Place
     ) -> Iterator[ParameterSource]:
         for key, entry in value.entries.items():
+            self._machine.charge(_STEPS_OF_ONE)
             name = (*prefix, *self.expression(key, place))
             if isinstance(entry, Mapping):
                 yield from self._entries(entry, (*name, Text('.')), place)

@@ -10,10 +10,11 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-_COMMAND = re.compile(r'(\w+)\s*\(([^()]*)\)')
+_COMMAND = re.compile(r'\b(\w+)\s*\(([^()]*)\)')
 _COMMENT = re.compile(r'#[^\n]*')
 _WORD = re.compile(r'"([^"]*)"|(\S+)')
 _VARIABLE = re.compile(r'\$\{(\w+)\}')
+_MOST_LETTERS = 2_000_000
 _KEYWORDS = frozenset(
     ['DESTINATION', 'RENAME', 'PERMISSIONS', 'COMPONENT', 'OPTIONAL', 'USE_SOURCE_PERMISSIONS']
 )
@@ -21,31 +22,45 @@ _KEYWORDS = frozenset(
 
 def installed_programs(text: str) -> Iterator[tuple[str, str]]:
     """Each program with its name when it is installed; a folder ends in ``/``, and gives all."""
-    variables: dict[str, list[str]] = {'PROJECT_NAME': [], 'CMAKE_CURRENT_SOURCE_DIR': ['.']}
+    variables = _Variables({'PROJECT_NAME': [], 'CMAKE_CURRENT_SOURCE_DIR': ['.']})
     for command, words in _commands(text, variables):
         if command == 'set' and words:
-            variables[words[0]] = words[1:]
+            variables.set(words[0], words[1:])
         elif command == 'install' and words and words[0] in ('PROGRAMS', 'DIRECTORY'):
             yield from _of_install(words)
 
 
 def targets_of(text: str) -> frozenset[str]:
     """The programs that are built."""
-    found = _commands(text, {})
+    found = _commands(text, _Variables({}))
     return frozenset(words[0] for command, words in found if command == 'add_executable' and words)
 
 
-def _commands(text: str, variables: dict[str, list[str]]) -> Iterator[tuple[str, list[str]]]:
+class _Variables:
+    """What ``set`` has said. Values of values double: beyond a bound none is put in any more."""
+
+    def __init__(self, values: dict[str, list[str]]) -> None:
+        self._values = values
+        self._left = _MOST_LETTERS
+
+    def set(self, name: str, words: list[str]) -> None:
+        self._values[name] = words
+
+    def expanded(self, word: str) -> list[str]:
+        """The words that stand for one, with the values of its variables."""
+        found = [self._values.get(name) or [] for name in _VARIABLE.findall(word)]
+        self._left -= sum(len(each) + 1 for words in found for each in words)
+        if not any(found) or self._left < 0:
+            return [word]
+        if _VARIABLE.fullmatch(word):
+            return found[0]
+        return [_VARIABLE.sub(lambda m: ' '.join(self._values.get(m[1]) or [m[0]]), word)]
+
+
+def _commands(text: str, variables: _Variables) -> Iterator[tuple[str, list[str]]]:
     for match in _COMMAND.finditer(_COMMENT.sub('', text)):
         words = [quoted or plain for quoted, plain in _WORD.findall(match.group(2))]
-        yield match.group(1).lower(), [w for word in words for w in _expanded(word, variables)]
-
-
-def _expanded(word: str, variables: dict[str, list[str]]) -> list[str]:
-    whole = _VARIABLE.fullmatch(word)
-    if whole and variables.get(whole.group(1)):
-        return variables[whole.group(1)]
-    return [_VARIABLE.sub(lambda m: ' '.join(variables.get(m.group(1)) or [m.group(0)]), word)]
+        yield match.group(1).lower(), [w for word in words for w in variables.expanded(word)]
 
 
 def _of_install(words: list[str]) -> Iterator[tuple[str, str]]:

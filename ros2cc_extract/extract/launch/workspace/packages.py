@@ -86,10 +86,14 @@ class Packages:
 
     def text(self, path: Path) -> str:
         """A file as text, empty where it cannot be read."""
+        return self.content(path) or ''
+
+    def content(self, path: Path) -> str | None:
+        """A file as text, ``None`` where it cannot be read."""
         try:
             return self._files.read(path, MOST_BYTES).decode(errors='replace')
         except (OSError, ValueError):
-            return ''
+            return None
 
     def has(self, path: Path) -> bool:
         """Whether a file is there."""

@@ -26,6 +26,10 @@ from ros2cc_extract.source_locations import Place, Unknown
 
 _WITHOUT_TOML = 'Python before 3.11 cannot read it by itself: install tomli'
 _MAY_DECLARE = re.compile(r'scripts|entry-points|script-files')
+# configparser keeps a list of all that is wrong, which takes the square of its length.
+_MOST_LETTERS = 100_000
+# Words that are no line of their own are looked for in every line.
+_MOST_SEARCHES = 1_000
 Found = Script | Program | Unknown
 
 
@@ -33,7 +37,7 @@ def of_cfg(text: str, shown: str) -> Declarations:
     """What a ``setup.cfg`` declares."""
     parser = configparser.ConfigParser(interpolation=None, strict=False, delimiters=('=', ':'))
     try:
-        parser.read_string(text)
+        _read_ini(parser, text)
     except (configparser.Error, ValueError) as error:
         return _unreadable(error, shown)
     place = _Places(text, shown)
@@ -51,7 +55,7 @@ def of_group_texts(text: str, place: Place) -> Iterator[Found]:
     parser = configparser.ConfigParser(interpolation=None, strict=False, delimiters=('=',))
     parser.optionxform = str  # type: ignore[assignment,method-assign]
     try:
-        parser.read_string(text)
+        _read_ini(parser, text)
     except (configparser.Error, ValueError) as error:
         yield Unknown(f'entry points cannot be read: {_first_line(error)}', place)
         return
@@ -59,6 +63,12 @@ def of_group_texts(text: str, place: Place) -> Iterator[Found]:
         if parser.has_section(group):
             for name, target in parser.items(group):
                 yield read_entry(f'{name} = {target}', place)
+
+
+def _read_ini(parser: configparser.ConfigParser, text: str) -> None:
+    if len(text) > _MOST_LETTERS:
+        raise ValueError(f'it is longer than {_MOST_LETTERS} letters')
+    parser.read_string(text)
 
 
 def of_lines(text: str, place_of: Callable[[str], Place]) -> Iterator[Found]:
@@ -126,15 +136,25 @@ class _Places:
     """The line in which a word begins: the parsers do not keep it."""
 
     def __init__(self, text: str, shown: str) -> None:
-        self._lines = text.splitlines()
+        self._lines = [line.strip().strip('"\'') for line in text.splitlines()]
+        self._whole: dict[str, int] = {}
+        for number, line in enumerate(self._lines, 1):
+            self._whole.setdefault(line, number)
+            self._whole.setdefault(line.partition('=')[0].strip(' "\''), number)
+        self._searches = 0
         self._shown = shown
 
     def of(self, word: str) -> Place:
-        """The first line that begins with ``word``, or else has it."""
-        lines = list(enumerate(self._lines, 1))
-        begins = (n for n, line in lines if line.strip().strip('"\'').startswith(word))
-        has = (n for n, line in lines if word in line)
-        return Place(self._shown, next(begins, 0) or next(has, 0))
+        """The line that is ``word`` or sets it; else the first that begins with it, or has it."""
+        return Place(self._shown, self._whole.get(word.strip('"\'')) or self._searched(word))
+
+    def _searched(self, word: str) -> int:
+        self._searches += 1
+        if self._searches > _MOST_SEARCHES:
+            return 0
+        begins = (n for n, line in enumerate(self._lines, 1) if line.startswith(word))
+        has = (n for n, line in enumerate(self._lines, 1) if word in line)
+        return next(begins, 0) or next(has, 0)
 
 
 def _unreadable(error: Exception, shown: str) -> Declarations:

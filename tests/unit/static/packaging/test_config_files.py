@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 
 import pytest
 
@@ -84,3 +85,24 @@ def test_a_broken_toml_file_is_named_where_it_may_declare_something() -> None:
     (why,) = of_toml('[project.scripts]\ntalk =\n', 'pyproject.toml').unread
     assert why.at == Place('pyproject.toml')
     assert of_toml('[tool.x\n', 'pyproject.toml') == Declarations()
+
+
+@pytest.mark.parametrize('line', ['console_scints]\n', 'a = b.c:d\n', '[x]\n'])
+def test_what_is_long_costs_little(line: str) -> None:
+    begun = time.process_time()
+    text = '[options.entry_points]\nconsole_scripts =\n' + line * (1_000_000 // len(line))
+    (why,) = of_cfg(text, 'setup.cfg').unread
+    assert why.reason == 'it cannot be read: it is longer than 100000 letters'
+    head, indented = '[options.entry_points]\nconsole_scripts =\n', f'  {line}'
+    of_cfg(head + indented * (99_000 // len(indented)), 'setup.cfg')
+    assert time.process_time() - begun < 8
+
+
+@needs_toml
+def test_programs_without_number_have_their_lines_at_little_cost() -> None:
+    begun = time.process_time()
+    names = ''.join(f'"n{number}"="m:f"\n' for number in range(50_000))
+    found = of_toml(f'[project.scripts]\n{names}', 'pyproject.toml')
+    assert len(found.scripts) == 50_000
+    assert found.scripts[-1].place == Place('pyproject.toml', 50_001)
+    assert time.process_time() - begun < 8
