@@ -196,7 +196,7 @@ class UnitWaits(DataWriters):
         return known
 
     def _is_foreign(self, on: object) -> bool:
-        """Whether a thread may be the one that sets it: a callback beside it helps only if it comes."""
+        """Whether a thread may set it; a callback that may, too, helps only if it comes."""
         if not isinstance(on, SettableRef):
             return False
         wakings = self._world.wakings.get(on.number, ())
