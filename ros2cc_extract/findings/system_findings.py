@@ -18,7 +18,7 @@ from ros2cc_extract.findings.rules.systems import (
     unused_settings,
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.joined_processes import circles_of, service_waits
+from ros2cc_extract.spec.system.circles.joined_processes import circles_of, service_waits
 from ros2cc_extract.spec.system.model import Process, System
 
 _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (

@@ -152,9 +152,7 @@ def main() -> int:
         install(python, prefix / 'prefix')
         for at in range(0, len(paths), args.together):
             chosen = enumerate(paths[at : at + args.together], args.domain)
-            group = [
-                start(path, python, args.sources, prefix / 'prefix', n) for n, path in chosen
-            ]
+            group = [start(path, python, args.sources, prefix / 'prefix', n) for n, path in chosen]
             for path, what in observe(group):
                 is_wrong = what.startswith('goes on') != ('_good.' in path.name)
                 wrong += is_wrong

@@ -10,9 +10,7 @@ class MapUser(Node):
     def __init__(self):
         super().__init__('map_user')
         answers = MutuallyExclusiveCallbackGroup()
-        self.get_map = self.create_client(
-            Trigger, 'map_server/get_map', callback_group=answers
-        )
+        self.get_map = self.create_client(Trigger, 'map_server/get_map', callback_group=answers)
         self.create_timer(0.2, self.step)
 
     async def step(self):

@@ -16,9 +16,7 @@ class Supervisor(Node):
         grants = MutuallyExclusiveCallbackGroup()
         if not self.declare_parameter('grants_beside', False).value:
             grants = self.default_callback_group
-        self.change = self.create_client(
-            ChangeState, '/arm/change_state', callback_group=answers
-        )
+        self.change = self.create_client(ChangeState, '/arm/change_state', callback_group=answers)
         self.create_service(Trigger, '~/grant', self.on_grant, callback_group=grants)
         self.create_timer(0.2, self.supervise)
         self.is_up = False

@@ -9,31 +9,28 @@ one name have that of their process before it.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, TIME, Act, Blocking, Waker
-from ros2cc_extract.spec.identifiers import mend
+from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined, why_not_joined
 from ros2cc_extract.spec.model import (
     Activity,
     Callback,
-    CallbackGroup,
     EntityKind,
-    Executor,
     Spec,
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.action_phases import needs_itself, with_phases
-from ros2cc_extract.spec.system.model import Process, System, SystemNode
+from ros2cc_extract.spec.system.circles.action_phases import needs_itself, with_phases
+from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, renamed_parts
+from ros2cc_extract.spec.system.model import Process, System
 
 _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
-_NOBODY = (OUTSIDE, TIME)
 _OFFERS = {EntityKind.SERVICE: 'service', EntityKind.ACTION_SERVER: 'action'}
 
 
@@ -118,10 +115,11 @@ class ServiceWait:
 
 def service_waits(process: Process) -> Iterator[ServiceWait]:
     """The waits of a process for answers."""
-    for unit in process.units:
-        names = _Names(process, unit)
-        clients = {each.name: each for each in unit.callbacks if each.entity in _CLIENTS}
-        doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
+    parts = parts_of(process)
+    names = PartNames(process, parts)
+    clients = {c.name: c for part in parts for c in part.callbacks if c.entity in _CLIENTS}
+    for unit, part in zip(process.working_units, parts, strict=True):
+        doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
         for doer in doers:
             for block in doer.blocking:
                 client = clients.get(block.on) if isinstance(block.on, str) else None
@@ -136,7 +134,7 @@ def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
     found: dict[tuple[str, str], list[Spec]] = defaultdict(list)
     for process in system.processes:
         for unit in process.units:
-            names = _Names(process, unit)
+            names = PartNames(process, [unit])
             for callback in unit.callbacks:
                 what = _OFFERS.get(callback.entity) if callback.entity is not None else None
                 key = names.key(callback) if what is not None else None
@@ -154,13 +152,16 @@ def _needed(process: Process) -> Iterator[tuple[str, str]]:
 
 def _why_not(process: Process) -> Unknown | None:
     """Why the executors of a process cannot be put beside others."""
+    if len(process.working_units) > 1 and parts_of(process) is process.working_units:
+        what = f'what the executors of {process.name} do to each other is not known'
+        return Unknown(what, process.launched.source)
     if process.launched.conditional is not None:
         doubt = process.launched.conditional
         return Unknown(f'{process.name} may not be started: {doubt.reason}', doubt.at)
     if not process.launched.is_beside_others:
         later = process.launched.later
         return Unknown(f'{process.name} is begun by the {later}', process.launched.source)
-    for unit in process.units:
+    for unit in process.working_units:
         executor = unit.executor
         is_known = isinstance(executor.kind, str) and executor.kind in KINDS
         is_spun = executor.spun is not None and executor.alternative is None
@@ -173,13 +174,7 @@ def _why_not(process: Process) -> Unknown | None:
 
 def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
-    shared = _shared_names([unit for process in circle for unit in process.units])
-    parts = [
-        _renamed(process, unit, _prefix(process, number), shared)
-        for process in circle
-        for number, unit in enumerate(process.units)
-    ]
-    parts = with_phases(parts)
+    parts = with_phases(renamed_parts(circle))
     try:
         whole = _whole(parts)
     except SpecFormatError as error:
@@ -191,7 +186,7 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     if found is None:
         why = why_not_joined(whole, parts)
         return Unknown(why) if why else None
-    counts = [len(process.units) for process in circle]
+    counts = [len(process.working_units) for process in circle]
     by_process: list[tuple[str, ...]] = []
     at = 0
     for count in counts:
@@ -214,159 +209,3 @@ def _whole(parts: Sequence[Spec]) -> Spec:
         sources=tuple(dict.fromkeys(file for part in parts for file in part.sources)),
         rclpy=first.rclpy,
     )
-
-
-class _Names:
-    """The names that the parts of one unit have in the system."""
-
-    def __init__(
-        self,
-        process: Process,
-        unit: Spec,
-        prefix: str = '',
-        shared: frozenset[str] = frozenset(),
-    ) -> None:
-        self._nodes: dict[str, SystemNode] = {
-            node.own_name: node for node in process.nodes if isinstance(node.own_name, str)
-        }
-        self._prefix = prefix
-        self._shared = shared
-        self._own = {
-            *(each.name for each in unit.callbacks),
-            *(each.name for each in unit.activities),
-        }
-
-    def name(self, name: str) -> str:
-        """A name of the unit, with that of its process before it where others have it too."""
-        return f'{self._prefix}{name}' if name in self._shared else name
-
-    def doer(self, name: str) -> str:
-        """A callback or activity; time and what is outside have no process."""
-        return name if name in _NOBODY else self.name(name)
-
-    def on(self, on: str | Unknown | None) -> str | Unknown | None:
-        """What is waited for, where that is a part of the unit."""
-        return self.name(on) if isinstance(on, str) and on in self._own else on
-
-    def key(self, callback: Callback) -> str | Unknown | None:
-        """The resolved name of a topic, service or action; a done-callback names its client."""
-        key = callback.key
-        node = self._nodes.get(callback.node) if isinstance(callback.node, str) else None
-        if not isinstance(key, str):
-            return key
-        if callback.entity is EntityKind.DONE_CALLBACK:
-            return self.name(key) if key in self._own else self._of_name(key, node)
-        if node is None:
-            return Unknown('its node is not known in the system', callback.source)
-        for endpoint in node.endpoints:
-            if endpoint.source == callback.source and endpoint.written == key:
-                return endpoint.name
-        return self._of_name(key, node)
-
-    def _of_name(self, key: str, node: SystemNode | None) -> str | Unknown:
-        """A name by the rules alone, as of what rclpy itself makes."""
-        ends = node.endpoints if node is not None else ()
-        named = {end.name for end in ends if end.written == key}
-        if len(named) == 1:
-            return named.pop()
-        if node is not None and node.naming is not None:
-            return node.naming.resolved(key, is_service=True)
-        return Unknown('its name in the system is not known')
-
-
-def _prefix(process: Process, number: int) -> str:
-    label = mend(process.name.replace('.', '_'))
-    return f'{label}_' if len(process.units) == 1 else f'{label}_{number}_'
-
-
-def _shared_names(units: Sequence[Spec]) -> frozenset[str]:
-    """What parts of several units are called; the others keep their names."""
-    counted = Counter(name for unit in units for name in set(_names_in(unit)))
-    return frozenset(name for name, number in counted.items() if number > 1)
-
-
-def _names_in(unit: Spec) -> Iterator[str]:
-    yield from unit.nodes
-    yield unit.name
-    yield from (each.name for each in unit.callbacks)
-    yield from (each.name for each in unit.groups)
-    yield from (each.name for each in unit.activities)
-    doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
-    for doer in doers:
-        yield from (act.name for act in doer.locks if isinstance(act.name, str))
-        for block in doer.blocking:
-            yield from (block.resource, *block.held) if block.resource else block.held
-
-
-def _renamed(process: Process, unit: Spec, prefix: str, shared: frozenset[str]) -> Spec:
-    names = _Names(process, unit, prefix, shared)
-    return replace(
-        unit,
-        name=names.name(unit.name),
-        nodes=tuple(names.name(node) for node in unit.nodes),
-        callbacks=tuple(_callback(each, names) for each in unit.callbacks),
-        groups=tuple(_group(each, names) for each in unit.groups),
-        activities=tuple(_activity(each, names) for each in unit.activities),
-        executor=_executor(unit.executor, names),
-        unresolved=(),
-    )
-
-
-def _callback(callback: Callback, names: _Names) -> Callback:
-    return replace(
-        callback,
-        name=names.name(callback.name),
-        group=names.name(callback.group),
-        node=names.name(callback.node) if isinstance(callback.node, str) else callback.node,
-        key=names.key(callback),
-        alternative=None if callback.alternative is None else names.name(callback.alternative),
-        blocking=tuple(_blocking(each, names) for each in callback.blocking),
-        locks=tuple(_lock(each, names) for each in callback.locks),
-        reads=(),
-        writes=(),
-        pieces=(),
-    )
-
-
-def _activity(activity: Activity, names: _Names) -> Activity:
-    return replace(
-        activity,
-        name=names.name(activity.name),
-        node=names.name(activity.node) if isinstance(activity.node, str) else activity.node,
-        starts=tuple(_waker(each, names) for each in activity.starts),
-        blocking=tuple(_blocking(each, names) for each in activity.blocking),
-        locks=tuple(_lock(each, names) for each in activity.locks),
-        reads=(),
-        writes=(),
-        pieces=(),
-    )
-
-
-def _group(group: CallbackGroup, names: _Names) -> CallbackGroup:
-    node = names.name(group.node) if group.node is not None else None
-    return replace(group, name=names.name(group.name), node=node)
-
-
-def _executor(executor: Executor, names: _Names) -> Executor:
-    threads = tuple(names.name(thread) for thread in executor.threads)
-    return replace(executor, name=names.name(executor.name), threads=threads)
-
-
-def _blocking(block: Blocking, names: _Names) -> Blocking:
-    return replace(
-        block,
-        on=names.on(block.on),
-        held=tuple(names.name(lock) for lock in block.held),
-        resource=None if block.resource is None else names.name(block.resource),
-        wakers=tuple(_waker(each, names) for each in block.wakers),
-    )
-
-
-def _waker(waker: Waker, names: _Names) -> Waker:
-    held = tuple(names.name(lock) for lock in waker.held)
-    return replace(waker, by=names.doer(waker.by), held=held)
-
-
-def _lock(act: Act, names: _Names) -> Act:
-    name = names.name(act.name) if isinstance(act.name, str) else act.name
-    return replace(act, name=name, held=tuple(names.name(lock) for lock in act.held))
