@@ -176,7 +176,7 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
     parts = with_phases(renamed_parts(circle))
     try:
-        whole = _whole(parts)
+        whole = whole_of(parts)
     except SpecFormatError as error:
         return Unknown(str(error))
     goal = needs_itself(whole)
@@ -196,7 +196,8 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     return replace(found, parts=tuple(by_process), between=_BETWEEN)
 
 
-def _whole(parts: Sequence[Spec]) -> Spec:
+def whole_of(parts: Sequence[Spec]) -> Spec:
+    """All parts side by side, as if one executor served them."""
     first = parts[0]
     return Spec(
         name='_and_'.join(dict.fromkeys(part.nodes[0] for part in parts if part.nodes))[:80],
