@@ -9,6 +9,7 @@ from ros2cc_extract.findings.base.rule import Hit, Rule
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import UNDECIDED
 from ros2cc_extract.findings.rules.systems import (
+    life_cycle,
     near_names,
     qos,
     same_node_name,
@@ -29,6 +30,7 @@ _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (same_node_name.RULE, same_node_name.find),
     (unused_settings.RULE, unused_settings.find),
     (start_order.RULE, start_order.find),
+    (life_cycle.RULE, life_cycle.find),
 )
 
 

@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.program.given_parameters import GivenParamete
 from ros2cc_extract.files import Files
 from ros2cc_extract.pipeline.units_in_systems import with_neighbours
 from ros2cc_extract.source_locations import Unknown, shown_name
-from ros2cc_extract.spec.model import Unresolved
+from ros2cc_extract.spec.model import Spec, Unresolved
 from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
 from ros2cc_extract.spec.system.model import Process, System, SystemNode
@@ -77,6 +77,7 @@ def scan_system(
         processes=tuple(processes),
         sources=sources,
         unresolved=tuple(unresolved_of(processes, noticed)),
+        changes_states=any(each.changes_states for each in launches),
     )
     extraction = builder.extraction([*noticed, *outside], sources)
     settled = with_neighbours(system)

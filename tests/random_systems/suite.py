@@ -144,14 +144,19 @@ def run(record: Path, python: str, seeds: Sequence[int], first_domain: int) -> N
             out = Path(folder) / 'out.jsonl'
             words = ['-m', 'tests.random_systems.watch', str(out), str(first_domain), *drawn]
             subprocess.run([python, *words], env=env, check=True)
-            add(record, ({'seed': drawn[row['folder']], 'stuck': row['stuck']} for row in load(out)))
+            add(
+                record,
+                ({'seed': drawn[row['folder']], 'stuck': row['stuck']} for row in load(out)),
+            )
         print(f'{min(start + CHUNK, len(left))} of {len(left)} run', flush=True)
 
 
 def judge_all(record: Path, seeds: Sequence[int], jobs: int) -> None:
     """Judge what a record has, and write it beside."""
     known = {row['seed'] for row in load(_judgements(record))}
-    left = [row['seed'] for row in load(record) if row['seed'] in seeds and row['seed'] not in known]
+    left = [
+        row['seed'] for row in load(record) if row['seed'] in seeds and row['seed'] not in known
+    ]
     with multiprocessing.Pool(jobs, maxtasksperchild=20) as pool:
         for row in pool.imap_unordered(_judge, left):
             add(_judgements(record), [row])

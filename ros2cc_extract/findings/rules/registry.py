@@ -49,6 +49,7 @@ from ros2cc_extract.findings.rules.starvation import (
     transform_wait,
 )
 from ros2cc_extract.findings.rules.systems import (
+    life_cycle,
     near_names,
     qos,
     same_node_name,
@@ -114,6 +115,7 @@ RULES: tuple[Rule, ...] = (
     same_node_name.RULE,
     unused_settings.RULE,
     start_order.RULE,
+    life_cycle.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

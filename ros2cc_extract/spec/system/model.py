@@ -132,12 +132,14 @@ class System:
     :param name: of the launch file.
     :param sources: launch files.
     :param unresolved: what could not be found out.
+    :param changes_states: the launch may itself configure or activate life-cycle nodes.
     """
 
     name: str
     processes: tuple[Process, ...]
     sources: tuple[str, ...] = ()
     unresolved: tuple[Unresolved, ...] = ()
+    changes_states: bool = field(default=False, compare=False)
 
     @property
     def ends(self) -> Iterator[End]:

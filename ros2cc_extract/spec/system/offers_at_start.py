@@ -28,7 +28,7 @@ _Offers = Mapping[tuple[EndpointKind, str], str]
 
 def with_offers(system: System) -> System:
     """The system with each wait until somebody is there as one that ends, where somebody is."""
-    offers = {key: process for key, process in _offers(system)}
+    offers = dict(_offers(system))
     return replace(system, processes=tuple(_process(each, offers) for each in system.processes))
 
 

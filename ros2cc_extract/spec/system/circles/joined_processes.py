@@ -26,12 +26,17 @@ from ros2cc_extract.spec.model import (
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.circles.action_phases import needs_itself, with_phases
 from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, renamed_parts
+from ros2cc_extract.spec.system.circles.transitions import several_wait
 from ros2cc_extract.spec.system.model import Process, System
 
 _CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
-_OFFERS = {EntityKind.SERVICE: 'service', EntityKind.ACTION_SERVER: 'action'}
+_OFFERS = {
+    EntityKind.SERVICE: 'service',
+    EntityKind.ACTION_SERVER: 'action',
+    EntityKind.LIFECYCLE_SERVICE: 'service',
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,6 +167,9 @@ def _why_not(process: Process) -> Unknown | None:
         later = process.launched.later
         return Unknown(f'{process.name} is begun by the {later}', process.launched.source)
     for unit in process.working_units:
+        if several_wait(unit):
+            what = f'several transitions of {process.name} wait, and which is asked for is open'
+            return Unknown(what, process.launched.source)
         executor = unit.executor
         is_known = isinstance(executor.kind, str) and executor.kind in KINDS
         is_spun = executor.spun is not None and executor.alternative is None

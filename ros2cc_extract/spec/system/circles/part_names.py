@@ -22,6 +22,8 @@ from ros2cc_extract.spec.model import (
     Executor,
     Spec,
 )
+from ros2cc_extract.spec.node_graph import CHANGE_STATE
+from ros2cc_extract.spec.system.circles.transitions import as_services
 from ros2cc_extract.spec.system.model import Process, SystemNode
 
 _NOBODY = (OUTSIDE, TIME)
@@ -68,7 +70,7 @@ def renamed_parts(circle: Sequence[Process]) -> list[Spec]:
     for process in circle:
         prefix = f'{mend(process.name.replace(".", "_"))}_'
         names = PartNames(process, parts[process.name], prefix, shared)
-        found += [_renamed(unit, names) for unit in parts[process.name]]
+        found += [as_services(_renamed(unit, names)) for unit in parts[process.name]]
     return found
 
 
@@ -104,7 +106,8 @@ class PartNames:
 
     def key(self, callback: Callback) -> str | Unknown | None:
         """The resolved name of a topic, service or action; a done-callback names its client."""
-        key = callback.key
+        is_transition = callback.entity is EntityKind.LIFECYCLE_SERVICE
+        key = CHANGE_STATE if is_transition else callback.key
         node = self._nodes.get(callback.node) if isinstance(callback.node, str) else None
         if not isinstance(key, str):
             return key
