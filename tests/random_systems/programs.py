@@ -131,10 +131,8 @@ class _Draw:
 
     def _operation(self, part: _Part, parts: list[_Part]) -> list[str]:
         pick = self.random
-        if pick.random() < self.asks:
-            call = self._call(part, parts)
-        else:
-            call = ['time.sleep(0.01)']
+        is_call = pick.random() < self.asks
+        call = self._call(part, parts) if is_call else ['time.sleep(0.01)']
         if pick.random() < 0.15:
             return ['with self.lock:', *(f'    {line}' for line in call)]
         return call

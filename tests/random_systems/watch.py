@@ -1,8 +1,8 @@
 """
 Run systems with an interpreter that has rclpy, and write down who stands still.
 
-``python -m tests.random_systems.watch OUT FIRST_DOMAIN FOLDER…``: each Python file in a folder is a
-process of its own, and each folder has a ROS domain; one JSON line for each system with the
+``python -m tests.random_systems.watch OUT FIRST_DOMAIN FOLDER…``: each Python file in a folder is
+a process of its own, and each folder has a ROS domain; one JSON line for each system with the
 functions that have stood at one place, as ``part_1.tick_0``. Standard library and rclpy only.
 """
 

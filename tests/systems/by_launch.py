@@ -3,9 +3,10 @@ Systems started by the real ``launch`` and ``launch_ros``: who stands still, and
 
 ``python -m tests.systems.by_launch --python PYTHON --sources FOLDER`` starts every launch file of
 ``second/``. FOLDER holds ``launch``, ``launch_ros``, ``launch_xml``, ``launch_yaml`` and what they
-import, as their public repositories have it, and ``share/`` with the index of ament: they run beside the wheels of rclpy, which have no
-launch. Nothing of it is in this repository. The last lines of a launch file name who is observed:
-it says ``asks`` before it waits and ``goes on`` behind it.
+import, as their public repositories have it, and ``share/`` with the index of ament: they run
+beside the wheels of rclpy, which have no launch. Nothing of it is in this repository. The last
+lines of a launch file name who is observed: it says ``asks`` before it waits and ``goes on``
+behind it.
 """
 
 from __future__ import annotations
@@ -148,7 +149,7 @@ def main() -> int:
     wrong = 0
     with tempfile.TemporaryDirectory(prefix='ros2cc-launched-') as folder:
         prefix = Path(folder)
-        python = os.path.abspath(args.python)
+        python = str(Path(args.python).absolute())
         install(python, prefix / 'prefix')
         for at in range(0, len(paths), args.together):
             chosen = enumerate(paths[at : at + args.together], args.domain)

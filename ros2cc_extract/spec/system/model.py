@@ -83,8 +83,8 @@ class Process:
     :param launched: how the launch file starts it.
     :param file: the Python file that it runs, as shown; ``entry`` where in it, as of its units.
     :param outside: why its code is not in sight.
-    :param whole: its working units in one, with the names that they have together, where there are several
-        and the code was read for this.
+    :param whole: its working units in one, with the names that they have together, where there are
+        several and the code was read for this.
     """
 
     name: str

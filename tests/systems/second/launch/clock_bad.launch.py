@@ -18,4 +18,4 @@ def generate_launch_description():
 
 
 # observed: ticker
-# bad: launch/clock_bad.launch.py: executable='ticker.py'
+# CC704 launch/clock_bad.launch.py: executable='ticker.py'

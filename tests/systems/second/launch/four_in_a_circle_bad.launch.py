@@ -19,4 +19,4 @@ def generate_launch_description():
 
 
 # observed: coordinator
-# bad: programs/coordinator.py: answer = self.planner.call
+# CC109 programs/coordinator.py: answer = self.planner.call

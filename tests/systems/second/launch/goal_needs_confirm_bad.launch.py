@@ -23,4 +23,4 @@ def generate_launch_description():
 
 
 # observed: mission
-# bad: programs/mission.py: self.drive.send_goal
+# CC109 programs/mission.py: self.drive.send_goal

@@ -12,4 +12,4 @@ def generate_launch_description():
 
 
 # observed: scan_user
-# bad: launch/life_bad.launch.py: executable='lidar.py'
+# CC708 launch/life_bad.launch.py: executable='lidar.py'

@@ -12,4 +12,4 @@ def generate_launch_description():
 
 
 # observed: map_viewer
-# bad: programs/map_viewer.py: create_subscription
+# CC703 programs/map_viewer.py: create_subscription

@@ -20,4 +20,4 @@ def generate_launch_description():
 
 
 # observed: reader
-# bad: programs/store.py: self.loader.call
+# CC103 programs/store.py: self.loader.call
