@@ -54,7 +54,8 @@ def _asked(process: Process, numbers: Mapping[str, int]) -> Process:
     }
 
     def asked(callback: Callback) -> Callback:
-        name = known.get((callback.source, callback.key))
+        key = callback.key
+        name = None if key is None else known.get((callback.source, key))
         number = numbers.get(name, 0) if isinstance(name, str) else 0
         is_more = callback.entity is EntityKind.SERVICE and number > callback.askers
         return replace(callback, askers=number) if is_more else callback

@@ -87,6 +87,7 @@ def _waits_until_there(block: Blocking) -> bool:
 
 
 def _settled(block: Blocking, by: Mapping[str, str]) -> Blocking:
-    if not _waits_until_there(block) or block.on not in by:
+    on = block.on if isinstance(block.on, str) else ''
+    if not _waits_until_there(block) or on not in by:
         return block
-    return replace(block, seconds=Unknown(f'until {by[block.on]} has started', block.source))
+    return replace(block, seconds=Unknown(f'until {by[on]} has started', block.source))

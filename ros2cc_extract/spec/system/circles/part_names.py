@@ -89,7 +89,10 @@ class PartNames:
         }
         self._prefix = prefix
         self._shared = shared
-        self._own = {each.name for unit in units for each in (*unit.callbacks, *unit.activities)}
+        self._own = {
+            *(each.name for unit in units for each in unit.callbacks),
+            *(each.name for unit in units for each in unit.activities),
+        }
 
     def name(self, name: str) -> str:
         """A name of the unit, with that of its process before it where others have it too."""
