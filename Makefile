@@ -14,7 +14,7 @@ TYPES := build/types
 PIP_FLAGS ?= --quiet --disable-pip-version-check
 pytest_with = ROS2CC_RCLPY_PYTHON=$(CURDIR)/$(1)/bin/python $(BIN)/python -m pytest
 
-.PHONY: demo quick test test-long texts slices shapes waits why confirm explore random-waits conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean enter
+.PHONY: demo quick test test-long texts slices shapes waits why confirm explore random-waits random-systems conformance releases rclpy-tests attack wheels release-check dependencies pythons lint schema site paper screenshot clean enter
 
 demo: $(VENV)/installed
 	$(BIN)/ros2cc-extract launch_free_examples/service_deadlock/node.py || test $$? = 1
@@ -121,6 +121,14 @@ random-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	@mkdir -p build
 	$(call random_waits_on,$(JAZZY),jazzy)
 	$(call random_waits_on,$(KILTED),kilted,--known $(call waits_record,jazzy))
+
+# Random systems of two to four processes on Jazzy: one that hung is never satisfied, and what its parts
+# say is what one network of all says. Goes on where it was cut.
+SYSTEMS ?= 1000
+random-systems: $(VENV)/developed $(JAZZY)/installed
+	@mkdir -p build
+	$(BIN)/python -m tests.random_systems.suite --python $(JAZZY)/bin/python --systems $(SYSTEMS) \
+	    --record build/random_systems.jsonl
 
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)

@@ -1,8 +1,9 @@
 """
 What a system of many nodes costs: `check` of a generated launch file, and `system` of it.
 
-As ``python benchmarks/systems.py [NODES…]``. Each node is a program of its own with a timer, a
-subscription, a service and a client; each asks the next one, and every tenth pair asks each other.
+As ``python benchmarks/systems.py [NODES…] [OPTIONS OF check]``. Each node is a program of its own
+with a timer, a subscription, a service and a client; each asks the next one, and every tenth pair
+asks each other.
 """
 
 from __future__ import annotations
@@ -78,25 +79,33 @@ def generate(folder: Path, size: int) -> Path:
     return path
 
 
-def timed(*words: str) -> tuple[float, int, str]:
-    """Seconds, exit status and last line of one command."""
-    begun = time.monotonic()
+def timed(*words: str) -> tuple[float, float, str]:
+    """Seconds, seconds of CPU and last line of one command."""
+    begun, before = time.monotonic(), _worked()
     command = [sys.executable, '-m', 'ros2cc_extract', *words]
     found = subprocess.run(command, capture_output=True, text=True, check=False)
     last = (found.stdout.strip() or found.stderr.strip()).splitlines()[-1:]
-    return time.monotonic() - begun, found.returncode, ''.join(last)
+    return time.monotonic() - begun, _worked() - before, ''.join(last)
+
+
+def _worked() -> float:
+    """CPU of all children, which a busy machine does not change."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def main() -> None:
-    sizes = [int(word) for word in sys.argv[1:]] or list(SIZES)
-    print('nodes  system s  check s  peak MB  last line of check')
+    sizes = [int(word) for word in sys.argv[1:] if word.isdecimal()] or list(SIZES)
+    more = [word for word in sys.argv[1:] if not word.isdecimal()]
+    print('nodes  system s  CPU s  check s  CPU s  peak MB  last line of check')
     for size in sizes:
         with tempfile.TemporaryDirectory() as folder:
             path = str(generate(Path(folder), size))
-            written, _, _ = timed('system', '--no-cache', path, '-o', f'{folder}/system.yaml')
-            checked, _, line = timed('check', '--no-cache', '-q', path)
+            written, wrote, _ = timed('system', '--no-cache', path, '-o', f'{folder}/system.yaml')
+            checked, worked, line = timed('check', '--no-cache', '-q', path, *more)
             peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
-            print(f'{size:5}  {written:8.1f}  {checked:7.1f}  {peak:7}  {line}', flush=True)
+            figures = f'{written:8.1f}  {wrote:5.1f}  {checked:7.1f}  {worked:5.1f}  {peak:7}'
+            print(f'{size:5}  {figures}  {line}', flush=True)
 
 
 if __name__ == '__main__':

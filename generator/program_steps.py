@@ -29,9 +29,12 @@ class WaitKind(Enum):
 
 @dataclass(frozen=True)
 class Lock:
-    """A lock of a node, by the name that it is stored under."""
+    """
+    A lock, by its name.
 
-    node: str
+    A specification gives two locks two names, and nodes may share one.
+    """
+
     name: str
 
 

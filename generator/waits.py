@@ -83,7 +83,7 @@ def _with_signals(
     """Put each signal behind the waits that the callback has behind it then."""
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
     placed = [
-        replace(signal, held=tuple(_locks_of(signal.waker.held, callback, has_pool)))
+        replace(signal, held=tuple(_locks_of(signal.waker.held, has_pool)))
         for signal in signals
         if signal.waker is not None
     ]
@@ -196,13 +196,7 @@ def _contended_locks(spec: Spec) -> frozenset[Lock]:
 def _taken_locks(callback: Actor) -> tuple[Lock, ...]:
     """Locks that it waits for; one that it only tries to take does not hold it."""
     taken = (act.name for act in callback.locks if not act.tries)
-    return tuple(
-        dict.fromkeys(
-            Lock(callback.node, name)
-            for name in taken
-            if isinstance(name, str) and isinstance(callback.node, str)
-        )
-    )
+    return tuple(dict.fromkeys(Lock(name) for name in taken if isinstance(name, str)))
 
 
 def _held_locks(block: Blocking, callback: Actor, spec: Spec) -> tuple[Lock, ...]:
@@ -214,13 +208,13 @@ def _held_locks(block: Blocking, callback: Actor, spec: Spec) -> tuple[Lock, ...
     """
     has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
     keeps_out = has_pool and not block.suspends and not _is_of_spin(block, callback)
-    return tuple(_locks_of(block.held, callback, keeps_out))
+    return tuple(_locks_of(block.held, keeps_out))
 
 
-def _locks_of(held: Iterable[str], callback: Actor, keeps_out: bool) -> Iterator[Lock]:
+def _locks_of(held: Iterable[str], keeps_out: bool) -> Iterator[Lock]:
     for name in held:
-        if isinstance(callback.node, str) and (keeps_out or not name.endswith(RE_ENTRANT)):
-            yield Lock(callback.node, name.removesuffix(RE_ENTRANT))
+        if keeps_out or not name.endswith(RE_ENTRANT):
+            yield Lock(name.removesuffix(RE_ENTRANT))
 
 
 def _is_of_spin(block: Blocking, actor: Actor) -> bool:

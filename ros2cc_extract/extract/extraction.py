@@ -18,6 +18,7 @@ class Extraction:
     :param diagnostics: sorted by place.
     :param files_seen: every file that was read, as shown to the user.
     :param joined: units of one program that wait for each other, as one.
+    :param wholes: all units of one program in one, where it has several.
     :param nodes: what the nodes of each entry have in the graph.
     :param cut: why not all was followed to its end; empty where it was.
     :param interrupted: somebody has ended it.
@@ -27,6 +28,7 @@ class Extraction:
     diagnostics: tuple[Diagnostic, ...]
     files_seen: tuple[str, ...]
     joined: tuple[Joined, ...] = ()
+    wholes: tuple[Spec, ...] = ()
     nodes: tuple[NodeGraph, ...] = ()
     cut: str = ''
     interrupted: bool = False

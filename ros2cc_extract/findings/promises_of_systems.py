@@ -21,7 +21,12 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.joined_executors import Joined
 from ros2cc_extract.spec.model import Spec
-from ros2cc_extract.spec.system.joined_processes import ServiceWait, service_waits, units_by_offer
+from ros2cc_extract.spec.system.circles.joined_processes import (
+    ServiceWait,
+    circles_of,
+    service_waits,
+    units_by_offer,
+)
 from ros2cc_extract.spec.system.model import System
 from ros2cc_extract.spec.system.start_up import stuck_waits
 from ros2cc_extract.verify.results.results import Verdict, Verification
@@ -76,7 +81,7 @@ def discharged(
                 if is_in_it and _mark(known[number]) is Mark.KEPT:
                     known[number] = _opened(known[number], _NOT_PROVEN)
     names = [_identity(unit) for unit in units]
-    for number, why in _not_started(system, names):
+    for number, why in (*_not_started(system, names), *_not_joined(system, names)):
         if _mark(known[number]) is Mark.KEPT:
             known[number] = _opened(known[number], why)
     waits: dict[object, list[ServiceWait]] = defaultdict(list)
@@ -103,6 +108,14 @@ def _not_started(system: System, names: Sequence[object]) -> Iterator[tuple[int,
         mine = {_identity(unit) for unit in wait.process.units}
         why = f'the set-up of {wait.process.name} waits for {wait.awaited.what} '
         why += f'{wait.awaited.name}, which is offered only behind a wait that needs it'
+        yield from ((number, why) for number, name in enumerate(names) if name in mine)
+
+
+def _not_joined(system: System, names: Sequence[object]) -> Iterator[tuple[int, str]]:
+    """The units of processes that wait for each other and are in no common model, and why."""
+    for circle, doubt in circles_of(system).open:
+        mine = {_identity(unit) for process in circle for unit in process.units}
+        why = f'processes wait for each other and are not judged together: {doubt.reason}'
         yield from ((number, why) for number, name in enumerate(names) if name in mine)
 
 

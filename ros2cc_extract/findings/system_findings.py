@@ -9,6 +9,7 @@ from ros2cc_extract.findings.base.rule import Hit, Rule
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import UNDECIDED
 from ros2cc_extract.findings.rules.systems import (
+    life_cycle,
     near_names,
     qos,
     same_node_name,
@@ -18,7 +19,7 @@ from ros2cc_extract.findings.rules.systems import (
     unused_settings,
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.joined_processes import circles_of, service_waits
+from ros2cc_extract.spec.system.circles.joined_processes import circles_of, service_waits
 from ros2cc_extract.spec.system.model import Process, System
 
 _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
@@ -29,6 +30,7 @@ _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (same_node_name.RULE, same_node_name.find),
     (unused_settings.RULE, unused_settings.find),
     (start_order.RULE, start_order.find),
+    (life_cycle.RULE, life_cycle.find),
 )
 
 

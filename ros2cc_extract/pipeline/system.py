@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
@@ -14,8 +15,9 @@ from ros2cc_extract.extract.launch.workspace.packages import Executable, Known
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import Files
 from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.pipeline.units_in_systems import with_neighbours
 from ros2cc_extract.source_locations import Unknown, shown_name
-from ros2cc_extract.spec.model import Unresolved
+from ros2cc_extract.spec.model import Spec, Unresolved
 from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
 from ros2cc_extract.spec.system.model import Process, System, SystemNode
@@ -76,8 +78,21 @@ def scan_system(
         processes=tuple(processes),
         sources=sources,
         unresolved=tuple(unresolved_of(processes, noticed)),
+        changes_states=any(each.changes_states for each in launches),
     )
-    return Scanned(system, builder.extraction([*noticed, *outside], sources), builder.paths)
+    extraction = builder.extraction([*noticed, *outside], sources)
+    settled = with_neighbours(system)
+    units = _units_of_all(system, settled, extraction.units)
+    return Scanned(settled, replace(extraction, units=units), builder.paths)
+
+
+def _units_of_all(before: System, after: System, units: Sequence[Spec]) -> tuple[Spec, ...]:
+    """The units of a scan, each as it is in every process that has it."""
+    changed: dict[Spec, dict[Spec, None]] = defaultdict(dict)
+    for old, new in zip(before.processes, after.processes, strict=True):
+        for one, other in zip(old.units, new.units, strict=True):
+            changed[one][other] = None
+    return tuple(dict.fromkeys(each for unit in units for each in changed.get(unit, (unit,))))
 
 
 class _Builder:
@@ -126,6 +141,7 @@ class _Builder:
             entry=entry,
             nodes=nodes,
             units=tuple(unit for unit in found.units if unit.entry == entry and entry),
+            whole=next((each for each in found.wholes if each.entry == entry), None),
         )
         if entry is None:
             return replace(process, outside=Unknown('no start of a node is in sight in its file'))
@@ -160,6 +176,7 @@ def as_one(found: Sequence[Extraction]) -> Extraction:
         diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
         files_seen=tuple(dict.fromkeys(file for each in found for file in each.files_seen)),
         joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
+        wholes=tuple(dict.fromkeys(each for e in found for each in e.wholes)),
         nodes=tuple(each for e in found for each in e.nodes),
         cut=next((each.cut for each in found if each.cut), ''),
         interrupted=any(each.interrupted for each in found),

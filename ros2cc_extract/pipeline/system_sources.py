@@ -90,7 +90,7 @@ def scan_paths(
 
 def _with_circles(scanned: Scanned) -> Extraction:
     """Circles of processes are decided as one unit each."""
-    from ros2cc_extract.spec.system.joined_processes import circles_of
+    from ros2cc_extract.spec.system.circles.joined_processes import circles_of
 
     started = scanned.extraction
     return replace(started, joined=(*started.joined, *circles_of(scanned.system).joined))

@@ -93,7 +93,7 @@ def examine_all(
     interrupted: bool = False,
 ) -> Examination:
     """
-    Verify every unit and find what there is to find, small units first.
+    Verify every unit: those that wait for each other first, then small ones; find what is there.
 
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
@@ -109,7 +109,7 @@ def examine_all(
         found = dict(enumerate(_all_known(tasks, known)))
     else:
         found = {n: each for n, task in enumerate(tasks) if (each := _load(task, folder))}
-    left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].size, n))
+    left = sorted(set(range(len(tasks))) - set(found), key=lambda n: (tasks[n].turn, n))
     left = [] if interrupted else left
     pool = pool or Processes(usable_cores() if len(left) >= FEWEST_TO_SHARE else 1)
     # Others keep nothing for us, and a meter is here or nowhere.

@@ -52,6 +52,11 @@ class Task:
         return len(self.closed.spec.callbacks)
 
     @property
+    def turn(self) -> tuple[bool, int]:
+        """Units that wait for each other come first: they are few, and nothing else shows them."""
+        return self.joined is None, self.size
+
+    @property
     def key(self) -> str:
         """Equal where nothing differs on which the answer depends."""
         text = f'{tool_version()}\0{self!r}'

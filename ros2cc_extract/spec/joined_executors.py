@@ -77,6 +77,21 @@ def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
     return Joined(spec=spec, parts=tuple(parts))
 
 
+def put_together(whole: Spec, units: Sequence[Spec]) -> Spec | None:
+    """
+    All of them as one unit, whether they wait for each other or not.
+
+    It is the program exactly where each has one thread, or as many as can be at work in it.
+    """
+    part_of = _parts(whole, units)
+    return None if isinstance(part_of, str) else _as_one(_without_idle(whole), units, part_of)
+
+
+def has_threads_enough(unit: Spec) -> bool:
+    """Whether a pool has a thread for each callback that may wait, and one for all others."""
+    return len(unit.executor.threads) >= _enough_threads(unit.callbacks, unit.groups)
+
+
 def why_not_joined(whole: Spec, units: Sequence[Spec]) -> str:
     """Why ``joined`` gives nothing; empty where they do not wait for each other."""
     part_of = _parts(whole, units)

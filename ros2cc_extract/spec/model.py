@@ -448,6 +448,11 @@ class Spec:
         yield from self.executor.threads
         yield from (activity.name for activity in self.activities)
 
+    @property
+    def has_work(self) -> bool:
+        """Whether somebody wrote what it runs, and not rclpy all of it."""
+        return bool(self.activities) or any(not each.builtin for each in self.callbacks)
+
     def group_of(self, callback: Callback) -> CallbackGroup:
         """The group a callback of this unit is in."""
         return next(group for group in self.groups if group.name == callback.group)

@@ -64,6 +64,11 @@ class Qos:
     lease_s: float | Unknown | None = None
 
 
+CHANGE_STATE, CHANGE_STATE_TYPE = '~/change_state', 'lifecycle_msgs/srv/ChangeState'
+"""The service of a life-cycle node that runs its transitions; ``conditional`` of a node whose code
+changes its own state too. Source: rclpy 7.1.6, ``lifecycle/node.py``."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Endpoint:
     """

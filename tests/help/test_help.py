@@ -30,6 +30,7 @@ NO_PROGRAM = {
     'CC704': 'a system of several programs: tests/systems',
     'CC706': 'a system of several programs: tests/systems',
     'CC707': 'a system of several programs: tests/systems',
+    'CC708': 'a system of several programs: tests/systems',
     'CC705': 'a system of several programs: tests/systems',
 }
 PAIRS = [

@@ -79,6 +79,36 @@ def test_a_circle_is_red_and_what_is_in_none_is_not() -> None:
     assert 'linkStyle' not in told(good, '--output-format', 'mermaid')[1]
 
 
+def test_several_systems_are_boxes_side_by_side(tmp_path: Path) -> None:
+    for name in ('a', 'b'):
+        (tmp_path / f'{name}.launch.xml').write_text('<launch><node pkg="p" exec="e"/></launch>')
+    drawn = told(str(tmp_path), '--output-format', 'mermaid')[1].splitlines()
+    assert drawn == [
+        'flowchart LR',
+        '  subgraph s0["a.launch.xml"]',
+        '    subgraph s0p0["e (outside)"]',
+        '      s0p0x[" "]',
+        '    end',
+        '  end',
+        '  subgraph s1["b.launch.xml"]',
+        '    subgraph s1p0["e (outside)"]',
+        '      s1p0x[" "]',
+        '    end',
+        '  end',
+    ]
+    drawn = told(str(tmp_path), '--output-format', 'dot')[1].splitlines()
+    assert [line.strip() for line in drawn if 'subgraph' in line or 'label' in line] == [
+        'subgraph cluster_s0 {',
+        'label="a.launch.xml";',
+        'subgraph cluster_s0p0 { style=dashed;',
+        'label="e";',
+        'subgraph cluster_s1 {',
+        'label="b.launch.xml";',
+        'subgraph cluster_s1p0 { style=dashed;',
+        'label="e";',
+    ]
+
+
 def test_what_is_no_launch_file_is_refused(tmp_path: Path) -> None:
     path = tmp_path / 'node.py'
     path.write_text('')

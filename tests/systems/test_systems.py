@@ -18,7 +18,7 @@ HERE = Path(__file__).parent
 LAUNCH = HERE / 'launch'
 FOUND = re.compile(r'^(\S+?):(\d+):\d+: (?:error|warning) (CC\d+): ', re.MULTILINE)
 MARK = re.compile(r'^(?:#|<!--)\s*(.*?)(?:\s*-->)?$')
-NOTHING = 'nothing'
+NO_FINDING = ('nothing', 'observed: ')
 
 
 def expected(path: Path) -> list[tuple[str, str, str]]:
@@ -28,19 +28,19 @@ def expected(path: Path) -> list[tuple[str, str, str]]:
     while lines and (match := MARK.match(lines.pop())):
         marked.append(match.group(1))
     found = []
-    for mark in reversed([mark for mark in marked if not mark.startswith(NOTHING)]):
+    for mark in reversed([mark for mark in marked if not mark.startswith(NO_FINDING)]):
         code, file, text = mark.split(maxsplit=2)
         found.append((code, file.removesuffix(':'), text))
     return found
 
 
-def found_in(path: Path, *arguments: str) -> list[tuple[str, str, str]]:
+def found_in(path: Path, *arguments: str, below: Path = HERE) -> list[tuple[str, str, str]]:
     out = io.StringIO()
     main(['check', '--no-cache', '-q', str(path), *arguments], out, io.StringIO())
     found = []
     for file, line, code in FOUND.findall(out.getvalue()):
         text = Path(file).read_text(encoding='utf-8').splitlines()[int(line) - 1]
-        found.append((code, Path(file).resolve().relative_to(HERE).as_posix(), text))
+        found.append((code, Path(file).resolve().relative_to(below).as_posix(), text))
     return found
 
 

@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     noticed = [d for side in sides for d in side.diagnostics]
     print_diagnostics(noticed, stderr)
     systems = sides[0].systems if len(sides) == 1 else (_joined(sides, stderr),)
-    write_text(_written(systems, args.output_format, sides[0]), args.output, stdout)
+    write_text(_written(systems, args.output_format), args.output, stdout)
     if args.strict and has_barred(noticed):
         return EXIT_ERROR
     is_open = any(system.unresolved for system in systems) or has_unread(noticed)
@@ -91,14 +91,13 @@ def _joined(sides: Sequence[Side], stderr: TextIO) -> System:
     return whole
 
 
-def _written(systems: Sequence[System], form: str, side: Side) -> str:
+def _written(systems: Sequence[System], form: str) -> str:
     from ros2cc_extract.report.html.system_page import system_page
     from ros2cc_extract.report.system_pictures import dot, mermaid
     from ros2cc_extract.spec.system.system_yaml import system_data, write_systems
 
     if form in ('mermaid', 'dot'):
-        system = systems[0] if len(systems) == 1 else side.only
-        return mermaid(system) if form == 'mermaid' else dot(system)
+        return mermaid(systems) if form == 'mermaid' else dot(systems)
     if form == 'html':
         return system_page(systems)
     if form == 'json':

@@ -24,6 +24,7 @@ class Launch:
     What a launch file starts.
 
     :param files: that were read, as they are shown.
+    :param changes_states: it may itself configure or activate life-cycle nodes.
     :param packages: around the first of them.
     """
 
@@ -31,6 +32,7 @@ class Launch:
     noticed: tuple[Diagnostic, ...]
     files: tuple[str, ...]
     packages: Packages
+    changes_states: bool = False
 
 
 def launch(
@@ -58,4 +60,10 @@ def launch(
     execution = Execution(Context(dict(arguments)), packages, load)
     execution.include(path.absolute())
     shown = dict.fromkeys(shown_path(file, root) for file in execution.files)
-    return Launch(tuple(execution.found), tuple(execution.noticed), tuple(shown), packages)
+    return Launch(
+        tuple(execution.found),
+        tuple(execution.noticed),
+        tuple(shown),
+        packages,
+        execution.changes_states,
+    )

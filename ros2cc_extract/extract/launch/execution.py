@@ -16,6 +16,7 @@ from pathlib import Path
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.launch.language.actions import (
     Action,
+    ChangeState,
     Computed,
     Declare,
     Group,
@@ -53,6 +54,7 @@ class Execution:
     :param load: reads a launch file.
     :ivar found: what is started, in order.
     :ivar noticed: what could not be followed.
+    :ivar changes_states: it may itself configure or activate life-cycle nodes.
     :ivar files: launch files that were read, as shown.
     """
 
@@ -60,6 +62,7 @@ class Execution:
         self.found: list[Launched] = []
         self.noticed: list[Diagnostic] = []
         self.files: list[Path] = []
+        self.changes_states = False
         self._context = context
         self._load = load
         self._packages = packages
@@ -113,6 +116,8 @@ class Execution:
             self._include(action)
         elif isinstance(action, Computed):
             self._all(action.function(self._context))
+        elif isinstance(action, ChangeState):
+            self.changes_states = True
         elif isinstance(action, Unfollowed):
             self._note(action.place, action.why)
         else:

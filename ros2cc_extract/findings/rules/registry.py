@@ -50,6 +50,7 @@ from ros2cc_extract.findings.rules.starvation import (
     transform_wait,
 )
 from ros2cc_extract.findings.rules.systems import (
+    life_cycle,
     near_names,
     qos,
     same_node_name,
@@ -118,6 +119,7 @@ RULES: tuple[Rule, ...] = (
     same_node_name.RULE,
     unused_settings.RULE,
     start_order.RULE,
+    life_cycle.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.joined_processes import circles_in, service_waits
+from ros2cc_extract.spec.system.circles.joined_processes import circles_in, service_waits
 from ros2cc_extract.spec.system.model import Process, System
 
 Key = tuple[str, str]

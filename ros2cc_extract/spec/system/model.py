@@ -84,6 +84,8 @@ class Process:
     :param launched: how the launch file starts it.
     :param file: the Python file that it runs, as shown; ``entry`` where in it, as of its units.
     :param outside: why its code is not in sight.
+    :param whole: its working units in one, with the names that they have together, where there are
+        several and the code was read for this.
     """
 
     name: str
@@ -93,6 +95,12 @@ class Process:
     outside: Unknown | None = None
     nodes: tuple[SystemNode, ...] = ()
     units: tuple[Spec, ...] = ()
+    whole: Spec | None = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def working_units(self) -> tuple[Spec, ...]:
+        """Its units but those of nodes that have nothing to run, as one for parameters alone."""
+        return tuple(unit for unit in self.units if unit.has_work)
 
 
 @dataclass(frozen=True)
@@ -125,12 +133,14 @@ class System:
     :param name: of the launch file.
     :param sources: launch files.
     :param unresolved: what could not be found out.
+    :param changes_states: the launch may itself configure or activate life-cycle nodes.
     """
 
     name: str
     processes: tuple[Process, ...]
     sources: tuple[str, ...] = ()
     unresolved: tuple[Unresolved, ...] = ()
+    changes_states: bool = field(default=False, compare=False)
 
     @property
     def ends(self) -> Iterator[End]:

@@ -15,14 +15,23 @@ def how_near(one: str, other: str) -> str | None:
         return 'a slash'
     if _last(one) == _last(other):
         above = _namespace(one), _namespace(other)
-        is_below = any(a.startswith(b) for a, b in (above, above[::-1]))
-        return 'the namespace' if is_below else None
+        if any(a.startswith(b) for a, b in (above, above[::-1])):
+            return 'the namespace'
+        return 'one letter' if _is_slip(one, other, *map(_part, above)) else None
     if one.lower() == other.lower():
         return 'upper and lower case'
-    is_long = min(len(_last(one)), len(_last(other))) >= _SHORTEST
-    if is_long and not _differ_by_number(one, other) and _is_one_slip(one, other):
-        return 'one letter'
-    return None
+    return 'one letter' if _is_slip(one, other, _last(one), _last(other)) else None
+
+
+def _is_slip(one: str, other: str, part: str, other_part: str) -> bool:
+    """Whether two names differ by one letter in a part that is long enough to be told by it."""
+    is_long = min(len(part), len(other_part)) >= _SHORTEST
+    return is_long and not _differ_by_number(one, other) and _is_one_slip(one, other)
+
+
+def _part(namespace: str) -> str:
+    """The longest part of a namespace, as that is where a slip may stand."""
+    return max(namespace.split('/'), key=len)
 
 
 def _last(name: str) -> str:

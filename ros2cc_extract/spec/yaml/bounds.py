@@ -8,10 +8,11 @@ its anchor holds, so that some lines of aliases of aliases are more than any mem
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import yaml
+
+from ros2cc_extract.light_dataclasses import dataclass
 
 # PyYAML's own, or that of libyaml.
 Mark = yaml.Mark | Any

@@ -106,11 +106,12 @@ def test_nobody_waits_for_a_lock_that_is_not_taken(taken: tuple[Act, ...]) -> No
     assert not number_unit(unit, 1).has_locks
 
 
-def test_locks_of_two_nodes_are_two() -> None:
-    unit = locking(CALL, 'h', MULTI, 2)
+@pytest.mark.parametrize(('name', 'expected'), [('lock', BOTH), ('lock#2', [])])
+def test_nodes_may_share_a_lock(name: str, expected: list[str]) -> None:
+    unit = locking(CALL, 'h', MULTI, 2, taken=(Act(name=name),))
     ask, reply, take = unit.spec.callbacks
     spec = replace(unit.spec, callbacks=(ask, reply, replace(take, node='leg')))
-    assert stuck(replace(unit, spec=spec)) == []
+    assert stuck(replace(unit, spec=spec)) == expected
 
 
 def test_a_lock_over_two_waits_is_kept_between_them() -> None:

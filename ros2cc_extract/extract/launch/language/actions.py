@@ -167,6 +167,11 @@ class Computed(Action):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ChangeState(Action):
+    """What may change the state of a life-cycle node, such as an event that is emitted."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Unfollowed(Action):
     """What may start processes, and could not be followed."""
 

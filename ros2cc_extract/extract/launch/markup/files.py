@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ros2cc_extract.extract.launch.language.actions import (
     Action,
+    ChangeState,
     Condition,
     Declare,
     FromFile,
@@ -39,7 +40,7 @@ from ros2cc_extract.spec.system.launched import TIMER
 _MOST_BYTES = 1_000_000
 _HARMLESS = frozenset(
     """
-    log log_info set_env unset_env append_env reset_env shutdown lifecycle_transition reset
+    log log_info set_env unset_env append_env reset_env shutdown reset
     let_env on_exit ros_log_dir arg_env
     """.split()  # noqa: SIM905
 )
@@ -97,6 +98,9 @@ def _node(kind: str) -> Callable[[Element], Action]:
     def make(element: Element) -> Action:
         arguments = [_attribute(element, name) for name in ('args', 'ros_args', 'ros_arguments')]
         given = [arguments[0], *((Text('--ros-args '), *each) for each in arguments[1:] if each)]
+        loaded = [each for child in element.all('composable_node') for each in _one(child)]
+        if _attribute(element, 'autostart') is not None:
+            loaded.append(ChangeState(place=element.place))
         return StartNode(
             place=element.place,
             kind=kind,
@@ -109,7 +113,7 @@ def _node(kind: str) -> Callable[[Element], Action]:
             ),
             parameters=tuple(_parameters(element.all('param'), ())),
             arguments=tuple(each for each in given if each is not None),
-            loaded=tuple(each for child in element.all('composable_node') for each in _one(child)),
+            loaded=tuple(loaded),
         )
 
     return make
@@ -192,6 +196,10 @@ def _sim_time(element: Element) -> Action:
     return PushParameters(place=element.place, parameters=(given,))
 
 
+def _change_state(element: Element) -> Action:
+    return ChangeState(place=element.place)
+
+
 def _process(element: Element) -> Action:
     return StartProcess(place=element.place, command=(_required(element, 'cmd'),))
 
@@ -215,4 +223,6 @@ _MAKERS: dict[str, Callable[[Element], Action]] = {
     'set_use_sim_time': _sim_time,
     'timer': _timer,
     'ros_timer': _timer,
+    'lifecycle_transition': _change_state,
+    'emit_event': _change_state,
 }

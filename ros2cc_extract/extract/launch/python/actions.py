@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.launch.language.actions import (
     Action,
+    ChangeState,
     Computed,
     Condition,
     Declare,
@@ -91,6 +92,8 @@ class Actions:
             'RegisterEventHandler': self._handler,
             'TimerAction': self._timer,
             'RosTimer': self._timer,
+            'EmitEvent': self._change_state,
+            'LifecycleTransition': self._change_state,
         }
 
     def of_description(self, value: Value | None, place: Place) -> list[Action]:
@@ -146,6 +149,9 @@ class Actions:
             return replace(action, condition=condition, open=why)
         return replace(action, open=condition or why)
 
+    def _change_state(self, call: Call) -> Action:
+        return ChangeState(place=call.place)
+
     def _node_of(self, kind: str) -> Maker:
         def make(call: Call) -> Action:
             return self._node(kind, call)
@@ -167,6 +173,8 @@ class Actions:
             prefix = [_ROS_ARGUMENTS] if name == 'ros_arguments' and items else []
             arguments += [*prefix, *items]
         loaded = self.of_list(call.argument(None, 'composable_node_descriptions'), place)
+        if call.argument(None, 'autostart') not in (None, Const(False)):
+            loaded.append(ChangeState(place=place))
         facts = (('remappings', more_remaps), ('parameters', more), ('arguments', call.more))
         return StartNode(
             place=place,

@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.python.values.values import Class
 from ros2cc_extract.extract.static.scan.runs import run_entry
 from ros2cc_extract.extract.static.scan.runs_without_entry import run_library
 from ros2cc_extract.extract.static.units.entity_aliases import each_once
-from ros2cc_extract.extract.static.units.units import joined_of, specs_of
+from ros2cc_extract.extract.static.units.units import joined_of, specs_of, wholes_of
 from ros2cc_extract.extract.static.units.whole_program.node_graphs import graphs_of
 from ros2cc_extract.jobs.process_pool import ProcessPool
 from ros2cc_extract.light_dataclasses import dataclass
@@ -70,6 +70,7 @@ class Found:
     What following one file gave.
 
     :param joined: units that wait for each other, as one.
+    :param wholes: all units of a program in one, where it has several.
     :param nodes: what its nodes have in the graph.
     :param perhaps: the same of functions that only spin, which may be starts: where they stand.
     :param cut: why it was not followed to its end; empty where it was.
@@ -80,6 +81,7 @@ class Found:
     covered: frozenset[Place] = frozenset()
     perhaps: tuple[tuple[Place, Found], ...] = ()
     joined: tuple[Joined, ...] = ()
+    wholes: tuple[Spec, ...] = ()
     nodes: tuple[NodeGraph, ...] = ()
     cut: str = ''
 
@@ -251,6 +253,7 @@ class _Scan:
             joined=tuple(
                 dict.fromkeys(each for pair in every for found in pair for each in found.joined)
             ),
+            wholes=tuple(each for pair in every for found in pair for each in found.wholes),
             nodes=tuple(each for pair in every for found in pair for each in found.nodes),
             diagnostics=_sorted([*noticed, *unread]),
             files_seen=tuple(source.shown for source in self._project.given),
@@ -369,8 +372,16 @@ def _failed(source: SourceFile, slug: str, message: str, mend: str = '') -> Foun
 def _found(world: RosWorld, label: str | None) -> Found:
     units = tuple(specs_of(world, label))
     joined = tuple(joined_of(world, label, units))
+    wholes = tuple(wholes_of(world, label, units))
     nodes = tuple(graphs_of(world, label))
-    return Found(units, tuple(world.diagnostics), _covered(world), joined=joined, nodes=nodes)
+    return Found(
+        units,
+        tuple(world.diagnostics),
+        _covered(world),
+        joined=joined,
+        wholes=wholes,
+        nodes=nodes,
+    )
 
 
 def _joined(parts: Iterable[Found]) -> Found:
@@ -380,6 +391,7 @@ def _joined(parts: Iterable[Found]) -> Found:
         tuple(diagnostic for part in found for diagnostic in part.noticed),
         frozenset(place for part in found for place in part.covered),
         joined=tuple(each for part in found for each in part.joined),
+        wholes=tuple(each for part in found for each in part.wholes),
         nodes=tuple(each for part in found for each in part.nodes),
     )
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind, GroupType, Spec, When
 
-_SEVERAL = 2
+SEVERAL = 2
 
 
 def with_askers(units: Sequence[Spec]) -> list[Spec]:
@@ -24,8 +24,8 @@ def with_askers(units: Sequence[Spec]) -> list[Spec]:
         if callback.entity is not EntityKind.SERVICE or not isinstance(callback.key, str):
             return callback
         beside = (each for each in units if _run_together(each, unit))
-        number = sum(_askers(callback.key, each) for each in beside)
-        return replace(callback, askers=number) if number >= _SEVERAL else callback
+        number = sum(askers_in(callback.key, each) for each in beside)
+        return replace(callback, askers=number) if number >= SEVERAL else callback
 
     return [
         replace(unit, callbacks=tuple(asked(each, unit) for each in unit.callbacks))
@@ -41,7 +41,8 @@ def _run_together(one: Spec, other: Spec) -> bool:
     return is_own and one.executor.spun is not None and one.executor.unresolved is None
 
 
-def _askers(service: str, unit: Spec) -> int:
+def askers_in(service: str, unit: Spec) -> int:
+    """How many requests to a service the clients of a unit may have on their way at once."""
     clients = [each for each in unit.callbacks if _asks(each, service)]
     waiting = {name: set(_callers(name, unit)) for name in (each.name for each in clients)}
     free = sum(_count(each) for each in clients if not waiting[each.name])

@@ -69,6 +69,20 @@ def joined_of(world: RosWorld, entry: str | None, specs: Sequence[Spec]) -> Iter
         yield found
 
 
+def wholes_of(world: RosWorld, entry: str | None, specs: Sequence[Spec]) -> Iterator[Spec]:
+    """
+    The working units of one program in one, with the names that they have together.
+
+    Only of several; what one wakes or holds up of another is seen in no unit alone.
+
+    :param specs: the specifications of the same run.
+    """
+    pairs = [pair for pair in zip(units_of(world), specs, strict=True) if pair[1].has_work]
+    if entry is not None and len(pairs) > 1 and all(_is_known(s.executor) for _, s in pairs):
+        nodes = [node for unit, _ in pairs for node in unit.nodes]
+        yield UnitBuilder(world, Unit(None, nodes, None, is_only=True)).build(entry)
+
+
 def _is_known(executor: Executor) -> bool:
     """Whether it is spun, whatever branch is taken, and serves as those of rclpy do."""
     is_spun = executor.spun is not None and executor.alternative is None

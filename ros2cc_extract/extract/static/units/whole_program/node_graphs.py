@@ -22,7 +22,13 @@ from ros2cc_extract.extract.static.units.whole_program.qos_profiles import qos_o
 from ros2cc_extract.extract.static.units.whole_program.start_up import awaits_of, waits_before
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind, When
-from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind, NodeGraph
+from ros2cc_extract.spec.node_graph import (
+    CHANGE_STATE,
+    CHANGE_STATE_TYPE,
+    Endpoint,
+    EndpointKind,
+    NodeGraph,
+)
 
 _KINDS = {
     EntityKind.SUBSCRIPTION: EndpointKind.SUBSCRIPTION,
@@ -69,6 +75,23 @@ def _endpoints(node: Instance, world: RosWorld) -> Iterator[Endpoint]:
         kind = _KINDS.get(entity.kind)
         if kind is not None and not entity.builtin:
             yield _of_entity(entity, kind, world)
+    if any(e.kind is EntityKind.LIFECYCLE_SERVICE for e in world.by_node.get(id(node), ())):
+        yield _of_life_cycle(node)
+
+
+def _of_life_cycle(node: Instance) -> Endpoint:
+    """
+    The service that brings a node from one state of its life cycle to the next.
+
+    Of its services this one is asked by programs, as the bring-up of a robot.
+    """
+    return Endpoint(
+        kind=EndpointKind.SERVICE,
+        name=CHANGE_STATE,
+        type=CHANGE_STATE_TYPE,
+        source=node.state.begun or node.place,
+        conditional=node.state.changes_own_state,
+    )
 
 
 def _of_publisher(publisher: PublisherState) -> Endpoint:

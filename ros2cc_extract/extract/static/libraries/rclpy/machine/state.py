@@ -61,6 +61,7 @@ class NodeState(LibraryState):
     :param begun: the call of ``Node.__init__``.
     :param nested: a spin inside a callback that serves it, and where.
     :param loop: the loop of asyncio whose thread spins it.
+    :param changes_own_state: the code runs its transitions itself.
     :param sim_clock: the subscription that moves its clock, where it uses simulated time.
     """
 
@@ -72,6 +73,7 @@ class NodeState(LibraryState):
     namespace: Value | None = None
     ghost: Unknown | None = None
     lifecycle: bool = False
+    changes_own_state: bool = False
     on_asyncio: bool = False
     rate_group: Instance | None = None
     has_parameter_services: bool = True

@@ -78,6 +78,8 @@ def _trigger(name: str) -> Handler:
 
     def trigger(machine: RosMachine, receiver: Value, call: Call) -> Value:
         method = machine.attribute(receiver, name, call.place)
+        if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
+            receiver.state.changes_own_state = True
         if isinstance(method, Bound):
             before = Mystery(Unknown('state of the node at run time', call.place), 'state')
             machine.call(method, Call(call.place, [before]))

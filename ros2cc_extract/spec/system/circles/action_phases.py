@@ -35,7 +35,21 @@ def with_phases(parts: Sequence[Spec]) -> list[Spec]:
     keys = _keys(parts)
     sure = frozenset(key for part in parts for key in _sure_goals(part))
     certain = frozenset(key for part in parts for key in _sure_results(part)) - sure
-    return [_split(part, keys, sure, certain) for part in parts]
+    clients = {
+        callback.name: callback
+        for part in parts
+        for callback in part.callbacks
+        if callback.entity is EntityKind.ACTION_CLIENT and callback.key in keys
+    }
+    taken = {name for part in parts for name in part.names()}
+    second = {name: _free(f'{name}_result', taken) for name in clients}
+    left_out = {
+        name
+        for callback in clients.values()
+        for name, keys_of in ((callback.name, sure), (second[callback.name], certain))
+        if callback.key in keys_of
+    }
+    return [_split(part, keys, second, left_out) for part in parts]
 
 
 def _sure_goals(part: Spec) -> Iterator[object]:
@@ -63,7 +77,8 @@ def _keys(parts: Sequence[Spec]) -> frozenset[str]:
     callbacks = [callback for part in parts for callback in part.callbacks]
     executed = _named(callbacks, EntityKind.ACTION_EXECUTE)
     served = _named(callbacks, EntityKind.ACTION_SERVER)
-    other = {key for part in parts for key in _asked_otherwise(part)}
+    clients = {c.name: c for c in callbacks if c.entity is EntityKind.ACTION_CLIENT}
+    other = {key for part in parts for key in _asked_otherwise(part, clients)}
     return frozenset((executed & served) - other)
 
 
@@ -73,9 +88,8 @@ def _named(callbacks: Iterable[Callback], kind: EntityKind) -> set[str]:
     return {key for key in found if found.count(key) == 1}
 
 
-def _asked_otherwise(part: Spec) -> Iterable[str]:
+def _asked_otherwise(part: Spec, clients: Mapping[str, Callback]) -> Iterable[str]:
     """The actions for one of whose answers alone somebody waits, whichever that is."""
-    clients = {c.name: c for c in part.callbacks if c.entity is EntityKind.ACTION_CLIENT}
     doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
     for block in (block for doer in doers for block in doer.blocking):
         client = clients.get(block.on) if isinstance(block.on, str) else None
@@ -85,25 +99,15 @@ def _asked_otherwise(part: Spec) -> Iterable[str]:
 
 
 def _split(
-    part: Spec, keys: frozenset[str], sure: frozenset[object], certain: frozenset[object]
+    part: Spec, keys: frozenset[str], second: Mapping[str, str], left_out: Collection[str]
 ) -> Spec:
     """
     A unit with its ends of ``keys`` told apart.
 
-    :param sure: the actions of which only the result is waited for, ``certain`` only the goal.
+    :param second: what takes the second answer, by what takes the first.
+    :param left_out: of both, those for whose answers nobody needs to wait.
     """
-    second = {
-        callback.name: _free(f'{callback.name}_result', part)
-        for callback in part.callbacks
-        if callback.entity is EntityKind.ACTION_CLIENT and callback.key in keys
-    }
-    left_out = {
-        name
-        for callback in part.callbacks
-        if callback.name in second
-        for name, keys_of in ((callback.name, sure), (second[callback.name], certain))
-        if callback.key in keys_of
-    }
+    taken = {*part.names(), *second.values()}
     callbacks: list[Callback] = []
     groups = list(part.groups)
     for callback in part.callbacks:
@@ -115,7 +119,7 @@ def _split(
             both = _clients(callback, second[callback.name])
             callbacks += [each for each in both if each.name not in left_out]
         elif callback.entity is EntityKind.ACTION_EXECUTE:
-            name = _free(_ONE_GOAL.format(callback.name), part)
+            name = _free(_ONE_GOAL.format(callback.name), taken)
             groups.append(CallbackGroup(name=name, type=GroupType.EXCLUSIVE))
             server = replace(callback, entity=EntityKind.SERVICE, key=_RESULT.format(key))
             callbacks.append(replace(server, group=name, groupless=False))
@@ -189,8 +193,8 @@ def _for(block: Blocking, on: str, name: str) -> Blocking:
     return replace(block, on=name, resource=resource, wakers=wakers)
 
 
-def _free(name: str, part: Spec) -> str:
-    taken = set(part.names())
+def _free(name: str, taken: set[str]) -> str:
     while name in taken:
         name += '_'
+    taken.add(name)
     return name

@@ -1,0 +1,21 @@
+from launch import LaunchDescription
+from launch.actions import GroupAction
+from launch_ros.actions import Node, SetParameter
+
+
+def generate_launch_description():
+    return LaunchDescription(
+        [
+            GroupAction(
+                [
+                    SetParameter('use_sim_time', True),
+                    Node(package='second', executable='ticker.py'),
+                ]
+            ),
+            Node(package='second', executable='ticker.py', name='wall_ticker'),
+        ]
+    )
+
+
+# observed: ticker
+# CC704 launch/clock_bad.launch.py: executable='ticker.py'
