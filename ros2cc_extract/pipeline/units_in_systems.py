@@ -10,11 +10,11 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.units.pending_requests import SEVERAL, askers_in
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
+from ros2cc_extract.spec.system.circles.offers_at_start import with_offers
 from ros2cc_extract.spec.system.circles.part_names import renamed_parts
+from ros2cc_extract.spec.system.circles.pending_requests import SEVERAL, askers_in
 from ros2cc_extract.spec.system.model import Process, System
-from ros2cc_extract.spec.system.offers_at_start import with_offers
 
 
 def with_neighbours(system: System) -> System:

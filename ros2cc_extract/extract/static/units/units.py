@@ -18,11 +18,11 @@ from ros2cc_extract.extract.static.python.values.values import Class, Instance, 
 from ros2cc_extract.extract.static.python.values.values import Value as AnyValue
 from ros2cc_extract.extract.static.units.callbacks import UnitBuilder
 from ros2cc_extract.extract.static.units.executor import Unit, is_handed_over
-from ros2cc_extract.extract.static.units.pending_requests import with_askers
 from ros2cc_extract.extract.static.units.set_up_waits import share_out
 from ros2cc_extract.extract.static.units.whole_program.double_spins import are_concurrent
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined
 from ros2cc_extract.spec.model import Executor, Spec, collect_unresolved
+from ros2cc_extract.spec.system.circles.pending_requests import with_askers
 
 
 def specs_of(world: RosWorld, entry: str | None) -> list[Spec]:
