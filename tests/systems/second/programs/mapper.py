@@ -1,4 +1,4 @@
-"""Gives the map after it has asked where the robot is; its client is served on a thread of its own."""
+"""Gives the map after asking where the robot is; its client has a thread of its own."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""Keeps records: to fetch one it lets the loader load it, and that asks for the index of the store."""
+"""Keeps records: to fetch one it asks the loader, which asks for the index of the store."""
 
 import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup

@@ -46,7 +46,7 @@ def main():
     left, right = Left(lock), Right(lock)
     left.judge.wait_for_service()
     executors = [MultiThreadedExecutor(num_threads=3), SingleThreadedExecutor()]
-    for executor, node in zip(executors, (left, right)):
+    for executor, node in zip(executors, (left, right), strict=True):
         executor.add_node(node)
     threading.Thread(target=executors[1].spin, daemon=True).start()
     executors[0].spin()
