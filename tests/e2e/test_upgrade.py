@@ -148,6 +148,48 @@ def test_without_a_release_all_supported_ones_are_judged(tmp_path: Path) -> None
     assert ('CC120' in of_new, '✓ no deadlock  ✓ every wait ends' in of_new) == (False, True)
 
 
+TASK_IN_A_POOL = """\
+import rclpy
+from rclpy.executors import {executor}
+from rclpy.node import Node
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.create_timer(0.1, self.move)
+
+    async def move(self):
+        await self.executor.create_task(self.plan)
+
+    def plan(self):
+        self.planned = True
+
+
+rclpy.init()
+executor = {executor}()
+executor.add_node(Arm())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('executor', 'release', 'is_open'),
+    [
+        ('MultiThreadedExecutor', '9.1.2', True),
+        ('MultiThreadedExecutor', '9.1.5', False),
+        ('SingleThreadedExecutor', '9.1.2', False),
+    ],
+)
+def test_a_task_of_a_pool_wakes_no_executor_on_old_releases(
+    tmp_path: Path, executor: str, release: str, is_open: bool
+) -> None:
+    (tmp_path / 'arm.py').write_text(TASK_IN_A_POOL.format(executor=executor))
+    _, out, _ = run(str(tmp_path / 'arm.py'), '--no-cache', '--rclpy', release)
+    assert ('the end of a task in a pool wakes no executor' in out) is is_open
+    assert ('✓ every wait ends' in out) is not is_open
+
+
 def test_what_only_new_releases_do_is_found_without_a_release(tmp_path: Path) -> None:
     (tmp_path / 'arm.py').write_text(NODE)
     _, cold, _ = run(str(tmp_path / 'arm.py'))
