@@ -72,7 +72,7 @@ class Delay(Node):
         MESSAGE_INFO,
         'the information of the message, which rclpy passes from 4.0 on: on Humble (3.3) each '
         'message raises TypeError',
-        'take the message alone, or give the second parameter a default',
+        'take the message alone, and put what you need into it',
     ),
 )
 OF_TIMER = Rule(
