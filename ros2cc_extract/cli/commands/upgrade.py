@@ -7,7 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, TextIO
 
 from ros2cc_extract.cli.shared.arguments import add_paths, release_argument
-from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_FINDINGS, EXIT_UNDECIDED
+from ros2cc_extract.cli.shared.exit_status import (
+    EXIT_CLEAN,
+    EXIT_ERROR,
+    EXIT_FINDINGS,
+    EXIT_UNDECIDED,
+)
 
 if TYPE_CHECKING:
     from ros2cc_extract.findings.upgrade import Change, Side
@@ -34,11 +39,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.releases import tell_releases
     from ros2cc_extract.findings.upgrade import changes, not_compared
+    from ros2cc_extract.pipeline.sources import has_unread, nothing_read
     from ros2cc_extract.spec.releases.lines import newest_of
 
     old, new = newest_of(args.from_release), newest_of(args.to_release)
     tell_releases((old, new), stderr)
     before, after = _checked(args, old, stderr), _checked(args, new, stderr)
+    _print_unread(after, stderr)
+    if nothing_read(args.paths, after.extraction):
+        return EXIT_ERROR
     sides = _side(before, old), _side(after, new)
     found = changes(after.units, *sides)
     for change in found:
@@ -51,7 +60,17 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     print(f'from rclpy {old} to {new}: {count}', file=stdout)
     if found:
         return EXIT_FINDINGS
-    return EXIT_UNDECIDED if before.is_undecided or after.is_undecided else EXIT_CLEAN
+    is_open = before.is_undecided or after.is_undecided
+    return EXIT_UNDECIDED if is_open or has_unread(after.extraction.diagnostics) else EXIT_CLEAN
+
+
+def _print_unread(outcome: Outcome, stderr: TextIO) -> None:
+    """Nothing is compared in a file that was not read, which the reader must know."""
+    from ros2cc_extract.findings.collect import is_unread
+
+    for finding in outcome.findings:
+        if is_unread(finding):
+            print(f'{finding.place}: {finding.message}', file=stderr)
 
 
 def _side(outcome: Outcome, release: str) -> Side:
