@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from ros2cc_extract.extract.static.api import scan
 
 MAIN = 'import rclpy\nimport names\nrclpy.spin(rclpy.create_node(names.NAME))\n'
@@ -46,3 +48,19 @@ def test_damaged_entry_counts_as_none(tmp_path: Path) -> None:
     for entry in (tmp_path / 'cache').iterdir():
         entry.write_bytes(b'damaged')
     assert names_of(tmp_path) == ['one']
+
+
+@pytest.mark.parametrize('paths', [('.', 'broken.py'), ('broken.py', '.')])
+def test_file_that_is_named_and_its_folder_have_results_of_their_own(
+    tmp_path: Path, paths: tuple[str, str]
+) -> None:
+    (tmp_path / 'src').mkdir()
+    (tmp_path / 'src' / 'broken.py').write_text('def f(:\n')
+
+    found = {
+        path: scan([tmp_path / 'src' / path], root=tmp_path, cache=tmp_path / 'cache').diagnostics
+        for path in paths
+    }
+
+    assert found['.'] == ()
+    assert [told.slug for told in found['broken.py']] == ['syntax-error']
