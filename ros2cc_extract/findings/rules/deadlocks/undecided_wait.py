@@ -25,10 +25,8 @@ from ros2cc_extract.findings.waits.waits import (
     ways_of_others,
     who_waits,
 )
-from ros2cc_extract.findings.waits.workers import MULTI
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import (
-    AWAIT,
     ENDLESS_LOOP,
     NOT_FOLLOWED,
     OUTSIDE,
@@ -37,9 +35,8 @@ from ros2cc_extract.spec.effects import (
     WORKING_LOOP,
     Blocking,
 )
-from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, EntityKind
-from ros2cc_extract.spec.releases.table import FUTURE_YIELDS_ITSELF
-from ros2cc_extract.verify.results.caveats import open_ends
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
+from ros2cc_extract.verify.results.caveats import OpenEnd, open_ends
 from ros2cc_extract.verify.results.results import Verdict
 
 CODE = 'CC120'
@@ -51,11 +48,6 @@ _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
     'a thread may be the one that ends it, which wakes no executor: it goes on once something '
     'else does so'
-)
-
-_POOL_WAKES_NOBODY = (
-    'before rclpy 3.3.21, 7.1.9 and 9.1.4 the end of a task in a pool wakes no executor: it goes '
-    'on once something else does so'
 )
 
 
@@ -85,13 +77,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
                 reasons[id(wait)] = reason
     if not is_outside:
         yield from _of_limits(tuple(_cut_short(context, waits)), context)
-        for found, reason in (
-            (_unwoken(context), _WAKES_NOBODY),
-            (_unwoken_by_pool(context), _POOL_WAKES_NOBODY),
-        ):
-            for wait in found:
-                waits.append(wait)
-                reasons[id(wait)] = reason
+        for wait in _unwoken(context):
+            waits.append(wait)
+            reasons[id(wait)] = _WAKES_NOBODY
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
@@ -178,12 +166,11 @@ def _for_messages(context: Context) -> Iterator[AnyWait]:
                     yield AnyWait(caller, block, kind_of(block))
 
 
-def _open(
-    blocking: Sequence[Blocking], unknown: Sequence[Blocking]
-) -> Iterator[tuple[Blocking, str]]:
+def _open(blocking: Sequence[Blocking], ends: Sequence[OpenEnd]) -> Iterator[tuple[Blocking, str]]:
     for block in blocking:
-        if any(block is each for each in unknown):
-            yield block, _reason(block)
+        end = next((end for end in ends if block is end.block), None)
+        if end is not None:
+            yield block, end.why or _reason(block)
 
 
 def _reason(block: Blocking) -> str:
@@ -298,24 +285,6 @@ def _unwoken(context: Context) -> Iterator[AnyWait]:
             continue
         for block in caller.blocking:
             if _is_by_thread(block):
-                yield AnyWait(caller, block, kind_of(block))
-
-
-def _unwoken_by_pool(context: Context) -> Iterator[AnyWait]:
-    """
-    Awaits of tasks in a pool, whose threads wake no executor at the end of a task.
-
-    The model has the executor woken there. Source: rclpy 9.1.2, ``executors.py`` (only the work
-    of an entity triggers its guard). Measured: a node whose timers are all held up meanwhile
-    stood in 2 of 3 runs on 9.1.2.
-    """
-    unit = context.unit
-    if unit.executor.kind != MULTI or FUTURE_YIELDS_ITSELF.holds(unit.rclpy):
-        return
-    tasks = {each.name for each in unit.callbacks if each.entity is EntityKind.TASK}
-    for caller in context.written:
-        for block in caller.blocking:
-            if block.call == AWAIT and block.on in tasks and block.seconds is None:
                 yield AnyWait(caller, block, kind_of(block))
 
 
