@@ -136,10 +136,19 @@ def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
     if len(late) == len(enders):
         starters = dict.fromkeys(start.by for each in late for start in each.starts)
         return f'{_names(late)} begins only when {listing(starters)} has ended, on one thread'
+    if is_given_once(stuck, context):
+        return f'{_names(enders)} runs only once, and an earlier wait uses up what it does for it'
     early = 'comes too early, or another wait uses it up'
     if stuck.wait.block.needs is not Needs.EACH:
         early = 'is not sure to come'
     return f'what {_names(enders)} does for it {early}'
+
+
+def is_given_once(stuck: Stuck, context: Context) -> bool:
+    """Whether each wait uses up what only callbacks do that run once."""
+    enders = [context.by_name.get(name) for name in stuck.enders]
+    is_each = stuck.wait.block.needs is Needs.EACH and not stuck.wait.block.forgets
+    return is_each and all(ender is not None and ender.one_shot for ender in enders)
 
 
 def is_for_itself(stuck: Stuck) -> bool:

@@ -1,7 +1,8 @@
 """
-A second look at claims about ends: with callbacks that fill the threads with runs of their own.
+A second look at claims about ends: with callbacks of which one run is not enough.
 
-One arrival for each callback is enough for all else; see ``arrivals.crowding`` for whom it is not.
+They fill the threads with runs of their own, or use up what is given once. One arrival for each
+callback is enough for all else; see ``needed_arrivals.crowding`` and ``repeated_takers``.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
+from ros2cc_extract.verify.arrivals.repeated_takers import taking_again
 from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search.search_results import Found, key_of, total, weighs_more
 
@@ -30,7 +32,7 @@ def ask_again(
 
     The search has its own bound on states: who waits may overlap itself in many a unit.
     """
-    arrivals = crowding(closed.spec)
+    arrivals = _arrivals(found, closed)
     asked = [query for query in queries if query.family in OF_ENDS and _may_be_of(query, arrivals)]
     left = [query for query in asked if _may_be_refuted(found.results[key_of(query)])]
     if not arrivals or not left:
@@ -46,6 +48,15 @@ def ask_again(
         total((found.check, second.check)), complete=found.check.complete and second.check.complete
     )
     return Found(results, check, found.by_slices)
+
+
+def _arrivals(found: Found, closed: ClosedSpec) -> Mapping[str, int]:
+    crowds, takers = crowding(closed.spec), taking_again(closed.spec, found.results)
+    return {
+        name: max(crowds.get(name, 1), takers.get(name, 1))
+        for callback in closed.spec.callbacks
+        if (name := callback.name) in crowds or name in takers
+    }
 
 
 def _may_be_of(query: Query, arrivals: Mapping[str, int]) -> bool:

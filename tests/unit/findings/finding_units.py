@@ -7,7 +7,9 @@ from typing import Any
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.waits.workers import DEFAULT_COUNT, EVENTS, MULTI, SINGLE
+from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.effects import Access, Blocking
 from ros2cc_extract.spec.model import (
     Callback,
@@ -19,6 +21,8 @@ from ros2cc_extract.spec.model import (
     Unresolved,
 )
 from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 FILE = 'arm.py'
 ONE_THREAD = Executor(name='executor', kind=SINGLE, threads=('thread_0',))
@@ -124,6 +128,11 @@ def unit(
         executor=executor,
         unresolved=unresolved,
     )
+
+
+def verified(spec: Spec) -> Verification:
+    """What the model says of a unit, for those rules that go by it."""
+    return verify_unit(close(spec), Options(profile=Profile.RCLPY, structural=False))
 
 
 def found(spec: Spec, verification: Verification | None = None) -> list[str]:

@@ -3,20 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from finding_units import at, found, only, threads, timer, unit
+from finding_units import at, found, only, threads, timer, unit, verified
 
 from ros2cc_extract.diagnostics import Severity
-from ros2cc_extract.generator.template_files import Profile
-from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.effects import Blocking, Waker
-from ros2cc_extract.spec.model import Callback, Spec
-from ros2cc_extract.verify.results.results import Verification
-from ros2cc_extract.verify.search.options import Options
-from ros2cc_extract.verify.unit import verify_unit
-
-
-def verified(spec: Spec) -> Verification:
-    return verify_unit(close(spec), Options(profile=Profile.RCLPY, structural=False))
+from ros2cc_extract.spec.model import Callback
 
 
 def waiting(name: str, what: str, waker: Waker) -> Callback:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from finding_units import ONE_THREAD, at, found, only, threads, timer, unit
+from finding_units import ONE_THREAD, at, found, only, threads, timer, unit, verified
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.source_locations import Unknown
@@ -89,3 +89,62 @@ def test_else_the_thread_goes_on(executor: Executor, blocking: Blocking) -> None
     spec = unit(executor, logs(f'some {BY_ITSELF}', 'write'), timer('flush', 'other'))
     spec = replace(spec, activities=(writer(blocking),))
     assert [f for f in found(spec) if f.startswith('CC109')] == []
+
+
+def takes(*givers: Waker, conditional: bool = False) -> Callback:
+    get = Blocking(
+        call='Queue.get',
+        source=at(51),
+        on='goals',
+        resource='goals',
+        needs=Needs.EACH,
+        wakers=givers,
+        conditional=conditional,
+    )
+    return timer('take', 'arm_default', blocking=(get,))
+
+
+def test_what_is_given_once_serves_one_run() -> None:
+    give = replace(timer('give', 'other'), one_shot=True)
+    spec = unit(threads(4), takes(Waker(by='give', after=0)), give)
+    finding = only(spec, 'CC109', verified(spec))
+    assert (finding.severity, finding.message) == (
+        Severity.ERROR,
+        'take waits in Queue.get for goals, but give runs only once, and an earlier wait uses up '
+        'what it does for it: it waits forever',
+    )
+
+
+def test_what_is_given_twice_in_one_run_serves_two() -> None:
+    give = replace(timer('give', 'other'), one_shot=True)
+    wakers = (Waker(by='give', after=0, source=at(41)), Waker(by='give', after=0, source=at(42)))
+    spec = unit(threads(4), takes(*wakers), give)
+    finding = only(spec, 'CC109', verified(spec))
+    assert finding.message.startswith('take waits in Queue.get for goals, but give runs only once')
+
+
+def test_who_hangs_behind_what_he_gives_serves_one_run() -> None:
+    stands = Blocking(call='Event.wait', source=at(42), resource='gone', wakers=())
+    give = timer('give', 'other', blocking=(stands,))
+    spec = unit(threads(4), takes(Waker(by='give', after=0)), give)
+    assert [f for f in found(spec, verified(spec)) if f.startswith('CC109:51')] == ['CC109:51']
+
+
+@pytest.mark.parametrize(
+    ('taker', 'give'),
+    [
+        (takes(Waker(by='give', after=0)), timer('give', 'other')),
+        (
+            takes(Waker(by='give', after=0), conditional=True),
+            replace(timer('give', 'other'), one_shot=True),
+        ),
+        (
+            replace(takes(Waker(by='give', after=0)), one_shot=True),
+            replace(timer('give', 'other'), one_shot=True),
+        ),
+    ],
+    ids=['it gives each period', 'a branch may skip the wait', 'each runs once'],
+)
+def test_who_is_served_each_time_ends(taker: Callback, give: Callback) -> None:
+    spec = unit(threads(4), taker, give)
+    assert [f for f in found(spec, verified(spec)) if f.startswith('CC1')] == []

@@ -22,6 +22,7 @@ from ros2cc_extract.findings.waits.remedies import AWAIT_IT, BE_CONCURRENT, is_o
 from ros2cc_extract.findings.waits.stuck_callbacks import (
     Stuck,
     is_for_itself,
+    is_given_once,
     shut_out_for,
     stuck_in,
     together_with,
@@ -261,6 +262,8 @@ def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
     shut_out = shut_out_for(first, together, context)
     if shut_out:
         return f'give {listing(shut_out)} a callback group of its own, or the wait a time-out'
+    if is_given_once(first, context):
+        return 'take only what is there (`Queue.get_nowait`), or give the wait a time-out'
     return (
         f'see to it that {listing(first.enders)} can run while {called(first.doer)} '
         'waits, or give the wait a time-out'
