@@ -263,7 +263,7 @@ def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:
     if shut_out:
         return f'give {listing(shut_out)} a callback group of its own, or the wait a time-out'
     if is_given_once(first, context):
-        return 'take only what is there (`Queue.get_nowait`), or give the wait a time-out'
+        return 'take only what is there, without waiting, or give the wait a time-out'
     return (
         f'see to it that {listing(first.enders)} can run while {called(first.doer)} '
         'waits, or give the wait a time-out'
