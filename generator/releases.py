@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.generator.executor_kinds import executor_kind
 from ros2cc_extract.generator.nested_spins import is_spin
-from ros2cc_extract.generator.resources import is_foreign, is_of_pooled_task
+from ros2cc_extract.generator.resources import is_foreign, may_pass_unseen
 from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
@@ -21,11 +21,11 @@ def felt(spec: Spec) -> tuple[Behaviour, ...]:
 
     The order of tasks is not among them: where no release is named, the model has either order.
     """
-    blocks = [block for callback in spec.callbacks for block in callback.blocking]
-    spins = (NODE_STAYS, SPIN_REFUSED_TWICE) if any(map(is_spin, blocks)) else ()
-    has_laps = executor_kind(spec).has_laps
-    is_woken = has_laps and any(
-        is_foreign(block, spec) or is_of_pooled_task(block, spec) for block in blocks
+    waits = [(block, callback) for callback in spec.callbacks for block in callback.blocking]
+    spins = (NODE_STAYS, SPIN_REFUSED_TWICE) if any(is_spin(block) for block, _ in waits) else ()
+    is_woken = executor_kind(spec).has_laps and any(
+        is_foreign(block, spec) or may_pass_unseen(block, callback, spec)
+        for block, callback in waits
     )
     return (*spins, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
 

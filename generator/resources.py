@@ -62,15 +62,42 @@ def is_foreign(block: Blocking, spec: Spec) -> bool:
     return is_await and block.foreign and is_ours
 
 
-def is_of_pooled_task(block: Blocking, spec: Spec) -> bool:
-    """Tell whether a task that a pool runs may be what ends an await."""
-    has_pool = executor_kind(spec) is ExecutorKind.MULTI_THREADED
-    if not has_pool or block.call != AWAIT or block.seconds is not None:
-        return False
-    named = {block.on if isinstance(block.on, str) else None, *(w.by for w in block.wakers)}
+def may_pass_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
+    """
+    Tell whether a lap may ask the coroutine before the task has ended, and none follows.
+
+    In a pool they run at the same time. On one thread the work of an entity makes two laps
+    begin, and each asks the coroutines in turn: it takes two tasks, one ended by the other, of
+    which each is asked behind who waits for it, as one that was made before.
+    """
+    kind = executor_kind(spec)
+    enders = [ender for ender in _tasks_that_end(block, spec) if ender.name != callback.name]
+    if kind is not ExecutorKind.SINGLE_THREADED:
+        return kind is ExecutorKind.MULTI_THREADED and bool(enders)
+    late = [ender for ender in enders if not _is_made_within(ender, callback, block)]
     return any(
-        c.name in named and c.entity is not None and c.entity.is_task for c in spec.callbacks
+        not _is_made_within(first, ender, own)
+        for ender in late
+        for own in ender.blocking
+        for first in _tasks_that_end(own, spec)
     )
+
+
+def _tasks_that_end(block: Blocking, spec: Spec) -> Iterator[Callback]:
+    if block.call == AWAIT and block.seconds is None:
+        on = block.on if isinstance(block.on, str) else None
+        named = {on, *(waker.by for waker in block.wakers)}
+        for callback in spec.callbacks:
+            if callback.name in named and callback.entity is not None and callback.entity.is_task:
+                yield callback
+
+
+def _is_made_within(task: Callback, callback: Callback, block: Blocking) -> bool:
+    """Tell whether a run makes the task before it awaits it, by lines: it is asked before."""
+    begin, made, end = callback.defined, task.source, block.source
+    if begin is None or made is None or end is None:
+        return False
+    return begin.file == made.file == end.file and begin.line <= made.line <= end.line
 
 
 def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[NamedWait]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind, rank_of
 from ros2cc_extract.generator.nested_spins import Refusal, Spun
@@ -334,6 +334,14 @@ class Unit:
         return self.groups[callback.group]
 
 
+def _arrivals(closed: ClosedSpec, actors: Iterable[str], max_cycle: int | None) -> dict[str, int]:
+    """How often each becomes ready, where there is a bound: who runs once only once."""
+    if not max_cycle:
+        return dict.fromkeys(actors, 1)
+    once = {callback.name: 1 for callback in closed.spec.callbacks if callback.one_shot}
+    return {**dict.fromkeys(actors, max_cycle), **once, **closed.arrivals}
+
+
 def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     """Give every callback and group of ``closed`` its place, in the order of the spec."""
     spec = closed.spec
@@ -344,9 +352,7 @@ def number_unit(closed: ClosedSpec, max_cycle: int | None) -> Unit:
     waits = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     locks = tuple(dict.fromkeys(w.lock for own in waits.values() for w in own if w.lock))
     resources = resources_of(waits)
-    arrivals = {
-        actor: closed.arrivals.get(actor, max_cycle or 1) if max_cycle else 1 for actor in waits
-    }
+    arrivals = _arrivals(closed, waits, max_cycle)
     return Unit(
         name=spec.name,
         kind=executor_kind(spec),

@@ -20,7 +20,7 @@ from ros2cc_extract.generator.resources import (
     concerns_others,
     goes_by_wakers,
     is_foreign,
-    is_of_pooled_task,
+    may_pass_unseen,
     private_resource,
     resource_waits,
     signals_of,
@@ -253,7 +253,7 @@ def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
         partner = others.get(block.on) if isinstance(block.on, str) else None
         if is_part_of_spin(block, callback) or block.call in _PAUSES or block.seconds is not None:
             continue
-        if is_unseen(block, spec):
+        if is_unseen(block, callback, spec):
             yield block
             continue
         if is_foreign(block, spec) or is_absent(block, spec) or goes_by_wakers(block, spec):
@@ -261,17 +261,6 @@ def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
         is_there = partner is not None and server_of(partner, spec.callbacks) is not None
         if not is_there if asks_the_graph(block) else partner is None:
             yield block
-
-
-def is_unseen(block: Blocking, spec: Spec) -> bool:
-    """
-    Tell whether what ends an await may pass unseen, so that only another event makes it go on.
-
-    So is the end of a task in a pool where no future wakes the executor: only the work of an
-    entity triggers its guard (rclpy 7.1.6 and 9.1.2, ``executors.py``, ``_make_handler``). The
-    model has the executor woken there.
-    """
-    return is_of_pooled_task(block, spec) and not foreign_wakes(spec)
 
 
 def foreign_wakes(spec: Spec) -> bool:
@@ -284,6 +273,17 @@ def foreign_wakes(spec: Spec) -> bool:
     """
     is_loop = executor_kind(spec) is ExecutorKind.ASYNCIO
     return is_loop or FUTURE_YIELDS_ITSELF.holds(spec.rclpy) is True
+
+
+def is_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
+    """
+    Tell whether what ends an await may pass unseen, so that only another event makes it go on.
+
+    So may the end of a task where no future wakes the executor: only the work of an entity
+    triggers its guard (rclpy 7.1.6 and 9.1.2, ``executors.py``, ``_make_handler``). The model has
+    the executor woken there.
+    """
+    return not foreign_wakes(spec) and may_pass_unseen(block, callback, spec)
 
 
 def is_absent(block: Blocking, spec: Spec) -> bool:

@@ -196,7 +196,7 @@ def test_a_task_of_a_pool_wakes_no_executor_on_old_releases(
 ) -> None:
     (tmp_path / 'arm.py').write_text(TASK_IN_A_POOL.format(executor=executor))
     _, out, _ = run(str(tmp_path / 'arm.py'), '--no-cache', '--rclpy', release)
-    assert ('the end of a task in a pool wakes no executor' in out) is is_open
+    assert ('the end of a task wakes no executor' in out) is is_open
     assert ('✓ every wait ends' in out) is not is_open
 
 

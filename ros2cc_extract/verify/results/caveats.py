@@ -12,11 +12,11 @@ from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.generator.waits import is_unknown, is_unseen, unknown_ends, waits_of
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Blocking
-from ros2cc_extract.spec.model import Activity, Spec
+from ros2cc_extract.spec.model import Activity, Callback, Spec
 
-_POOL_WAKES_NOBODY = (
-    'before rclpy 3.3.21, 7.1.9 and 9.1.4 the end of a task in a pool wakes no executor: it goes '
-    'on once something else does so'
+_TASK_WAKES_NOBODY = (
+    'before rclpy 3.3.21, 7.1.9 and 9.1.4 the end of a task wakes no executor: it goes on once '
+    'something else does so'
 )
 
 
@@ -86,7 +86,8 @@ def _open_ends_of(doer: Actor, unit: Spec) -> Iterator[OpenEnd]:
         if _is_open(block, doer, unit):
             yield OpenEnd(block)
         elif id(block) in known:
-            yield OpenEnd(block, _POOL_WAKES_NOBODY if is_unseen(block, unit) else '')
+            is_late = isinstance(doer, Callback) and is_unseen(block, doer, unit)
+            yield OpenEnd(block, _TASK_WAKES_NOBODY if is_late else '')
 
 
 def _is_open(block: Blocking, doer: Actor, unit: Spec) -> bool:

@@ -119,10 +119,11 @@ def test_a_signal_of_a_timer_that_runs_once_ends_one_wait():
     [
         ('true', 'true', ['deadlock', 'drive']),
         ('true', 'false', []),
-        ('false', 'true', []),
+        ('false', 'true', ['deadlock', 'drive']),
+        ('false', 'false', []),
     ],
 )
-def test_what_is_forgotten_while_nobody_waits_must_come_again(
+def test_what_each_wait_uses_up_or_forgets_must_come_again(
     forgets: str, once: str, stuck: list[str]
 ):
     told = blocking(wait('cond', 'by: tick', needs='each', more=f', forgets: {forgets}'))
