@@ -20,7 +20,7 @@ from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search.search_results import Key
 
 #: So many runs of one callback, as each costs states; more signals are given by few programs.
-MOST_RUNS = 4
+MOST_RUNS = 8
 
 
 def taking_again(spec: Spec, results: Mapping[Key, QueryResult]) -> Mapping[str, int]:

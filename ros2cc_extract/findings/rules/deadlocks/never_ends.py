@@ -277,13 +277,14 @@ RULE = Rule(
     title='Wait that never ends',
     what='The model of the unit has a run after which a callback, `main` or a thread waits and '
     'nothing can move any more: nothing ends the wait, or what could end it cannot run, comes '
-    'too early, or waits itself. This is the general rule; a more specific rule reports the wait '
-    'where one applies. Executors of one program that run at the same time and wait for each '
-    'other are checked together. The run is shown. A note: several runs of one reentrant '
-    'callback at the same time are needed to hold all threads or a lock; whether so many occur '
-    'depends on the rates. A warning: earlier runs use up a bounded queue or a semaphore, and '
-    'what refills it, or what the refilling thread waits for, cannot run during the wait; or the '
-    'callback waits for a child process while nothing reads the pipe that it writes to.',
+    'too early, gives no more than earlier waits use up, or waits itself. This is the general '
+    'rule; a more specific rule reports the wait where one applies. Executors of one program '
+    'that run at the same time and wait for each other are checked together. The run is shown. '
+    'A note: several runs of one reentrant callback at the same time are needed to hold all '
+    'threads or a lock; whether so many occur depends on the rates. A warning: earlier runs use '
+    'up a bounded queue or a semaphore, and what refills it, or what the refilling thread waits '
+    'for, cannot run during the wait; or the callback waits for a child process while nothing '
+    'reads the pipe that it writes to.',
     why='A thread that is not a daemon keeps the process alive. A callback keeps its thread and '
     'its mutually exclusive group while it waits. Two services that call each other each keep '
     'the group that the other needs. The model of profile `rclpy` decides: in it, a waiting '
