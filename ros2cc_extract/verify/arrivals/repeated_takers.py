@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from ros2cc_extract.checker.api import Verdict
 from ros2cc_extract.generator.build import Family
 from ros2cc_extract.generator.program_steps import NamedWait
+from ros2cc_extract.generator.resources import Actor, all_actors
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.effects import ENDLESS_LOOP, WORKING_LOOP
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, EntityKind, Spec
@@ -47,7 +48,7 @@ def _takes(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
 
 def _given(wait: NamedWait, spec: Spec, results: Mapping[Key, QueryResult]) -> int:
     """Count the signals that may be the last ones; none where others surely follow."""
-    doers = {doer.name: doer for doer in (*spec.callbacks, *spec.activities)}
+    doers = {doer.name: doer for doer in all_actors(spec)}
     wakers = wait.block.wakers if wait.block is not None else ()
     for waker in wakers:
         giver = doers.get(waker.by)
@@ -56,7 +57,7 @@ def _given(wait: NamedWait, spec: Spec, results: Mapping[Key, QueryResult]) -> i
     return len(wakers)
 
 
-def _gives_again(giver: Callback | Activity, results: Mapping[Key, QueryResult]) -> bool:
+def _gives_again(giver: Actor, results: Mapping[Key, QueryResult]) -> bool:
     """Whether it runs as often as somebody needs it, and always comes to its end."""
     if any(block.call in (ENDLESS_LOOP, WORKING_LOOP) for block in giver.blocking):
         return True  # it may give in each round
