@@ -167,6 +167,7 @@ def _plan(schedule: Schedule, folder: Path) -> str:
         'surroundings': str(folder / READY),
         'points': [asdict(each) for each in schedule.points],
         'race': None if schedule.race is None else asdict(schedule.race),
+        'destroys': schedule.destroys,
         'held': [asdict(each) for each in schedule.held],
     }
     return json.dumps(row)

@@ -73,6 +73,7 @@ _WORDS: Mapping[str, Callable[[Schedule, Row], str]] = {
     'raised': lambda schedule, row: (
         f'line {_line(schedule, row)} raises {row["type"]}: {row["text"]}'
     ),
+    'destroyed': lambda _, row: f'has destroyed a {row["name"]}',
     'raced': lambda _, row: _RACE.format(**row),
     'open': lambda _, row: 'nothing is held back any more',
 }

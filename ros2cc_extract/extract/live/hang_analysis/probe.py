@@ -246,7 +246,10 @@ def _node(node: Any) -> dict[str, Any]:
     }  # fmt: skip
     with contextlib.suppress(Exception):
         row['name'] = node.get_fully_qualified_name()
-        row['domain'] = node.context.get_domain_id()
+        # Not by the method of the context: it takes a lock, which a shutdown that hangs holds.
+        context = node.context.handle
+        with context:
+            row['domain'] = context.get_domain_id()
     # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
     row['simulated_clock'] = bool(
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)

@@ -12,12 +12,10 @@ neighbours.
 from __future__ import annotations
 
 import functools
-import os
 import sys
 import threading
 import time
 from collections.abc import Callable
-from types import FrameType
 from typing import Any, Protocol
 
 from .director import Director, is_of_program
@@ -118,17 +116,9 @@ class Running:
         return found
 
     def _tell_nested(self, entity: Any) -> None:
-        frame: FrameType | None = sys._getframe(1)
-        while frame is not None:
-            for index, point in enumerate(self._director.plan.points):
-                if point.contains(frame.f_lineno or 0) and point.file == _file_of(frame):
-                    self._report.write('nested', point=index, name=_name(entity))
-                    return
-            frame = frame.f_back
-
-
-def _file_of(frame: FrameType) -> str:
-    return os.path.realpath(frame.f_code.co_filename)
+        point = self._director.point_of(sys._getframe(1))
+        if point is not None:
+            self._report.write('nested', point=point, name=_name(entity))
 
 
 def _row(entity: Any) -> dict[str, Any]:
