@@ -35,7 +35,7 @@ class Station(Node):
         self.create_subscription(Int64, 'clock_ns', self.on_message, 10, callback_group=free)
         self.client = self.create_client(Trigger, f'ask_{number}', callback_group=free)
         self.create_service(Trigger, f'ask_{number}', self.on_ask, callback_group=free)
-        self.create_timer(0.01, self.on_timer, callback_group=free)
+        self.create_timer(0.02, self.on_timer, callback_group=free)
         self.create_timer(0.1, self.on_call, callback_group=free)
 
     def on_timer(self) -> None:
