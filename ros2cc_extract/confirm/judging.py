@@ -72,7 +72,7 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
         return Judgement(Outcome.CONTRADICTED, reason, _last_look(seen))
     reason = 'was reached, but nothing was shown'
     if schedule.runs_inside and not seen.raised:
-        reason = 'was reached; no other callback began inside, and this release raises nothing'
+        reason = 'was reached; no other callback was run inside, and this release raises nothing'
     return Judgement(Outcome.NOT_REACHED, reason, _last_look(seen))
 
 

@@ -38,12 +38,12 @@ def exception(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 
 def nested(schedule: Schedule, seen: Observations) -> Judgement | None:
-    """A callback has begun inside the one that spins."""
+    """The nested spin has taken another callback, and runs it or has it run."""
     if not schedule.runs_inside:
         return None
     for row in seen.nested:
         if row['point'] == 0:
-            reason = f'{row["name"]} began inside the nested spin at line {schedule.line}'
+            reason = f'{row["name"]} is run by the nested spin at line {schedule.line}'
             return Judgement(Outcome.CONFIRMED, reason)
     return None
 

@@ -19,6 +19,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from .director import Director, is_of_program
+from .plan import name_of
 from .report import Report
 
 # An executor asks at once again; without a pause it would ask all the time.
@@ -83,6 +84,22 @@ def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
     return [(group, 'beginning_execution', begin), (group, 'ending_execution', end)]
 
 
+def steer_takes(executor: Any, taken: Callable[[Any], None]) -> None:
+    """
+    Tell which entities a spin takes, in the thread that spins.
+
+    :param executor: ``rclpy.executors.Executor``; `_make_handler(self, entity, …)`, 3.3 to 9.1.
+    """
+    make = executor._make_handler
+
+    @functools.wraps(make)
+    def make_handler(self: Any, entity: Any, *args: Any, **named: Any) -> Any:
+        taken(entity)
+        return make(self, entity, *args, **named)
+
+    executor._make_handler = make_handler
+
+
 class Running:
     """Which callbacks run in which thread, one inside the other; a director decides."""
 
@@ -95,8 +112,6 @@ class Running:
 
     def begun(self, entity: Any) -> None:
         stack = self._stack()
-        if stack and self._director.plan.points and is_of_program(entity):
-            self._tell_nested(entity)
         stack.append(id(entity))
         self._report.write('begin', **_row(entity))
 
@@ -115,10 +130,15 @@ class Running:
         found: list[int] = self._of_thread.stack
         return found
 
-    def _tell_nested(self, entity: Any) -> None:
+    def taken(self, entity: Any) -> None:
+        """A spin has taken it, to run it here or in a thread of its pool."""
+        is_answer = type(entity).__name__ == 'Client'
+        if not self._director.plan.points or not (is_of_program(entity) or is_answer):
+            return
         point = self._director.point_of(sys._getframe(1))
         if point is not None:
-            self._report.write('nested', point=point, name=_name(entity))
+            name = f'the answer of {name_of(entity)}' if is_answer else _name(entity)
+            self._report.write('nested', point=point, name=name)
 
 
 def _row(entity: Any) -> dict[str, Any]:

@@ -14,7 +14,7 @@ import threading
 import time
 
 from ..hang_analysis import probe
-from .begins import Running, steer_groups
+from .begins import Running, steer_groups, steer_takes
 from .destroys import Destroys
 from .director import Director
 from .failures import Failures
@@ -54,6 +54,7 @@ class Steering:
     def wrap(self) -> None:
         """Wrap what is loaded of rclpy, and begin to look."""
         running = Running(self._director, self._report)
+        steer_takes(sys.modules['rclpy.executors'].Executor, running.taken)
         steer_groups(sys.modules['rclpy.callback_groups'], running)
         if self._director.plan.destroys:
             # Only when it is needed: the module of nodes is loaded later.
