@@ -16,6 +16,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from types import FrameType
 from typing import Any, Protocol
 
 from .director import Director, is_of_program
@@ -135,10 +136,19 @@ class Running:
         is_answer = type(entity).__name__ == 'Client'
         if not self._director.plan.points or not (is_of_program(entity) or is_answer):
             return
-        point = self._director.point_of(sys._getframe(1))
-        if point is not None:
+        found = self._director.point_of(sys._getframe(1))
+        if found is not None and _is_in_callback(found[1]):
             name = f'the answer of {name_of(entity)}' if is_answer else _name(entity)
-            self._report.write('nested', point=point, name=name)
+            self._report.write('nested', point=found[0], name=name)
+
+
+def _is_in_callback(frame: FrameType | None) -> bool:
+    """Whether an executor has called it."""
+    while frame is not None:
+        if frame.f_globals.get('__name__') == 'rclpy.executors':
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _row(entity: Any) -> dict[str, Any]:

@@ -76,7 +76,8 @@ class Destroys:
     def _is_meant(self) -> bool:
         if self._tries >= _MOST_TRIES or not self._director.plan.destroys:
             return False
-        return self._director.point_of(sys._getframe(2)) == 0
+        found = self._director.point_of(sys._getframe(2))
+        return found is not None and found[0] == 0
 
     def _hold(self, entity: Any) -> None:
         self._tries += 1

@@ -87,12 +87,12 @@ class Director:
             if prepare is not None:
                 prepare()
 
-    def point_of(self, frame: FrameType | None) -> int | None:
-        """Which point a call, or one that led to it, stands at."""
+    def point_of(self, frame: FrameType | None) -> tuple[int, FrameType] | None:
+        """Which point a call, or one that led to it, stands at, and which of them does."""
         while frame is not None:
             for index, point in enumerate(self.plan.points):
                 if point.contains(frame.f_lineno or 0) and point.file == _file_of(frame):
-                    return index
+                    return index, frame
             frame = frame.f_back
         return None
 
