@@ -1,10 +1,11 @@
 """
 The load of ``hook_load.py`` with the hook put on and taken off again, in slices of one run.
 
-Arguments: single or multi, seconds. A slice without the hook, one with it, one with watchdog
-and flight recorder, and one with a trace follow each other, in another order each time; so
-whatever else slows the machine down meets all alike. Prints one line of JSON: CPU time per callback of each slice in microseconds, that of
-the hook's own thread included, and the latency of messages. Needs rclpy and this package.
+Arguments: single or multi, seconds. A slice without the hook, one with it, one with watchdog and
+flight recorder, and one with a trace follow each other, in another order each time; so whatever
+else slows the machine down meets all alike. Prints one line of JSON: CPU time per callback of each
+slice in microseconds, that of the hook's own thread included, and the latency of messages. Needs
+rclpy and this package.
 """
 
 from __future__ import annotations

@@ -1,14 +1,15 @@
 """
-What ``why`` costs a healthy process: how long a thread of it stands still, and the time to the answer.
+What ``why`` costs a healthy process: how long its threads stand still, and the time to the answer.
 
-    python benchmarks/why.py                   20 times each, without the hook and with it, 3 minutes
+    python benchmarks/why.py               20 times each, without the hook and with it, 5 minutes
     python benchmarks/why.py --times 5
 
-The interpreter with rclpy is that of ``ROS2CC_RCLPY_PYTHON``, else this one. A busy node has a thread
-that ticks each millisecond (``why_load.py``); shown are its longest gaps while ``why`` looks at it,
-while ``why`` looks at another process, which takes the same processors, and while nobody does. The
-gaps in time of the process's own processors do not grow on a busy machine, and say how long others
-of its threads kept the lock of the interpreter; whom the kernel stops shows in the others only.
+The interpreter with rclpy is that of ``ROS2CC_RCLPY_PYTHON``, else this one. A busy node has a
+thread that ticks each millisecond (``why_load.py``); shown are its longest gaps while ``why``
+looks at it, while ``why`` looks at another process, which takes the same processors, and while
+nobody does. The gaps in time of the process's own processors grow less on a busy machine, and say
+how long others of its threads kept the lock of the interpreter; whom the kernel stops shows in the
+others only.
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ def ask_why(pid: int) -> None:
 
 def longest(gaps: Path, work: Callable[[], object]) -> tuple[float, float, float]:
     """
-    The longest gap while something is done, by the clock and of processors, and how long that took.
+    The longest gap while something is done, by the clock and of processors; how long that took.
 
     In milliseconds, and in seconds.
     """
@@ -80,7 +81,8 @@ def longest(gaps: Path, work: Callable[[], object]) -> tuple[float, float, float
 def told(name: str, values: Sequence[float], unit: str) -> str:
     ordered = sorted(values)
     shown = ' '.join(f'{each:.1f}' if unit == 'ms' else f'{each:.2f}' for each in ordered)
-    return f'{name:<36} median {statistics.median(ordered):6.2f}, worst {ordered[-1]:6.2f} {unit}: {shown}'
+    middle, worst = statistics.median(ordered), ordered[-1]
+    return f'{name:<36} median {middle:6.2f}, worst {worst:6.2f} {unit}: {shown}'
 
 
 def measure(folder: Path, times: int, *, hooked: bool) -> float:
@@ -112,8 +114,7 @@ def main() -> int:
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         worst = [
-            measure(Path(name, str(hooked)), args.times, hooked=hooked)
-            for hooked in (False, True)
+            measure(Path(name, str(hooked)), args.times, hooked=hooked) for hooked in (False, True)
         ]
     return int(max(worst) > BAR_MS)
 

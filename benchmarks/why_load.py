@@ -1,14 +1,15 @@
 """
 The process of ``why.py``: a healthy node, busy on a pool, and a thread that ticks beside it.
 
-Argument: the file that the gaps between its ticks go into. The ticking thread needs the lock of the
-interpreter for each tick, as every callback does. Needs rclpy only.
+Argument: the file that the gaps between its ticks go into. The ticking thread needs the lock of
+the interpreter for each tick, as every callback does. Needs rclpy only.
 """
 
 import struct
 import sys
 import threading
 import time
+from pathlib import Path
 
 import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -52,9 +53,9 @@ class Station(Node):
             self.client.call_async(Trigger.Request())
 
 
-def tick(path: str) -> None:
+def tick(path: Path) -> None:
     """Write when a tick was late, by how much, and what the process has computed meanwhile."""
-    with open(path, 'ab', buffering=0) as stream:
+    with path.open('ab', buffering=0) as stream:
         last, used = time.monotonic(), time.process_time()
         while True:
             time.sleep(TICK_S)
@@ -69,7 +70,7 @@ def main() -> None:
     executor = MultiThreadedExecutor(4)
     for number in range(NODES):
         executor.add_node(Station(number))
-    threading.Thread(target=tick, args=(sys.argv[1],), daemon=True).start()
+    threading.Thread(target=tick, args=(Path(sys.argv[1]),), daemon=True).start()
     executor.spin()
 
 

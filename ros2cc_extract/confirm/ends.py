@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-import os
+from pathlib import Path
 
 from ros2cc_extract.confirm.observations import Observations, Row, Sample
 from ros2cc_extract.confirm.outcomes import APART_S, Judgement, Outcome, frame_at, pair
@@ -16,7 +16,7 @@ _SERVED_NO_MORE, _WHILE_SPUN, _SHUT_DOWN, _FOREIGN_LOOP = 'CC116', 'CC117', 'CC1
 # What rclpy raises where something is used that was destroyed (``destroyable.hpp``), or where all
 # was shut down; Jazzy and Kilted.
 _GONE = ('InvalidHandle', 'RCLError')
-_EXECUTORS = os.path.join('rclpy', 'executors.py')
+_EXECUTORS = str(Path('rclpy', 'executors.py'))
 
 
 def served_no_more(schedule: Schedule, seen: Observations) -> Judgement | None:
@@ -79,7 +79,9 @@ def answer_lost(schedule: Schedule, seen: Observations) -> Judgement | None:
     for client, line in stand.items():
         if client in stood:
             seconds = both[1].at - both[0].at
-            reason = f'line {line} waits for the answer of a client that is gone, for {seconds:.0f} s'
+            reason = (
+                f'line {line} waits for the answer of a client that is gone, for {seconds:.0f} s'
+            )
             return Judgement(Outcome.CONFIRMED, reason, as_text((both[1].explanation,)))
     return None
 

@@ -72,7 +72,7 @@ class Observations:
     :param reached, passed: threads by number of the point.
     :param reached_at: when the first point was reached first.
     :param raced: what was read, what another thread wrote then, and what was written over it.
-    :param asleep: loops of asyncio that slept although something was ready, each time it was looked.
+    :param asleep: at each look, loops of asyncio that slept although something was ready.
     :param alone: how often nobody else wrote in time.
     :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
