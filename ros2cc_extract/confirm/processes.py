@@ -21,7 +21,7 @@ from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
-from ros2cc_extract.extract.live.steering.stubs import TEXTS_VARIABLE
+from ros2cc_extract.extract.live.steering.stand_ins.stubs import TEXTS_VARIABLE
 from ros2cc_extract.light_dataclasses import dataclass
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'

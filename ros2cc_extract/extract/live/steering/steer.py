@@ -22,7 +22,7 @@ from .lines import Lines
 from .loops import asleep
 from .plan import STUBS_VARIABLE, VARIABLE, read_plan
 from .report import Report
-from .stubs import offer_stubs
+from .stand_ins.stubs import offer_stubs
 
 LOOKS_EVERY_S = 1.0
 
