@@ -1,5 +1,5 @@
 """
-What the live hook costs: one load without it, with it, and with a trace.
+What the live hook costs: one load without it, with it, with the flight recorder, and with a trace.
 
     python benchmarks/hook.py                     CPU time and latency, 2.5 minutes
     python benchmarks/hook.py --processes 5       the same from processes of their own, 4 minutes
@@ -30,7 +30,8 @@ from pathlib import Path
 from ros2cc_extract.extract.live.environment import hooked_environment
 
 HERE = Path(__file__).resolve().parent
-WAYS = ('without', 'spec', 'trace')
+WAYS = ('without', 'spec', 'watch', 'trace')
+WATCH_S = 5.0
 COSTS = {
     'cpu_us_per_callback': 'cost of CPU',
     'latency_median_us': 'of latency',
@@ -54,7 +55,8 @@ def environment_of(way: str, folder: str) -> dict[str, str]:
     }
     if way == 'without':
         return environment
-    return hooked_environment(environment, Path(folder), traced=way == 'trace')
+    limit_s = WATCH_S if way == 'watch' else None
+    return hooked_environment(environment, Path(folder), traced=way == 'trace', limit_s=limit_s)
 
 
 def measure_slices(kind: str, seconds: float) -> dict[str, list[Result]]:
@@ -74,7 +76,8 @@ def measure_processes(kind: str, seconds: float, rounds: int) -> dict[str, list[
     results: dict[str, list[Result]] = {way: [] for way in WAYS}
     for number in range(rounds):
         # Another order in each round, so that no way always follows the same one.
-        for way in WAYS[number % 3 :] + WAYS[: number % 3]:
+        turn = number % len(WAYS)
+        for way in WAYS[turn:] + WAYS[:turn]:
             with tempfile.TemporaryDirectory() as folder:
                 done = subprocess.run(
                     [PYTHON, str(HERE / 'hook_load.py'), kind, str(seconds)],

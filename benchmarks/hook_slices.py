@@ -1,10 +1,11 @@
 """
 The load of ``hook_load.py`` with the hook put on and taken off again, in slices of one run.
 
-Arguments: single or multi, seconds. A slice without the hook, one with it, and one with a trace
-follow each other, in another order each time; so whatever else slows the machine down meets all
-three alike. Prints one line of JSON: CPU time per callback of each slice in microseconds, that of
-the hook's own thread included, and the latency of messages. Needs rclpy and this package.
+Arguments: single or multi, seconds. A slice without the hook, one with it, one with watchdog and
+flight recorder, and one with a trace follow each other, in another order each time; so whatever
+else slows the machine down meets all alike. Prints one line of JSON: CPU time per callback of each
+slice in microseconds, that of the hook's own thread included, and the latency of messages. Needs
+rclpy and this package.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from ros2cc_extract.extract.live.hook.steps import trace_submits
 from ros2cc_extract.extract.live.hook.wrapping import Hook
 
 SLICE_S = 0.5
+WATCH_S = 5.0
 # After the hook is put on or off, the interpreter adapts its code to the new methods.
 SETTLE_S = 0.05
 # Of 1000 in half a second; discovery may still be under way.
@@ -35,9 +37,16 @@ FEWEST_CALLBACKS = 200
 class Switch:
     """One way of running: a hook that can be put on and off; none without a folder for it."""
 
-    def __init__(self, executor: Executor, folder: Path | None, *, traced: bool = False) -> None:
+    def __init__(
+        self,
+        executor: Executor,
+        folder: Path | None,
+        *,
+        traced: bool = False,
+        limit_s: float | None = None,
+    ) -> None:
         self._pool = getattr(executor, '_executor', None) if traced else None
-        self._hook = Hook(str(folder), traced=traced) if folder else None
+        self._hook = Hook(str(folder), traced=traced, limit_s=limit_s) if folder else None
         if self._hook is not None:
             # As where the hook comes first: the executor of the load is the only one.
             self._hook.recorder.sees_every_executor = True
@@ -99,11 +108,12 @@ def main() -> None:
     threading.Thread(target=executor.spin, daemon=True).start()
     time.sleep(WARM_UP_S)
     with tempfile.TemporaryDirectory() as folder:
-        for name in ('spec', 'trace'):
+        for name in ('spec', 'watch', 'trace'):
             Path(folder, name).mkdir()
         ways = {
             'without': Switch(executor, None),
             'spec': Switch(executor, Path(folder, 'spec')),
+            'watch': Switch(executor, Path(folder, 'watch'), limit_s=WATCH_S),
             'trace': Switch(executor, Path(folder, 'trace'), traced=True),
         }
         results: dict[str, list[dict[str, float]]] = {name: [] for name in ways}

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ros2cc_extract.confirm.ends import (
+    answer_lost,
+    loop_asleep,
+    served_no_more,
+    used_when_gone,
+    waits_for_own_end,
+)
 from ros2cc_extract.confirm.hangs import crossed_locks, hang, kept_lock, timed_out
 from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
-from ros2cc_extract.confirm.races import forced_only, raced
+from ros2cc_extract.confirm.races import forced_only, raced, used_when_cleared
 from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.confirm.spins import exception, nested, node_lost, shut_out
 from ros2cc_extract.extract.live.hang_analysis.formats import as_text
@@ -22,6 +29,12 @@ _WAYS: tuple[Callable[[Schedule, Observations], Judgement | None], ...] = (
     crossed_locks,
     timed_out,
     raced,
+    used_when_cleared,
+    served_no_more,
+    used_when_gone,
+    answer_lost,
+    waits_for_own_end,
+    loop_asleep,
 )
 
 
@@ -59,7 +72,7 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
         return Judgement(Outcome.CONTRADICTED, reason, _last_look(seen))
     reason = 'was reached, but nothing was shown'
     if schedule.runs_inside and not seen.raised:
-        reason = 'was reached; no other callback began inside, and this release raises nothing'
+        reason = 'was reached; no other callback was run inside, and this release raises nothing'
     return Judgement(Outcome.NOT_REACHED, reason, _last_look(seen))
 
 

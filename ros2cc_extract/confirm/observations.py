@@ -70,7 +70,9 @@ class Observations:
     All that was reported so far.
 
     :param reached, passed: threads by number of the point.
+    :param reached_at: when the first point was reached first.
     :param raced: what was read, what another thread wrote then, and what was written over it.
+    :param asleep: at each look, loops of asyncio that slept although something was ready.
     :param alone: how often nobody else wrote in time.
     :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
@@ -80,6 +82,7 @@ class Observations:
     process: int = 0
     reached: dict[int, int] = field(default_factory=dict)
     passed: dict[int, int] = field(default_factory=dict)
+    reached_at: float | None = None
     passed_at: float = 0.0
     times: list[float] = field(default_factory=list)
     _since: dict[int, float] = field(default_factory=dict)
@@ -89,6 +92,7 @@ class Observations:
     failed: list[Row] = field(default_factory=list)
     raced: list[Row] = field(default_factory=list)
     alone: int = 0
+    asleep: list[Row] = field(default_factory=list)
     nested: list[Row] = field(default_factory=list)
     begins: list[tuple[float, int]] = field(default_factory=list)
     samples: list[Sample] = field(default_factory=list)
@@ -113,6 +117,7 @@ class Observations:
         elif what == 'reached':
             self.reached[row['point']] = self.reached.get(row['point'], 0) + 1
             if row['point'] == 0:
+                self.reached_at = at if self.reached_at is None else self.reached_at
                 self._since[row['thread']] = at
         elif what == 'passed':
             self.passed[row['point']] = self.passed.get(row['point'], 0) + 1
@@ -126,6 +131,8 @@ class Observations:
             {'raised': self.raised, 'failed': self.failed, 'nested': self.nested}[what].append(row)
         elif what == 'raced':
             self.raced.append(row)
+        elif what == 'asleep':
+            self.asleep.append(row)
         elif what == 'alone':
             self.alone += 1
         elif what == 'begin':

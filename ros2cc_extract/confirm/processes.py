@@ -21,7 +21,7 @@ from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
-from ros2cc_extract.extract.live.steering.stubs import TEXTS_VARIABLE
+from ros2cc_extract.extract.live.steering.stand_ins.stubs import TEXTS_VARIABLE
 from ros2cc_extract.light_dataclasses import dataclass
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
@@ -167,6 +167,7 @@ def _plan(schedule: Schedule, folder: Path) -> str:
         'surroundings': str(folder / READY),
         'points': [asdict(each) for each in schedule.points],
         'race': None if schedule.race is None else asdict(schedule.race),
+        'destroys': schedule.destroys,
         'held': [asdict(each) for each in schedule.held],
     }
     return json.dumps(row)

@@ -69,10 +69,11 @@ _WORDS: Mapping[str, Callable[[Schedule, Row], str]] = {
     'end': lambda _, row: f'{row["name"]} ends',
     'reached': lambda schedule, row: f'stands at line {_line(schedule, row)}',
     'passed': lambda schedule, row: f'is past line {_line(schedule, row)}',
-    'nested': lambda schedule, row: f'{row["name"]} begins inside line {_line(schedule, row)}',
+    'nested': lambda schedule, row: f'{row["name"]} is taken inside line {_line(schedule, row)}',
     'raised': lambda schedule, row: (
         f'line {_line(schedule, row)} raises {row["type"]}: {row["text"]}'
     ),
+    'destroyed': lambda _, row: f'has destroyed a {row["name"]}',
     'raced': lambda _, row: _RACE.format(**row),
     'open': lambda _, row: 'nothing is held back any more',
 }

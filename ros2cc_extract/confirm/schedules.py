@@ -33,12 +33,15 @@ _SPUN_TWICE = 'CC107'
 _PAUSE_S = 1.0
 CONFIRMABLE = frozenset(
     {
-        *(f'CC{number}' for number in range(101, 108)),
-        *('CC108', 'CC109', 'CC110', 'CC111', 'CC112', 'CC113', 'CC114', 'CC115'),
+        *(f'CC{number}' for number in range(101, 120)),
     }
 )
 """Rules whose findings can be shown on a running node."""
-RACES = frozenset({'CC301', 'CC302', 'CC303', 'CC304'})
+CLEARED = 'CC305'
+RACES = frozenset({'CC301', 'CC302', 'CC303', 'CC304', CLEARED})
+# What whoever destroys something waits for, see ``steering/destroys.py``.
+_DESTROYS = {'CC116': 'call', 'CC117': 'spin'}
+_LAST_LINE = 10**6
 _TOGETHER = 3
 _KINDS = {EntityKind.CLIENT: 'client', EntityKind.SERVICE: 'service'}
 
@@ -79,11 +82,12 @@ class Held:
 
 @dataclass(frozen=True, kw_only=True)
 class RacePlan:
-    """Writes of one attribute that are to meet; fields as in ``steering/races.py``."""
+    """Accesses to one attribute that are to meet; fields as in ``steering/races.py``."""
 
     attribute: str
     own: Lines
     others: tuple[Lines, ...]
+    is_use: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,6 +105,7 @@ class Schedule:
     :param runs_inside: the finding says that other callbacks run inside its own.
     :param defaults: every other message holds its defaults.
     :param at_once: how many requests of one service are on their way at a time.
+    :param destroys: what whoever destroys an entity at the first point waits for.
     :param times_out_s: the finding says that the wait always takes so long, in vain.
     """
 
@@ -119,6 +124,7 @@ class Schedule:
     runs_inside: bool = False
     at_once: int = 1
     defaults: bool = True
+    destroys: str = ''
     times_out_s: float | None = None
 
 
@@ -149,6 +155,7 @@ def schedule_of(finding: Finding, units: Sequence[Spec]) -> Schedule:
         at_once=_TOGETHER if finding.code in RACES else 1,
         runs_inside='run inside this one' in finding.message,
         leaves='the node leaves its' in finding.message,
+        destroys=_DESTROYS.get(finding.code, ''),
         times_out_s=_time_out(finding, unit),
     )
 
@@ -170,11 +177,15 @@ def _race(finding: Finding) -> RacePlan | None:
     attribute = next((each for each in finding.subjects if '.' in each), '')
     if finding.code not in RACES or not attribute:
         return None
+    own, is_use = _lines(finding.place), finding.code == CLEARED
     others = [r.place for r in finding.related if ' writes ' in r.text or ' changes ' in r.text]
+    # It counts only where it sets to None, wherever in the file that is.
+    itself = replace(own, first=1, last=_LAST_LINE) if is_use else own
     return RacePlan(
         attribute=attribute.rpartition('.')[2],
-        own=_lines(finding.place),
-        others=tuple(map(_lines, others or [finding.place])),
+        own=own,
+        others=tuple(map(_lines, others)) or (itself,),
+        is_use=is_use,
     )
 
 
@@ -292,6 +303,7 @@ def _race_of(row: Mapping[str, Any]) -> RacePlan:
         attribute=row['attribute'],
         own=Lines(**row['own']),
         others=tuple(Lines(**each) for each in row['others']),
+        is_use=bool(row['is_use']),
     )
 
 

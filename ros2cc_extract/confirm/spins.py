@@ -16,6 +16,8 @@ _EXCEPTIONS = {
     'CC113': ('TypeError',),
     'CC114': ('RuntimeError',),
 }
+# A response that is none, as a coroutine: without a word (``service.py``).
+_RAISED_BY = {'CC113': 'send_response'}
 _WORDS = {'CC107': ('generator already executing', 'already spinning'), 'CC113': ('coroutine',)}
 
 
@@ -28,22 +30,24 @@ def exception(schedule: Schedule, seen: Observations) -> Judgement | None:
                 Outcome.CONFIRMED, f'raises {row["type"]} at line {schedule.line}', text
             )
     # Where no line of the program raises: it has only handed something to rclpy.
-    words = _WORDS.get(schedule.code, ())
+    words, function = _WORDS.get(schedule.code, ()), _RAISED_BY.get(schedule.code)
     if words:
         for row in seen.failed:
-            if row['type'] in names and any(each in row['text'] for each in words):
+            is_raised = any(each in row['text'] for each in words)
+            is_raised = is_raised or (bool(row['frames']) and row['frames'][-1][2] == function)
+            if row['type'] in names and is_raised:
                 text = f'{row["type"]}: {row["text"]}'
                 return Judgement(Outcome.CONFIRMED, f'raises {row["type"]}', text)
     return None
 
 
 def nested(schedule: Schedule, seen: Observations) -> Judgement | None:
-    """A callback has begun inside the one that spins."""
+    """The nested spin has taken another callback, and runs it or has it run."""
     if not schedule.runs_inside:
         return None
     for row in seen.nested:
         if row['point'] == 0:
-            reason = f'{row["name"]} began inside the nested spin at line {schedule.line}'
+            reason = f'{row["name"]} is run by the nested spin at line {schedule.line}'
             return Judgement(Outcome.CONFIRMED, reason)
     return None
 

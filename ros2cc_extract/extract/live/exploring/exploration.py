@@ -19,7 +19,7 @@ from ..steering.begins import steer_groups
 from ..steering.failures import Failures
 from ..steering.plan import STUBS_VARIABLE
 from ..steering.report import Report
-from ..steering.stubs import offer_stubs
+from ..steering.stand_ins.stubs import offer_stubs
 from ..steering.surroundings import Surroundings
 from .activities import label_of
 from .conductor import Conductor, Limits, conducted

@@ -25,6 +25,7 @@ APART_S = 0.2
 PATIENCE_S = 10.0
 FIRST_SUFFIX = '.first'
 MOST_FRAMES = 60
+_MOST_AT_ONCE = 5000
 _ENTERS = ('BEFORE_WITH', 'BEFORE_ASYNC_WITH', 'SETUP_WITH', 'SETUP_ASYNC_WITH')
 _KINDS = ('timers', 'subscriptions', 'services', 'clients', 'guards', 'waitables')
 # Of an action client: the futures of requests that are not answered (``action/client.py``).
@@ -84,14 +85,27 @@ def _of_rclpy() -> tuple[list[Any], list[Any], list[Any]]:
     executors: list[Any] = []
     nodes: list[Any] = []
     tasks: list[Any] = []
-    for each in gc.get_objects():
+    wanted: dict[type, list[Any] | None] = {}
+    for number, each in enumerate(gc.get_objects()):
         kind = type(each)
-        if issubclass(kind, module.Executor):
-            executors.append(each)
-        elif hasattr(kind, 'default_callback_group'):
-            nodes.append(each)
-        elif kind.__name__ == 'Task' and kind.__module__ == 'rclpy.task':
-            tasks.append(each)
+        try:
+            found = wanted[kind]
+        except KeyError:
+            # There are far fewer types than objects.
+            if issubclass(kind, module.Executor):
+                found = executors
+            elif hasattr(kind, 'default_callback_group'):
+                found = nodes
+            elif kind.__name__ == 'Task' and kind.__module__ == 'rclpy.task':
+                found = tasks
+            else:
+                found = None
+            wanted[kind] = found
+        if found is not None:
+            found.append(each)
+        if number % _MOST_AT_ONCE == 0:
+            # Who waits for the lock of the interpreter has it now, not when the time is over.
+            time.sleep(0)
     return executors, nodes, tasks
 
 
@@ -246,7 +260,10 @@ def _node(node: Any) -> dict[str, Any]:
     }  # fmt: skip
     with contextlib.suppress(Exception):
         row['name'] = node.get_fully_qualified_name()
-        row['domain'] = node.context.get_domain_id()
+        # Not by the method of the context: it takes a lock, which a shutdown that hangs holds.
+        context = node.context.handle
+        with context:
+            row['domain'] = context.get_domain_id()
     # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
     row['simulated_clock'] = bool(
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)

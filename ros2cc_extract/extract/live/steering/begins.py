@@ -12,7 +12,6 @@ neighbours.
 from __future__ import annotations
 
 import functools
-import os
 import sys
 import threading
 import time
@@ -21,6 +20,7 @@ from types import FrameType
 from typing import Any, Protocol
 
 from .director import Director, is_of_program
+from .plan import name_of
 from .report import Report
 
 # An executor asks at once again; without a pause it would ask all the time.
@@ -85,6 +85,22 @@ def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
     return [(group, 'beginning_execution', begin), (group, 'ending_execution', end)]
 
 
+def steer_takes(executor: Any, taken: Callable[[Any], None]) -> None:
+    """
+    Tell which entities a spin takes, in the thread that spins.
+
+    :param executor: ``rclpy.executors.Executor``; `_make_handler(self, entity, …)`, 3.3 to 9.1.
+    """
+    make = executor._make_handler
+
+    @functools.wraps(make)
+    def make_handler(self: Any, entity: Any, *args: Any, **named: Any) -> Any:
+        taken(entity)
+        return make(self, entity, *args, **named)
+
+    executor._make_handler = make_handler
+
+
 class Running:
     """Which callbacks run in which thread, one inside the other; a director decides."""
 
@@ -97,8 +113,6 @@ class Running:
 
     def begun(self, entity: Any) -> None:
         stack = self._stack()
-        if stack and self._director.plan.points and is_of_program(entity):
-            self._tell_nested(entity)
         stack.append(id(entity))
         self._report.write('begin', **_row(entity))
 
@@ -117,18 +131,24 @@ class Running:
         found: list[int] = self._of_thread.stack
         return found
 
-    def _tell_nested(self, entity: Any) -> None:
-        frame: FrameType | None = sys._getframe(1)
-        while frame is not None:
-            for index, point in enumerate(self._director.plan.points):
-                if point.contains(frame.f_lineno or 0) and point.file == _file_of(frame):
-                    self._report.write('nested', point=index, name=_name(entity))
-                    return
-            frame = frame.f_back
+    def taken(self, entity: Any) -> None:
+        """A spin has taken it, to run it here or in a thread of its pool."""
+        is_answer = type(entity).__name__ == 'Client'
+        if not self._director.plan.points or not (is_of_program(entity) or is_answer):
+            return
+        found = self._director.point_of(sys._getframe(1))
+        if found is not None and _is_in_callback(found[1]):
+            name = f'the answer of {name_of(entity)}' if is_answer else _name(entity)
+            self._report.write('nested', point=found[0], name=name)
 
 
-def _file_of(frame: FrameType) -> str:
-    return os.path.realpath(frame.f_code.co_filename)
+def _is_in_callback(frame: FrameType | None) -> bool:
+    """Whether an executor has called it."""
+    while frame is not None:
+        if frame.f_globals.get('__name__') == 'rclpy.executors':
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _row(entity: Any) -> dict[str, Any]:

@@ -7,8 +7,11 @@ neighbours.
 
 from __future__ import annotations
 
+import os
 import threading
 import time
+from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
 from .plan import Plan
@@ -36,6 +39,8 @@ class Director:
         self._arrived: set[tuple[int, int]] = set()
         self._give_up_at = time.monotonic() + _FIRST_S
         self.is_open = not plan.points
+        #: Called once, before the first arrival.
+        self.prepare: Callable[[], None] | None = None
         self._surroundings = Surroundings(plan.surroundings)
 
     def may_begin(self, entity: Any) -> bool:
@@ -60,6 +65,7 @@ class Director:
 
     def arrive(self, index: int) -> None:
         """Note that this thread stands at a point; where the plan says so, wait for the rest."""
+        self._prepare()
         self._pause(index)
         with self._changed:
             mark = index, threading.get_ident()
@@ -74,6 +80,21 @@ class Director:
                 left_s = self._give_up_at - time.monotonic()
                 if left_s <= 0 or not self._changed.wait(left_s):
                     self._open(given_up=True)
+
+    def _prepare(self) -> None:
+        with self._changed:
+            prepare, self.prepare = self.prepare, None
+            if prepare is not None:
+                prepare()
+
+    def point_of(self, frame: FrameType | None) -> tuple[int, FrameType] | None:
+        """Which point a call, or one that led to it, stands at, and which of them does."""
+        while frame is not None:
+            for index, point in enumerate(self.plan.points):
+                if point.contains(frame.f_lineno or 0) and point.file == _file_of(frame):
+                    return index, frame
+            frame = frame.f_back
+        return None
 
     def _pause(self, index: int) -> None:
         """The first one only: others get going meanwhile."""
@@ -94,6 +115,10 @@ class Director:
             missing = [index for index, count in enumerate(self._missing) if count > 0]
             self._report.write('open', given_up=given_up, missing=missing)
             self._changed.notify_all()
+
+
+def _file_of(frame: FrameType) -> str:
+    return os.path.realpath(frame.f_code.co_filename)
 
 
 def is_of_program(entity: Any) -> bool:

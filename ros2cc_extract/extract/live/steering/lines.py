@@ -119,7 +119,13 @@ class _OfFrame:
         for index, point in self._points:
             if point.contains(frame.f_lineno):
                 text = str(value)[:300]
-                self._report.write('raised', point=index, type=kind.__name__, text=text)
+                self._report.write(
+                    'raised',
+                    point=index,
+                    thread=threading.get_ident(),
+                    type=kind.__name__,
+                    text=text,
+                )
 
 
 def _both(one: Trace, other: Trace) -> Trace:

@@ -95,6 +95,7 @@ class Plan:
     :param held: not to begin before.
     :param surroundings: a file that is there once what the node meets outside is.
     :param race: two writes of one attribute to be forced, see ``races.py``.
+    :param destroys: what whoever destroys an entity at the first point waits for: ``destroys.py``.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 
@@ -104,6 +105,7 @@ class Plan:
         self.points = [Point(each) for each in row.get('points', ())]
         self.held = [Held(each) for each in row.get('held', ())]
         self.race: dict[str, Any] | None = row.get('race')
+        self.destroys = str(row.get('destroys', ''))
         self.patience_s = float(row.get('patience_s', 4.0))
 
 

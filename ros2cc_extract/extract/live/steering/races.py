@@ -1,6 +1,6 @@
 """
-Forces two accesses of one attribute: who has read is held before the write, until another thread
-has written.
+Forces two accesses of one attribute: who has read is held before the write, or before the next
+read, until another thread has written.
 
 Only the functions that hold these writes are traced, instruction by instruction. Source: Python,
 `sys.settrace` (event `opcode`), `dis`.
@@ -27,7 +27,7 @@ Trace = Callable[[FrameType, str, Any], Any]
 HELD_S = 1.5
 _MOST_TRIES = 16
 _MOST_FORCED = 3
-_READ, _WRITE, _SWITCH = 'read', 'write', 'switch'
+_READ, _USE, _WRITE, _SWITCH = 'read', 'use', 'write', 'switch'
 
 
 class Write:
@@ -47,12 +47,14 @@ class Race:
     One attribute, who is held, and who writes meanwhile.
 
     :param row: `attribute`, `own`: the write that is held; `others`: writes of other threads,
-        which may be the same statement.
+        which may be the same statement; `is_use`: what is held is a read of what was tested, until
+        another thread has set it to None.
     """
 
     def __init__(self, row: dict[str, Any], report: Report) -> None:
         self.attribute = str(row['attribute'])
         self.own = Write(row['own'])
+        self.is_use = bool(row.get('is_use', False))
         self.others = [Write(each) for each in row['others']]
         self._report = report
         self._known: dict[CodeType, dict[int, str]] = {}
@@ -71,7 +73,7 @@ class Race:
         marks = self._known.get(code)
         if marks is None:
             marks = self._known[code] = self._marks(code)
-        if _WRITE not in marks.values():
+        if _WRITE not in marks.values() and _USE not in marks.values():
             return None
         trace_instructions(frame)
         return _Call(self, marks).trace
@@ -91,7 +93,8 @@ class Race:
             is_there = any(w.file == file and w.contains(line) for w in writes)
             named = each.argval == self.attribute
             if each.opname in ('LOAD_ATTR', 'LOAD_METHOD') and named:
-                marks[each.offset] = _READ
+                is_use = self.is_use and self.own.file == file and self.own.contains(line)
+                marks[each.offset] = _USE if is_use else _READ
             elif is_there and (
                 (each.opname == 'STORE_ATTR' and named) or each.opname == 'STORE_SUBSCR'
             ):
@@ -132,8 +135,10 @@ class Race:
         with self._changed:
             is_other = self._held not in (None, threading.get_ident())
             if is_other and owner is self._object and self._other is NOTHING:
-                self._other = value(self._object, self.attribute)
-                self._changed.notify_all()
+                written = value(self._object, self.attribute)
+                if not self.is_use or written is None:
+                    self._other = written
+                    self._changed.notify_all()
 
     def tell(self, read: Any, other: Any, own: Any, *, line: int = 0, let_in: bool = True) -> None:
         """:param let_in: since the read, Python by itself may have let another thread in."""
@@ -145,6 +150,7 @@ class Race:
             self._report.write(
                 'raced',
                 line=line,
+                thread=threading.get_ident(),
                 **texts,
                 stale=differs,
                 lost=texts['own'] != texts['other'],
@@ -181,14 +187,18 @@ class _Call:
             self._after(frame)
         if event == 'opcode':
             self._before, self._line = frame.f_lasti, frame.f_lineno
-            if self._marks.get(frame.f_lasti) == _WRITE and self._is_worth_holding(frame):
+            mark = self._marks.get(frame.f_lasti)
+            if mark == _USE and self._was_there and self._let_in:
+                self._hold(frame)
+                self._tell_use(frame)
+            elif mark == _WRITE and not self._race.is_use and self._is_worth_holding(frame):
                 self._hold(frame)
         return self.trace
 
     def _after(self, frame: FrameType) -> None:
         """What the instruction before has done."""
         did, self._before = self._marks.get(self._before), -1
-        if did == _READ:
+        if did in (_READ, _USE):
             self._read = copied(value(target(frame), self._race.attribute))
             self._switched, self._calls = False, self._race.calls.count
         elif did == _SWITCH:
@@ -200,6 +210,16 @@ class _Call:
                 self._race.tell(self._read, other, own, line=self._line, let_in=self._let_in)
             elif self._race.is_own(frame, self._line) or self._race.is_other(frame, self._line):
                 self._race.wrote(target(frame))
+
+    @property
+    def _was_there(self) -> bool:
+        return self._read is not NOTHING and self._read is not None
+
+    def _tell_use(self, frame: FrameType) -> None:
+        """Before it is used: that it is gone shows in the exception."""
+        if self._forced is not None:
+            other, self._forced = self._forced[0], None
+            self._race.tell(self._read, other, NOTHING, line=frame.f_lineno)
 
     def _is_worth_holding(self, frame: FrameType) -> bool:
         """The other side too, where it has read before and another thread may have come in."""

@@ -14,13 +14,15 @@ import threading
 import time
 
 from ..hang_analysis import probe
-from .begins import Running, steer_groups
+from .begins import Running, steer_groups, steer_takes
+from .destroys import Destroys
 from .director import Director
 from .failures import Failures
 from .lines import Lines
+from .loops import asleep
 from .plan import STUBS_VARIABLE, VARIABLE, read_plan
 from .report import Report
-from .stubs import offer_stubs
+from .stand_ins.stubs import offer_stubs
 
 LOOKS_EVERY_S = 1.0
 
@@ -52,7 +54,11 @@ class Steering:
     def wrap(self) -> None:
         """Wrap what is loaded of rclpy, and begin to look."""
         running = Running(self._director, self._report)
+        steer_takes(sys.modules['rclpy.executors'].Executor, running.taken)
         steer_groups(sys.modules['rclpy.callback_groups'], running)
+        if self._director.plan.destroys:
+            # Only when it is needed: the module of nodes is loaded later.
+            self._director.prepare = Destroys(self._director, self._report).wrap
         self._failures.watch_callbacks(sys.modules['rclpy.task'].Future)
         threading.Thread(target=self._look, name='ros2cc looks', daemon=True).start()
 
@@ -63,6 +69,8 @@ class Steering:
                 # Whoever watches has been killed: nobody else would end this process.
                 os.kill(os.getpid(), signal.SIGKILL)
             self._director.look_at_the_clock()
+            if 'asyncio' in sys.modules:
+                self._report.write('asleep', loops=asleep())
             if self._director.is_open:
                 try:
                     looks = [probe.look()]

@@ -153,7 +153,8 @@ class Effects(Waits):
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
-            later=is_used and reading.has_called_since(name, self.world.path),
+            later=(is_used or (is_content and rests))
+            and reading.has_called_since(name, self.world.path),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,
