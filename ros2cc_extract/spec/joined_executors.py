@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.spec.client_server_pairs import client_before, server_of
+from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Activity,
@@ -166,10 +166,10 @@ def enders_of(block: Blocking, spec: Spec) -> Iterator[str]:
     if block.seconds is not None:
         return
     yield from (waker.by for waker in block.wakers)
-    asked = next((each for each in spec.callbacks if each.name == block.on), None)
-    while asked is not None:
-        yield asked.name
-        asked = server_of(asked, spec.callbacks) or client_before(asked, spec.callbacks)
+    yield from (each.name for each in spec.callbacks if each.name == block.on)
+    for client in asked_by(block, spec.callbacks):
+        yield client.name
+        yield from (each.name for each in servers_of(client, spec.callbacks))
 
 
 def _locks_of(doer: Callback | Activity) -> set[object]:

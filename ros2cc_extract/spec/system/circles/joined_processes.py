@@ -16,6 +16,7 @@ from dataclasses import replace
 from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined, why_not_joined
 from ros2cc_extract.spec.model import (
@@ -30,7 +31,6 @@ from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, r
 from ros2cc_extract.spec.system.circles.transitions import several_wait
 from ros2cc_extract.spec.system.model import Process, System
 
-_CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
 _OFFERS = {
@@ -109,12 +109,14 @@ class ServiceWait:
     """
     A wait without a time-out for the answer of a service or an action.
 
+    :param client: who takes the answer.
     :param name: resolved.
     """
 
     unit: Spec
     doer: Callback | Activity
     block: Blocking
+    client: Callback
     what: str
     name: str | Unknown
 
@@ -123,16 +125,16 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
     """The waits of a process for answers."""
     parts = parts_of(process)
     names = PartNames(process, parts)
-    clients = {c.name: c for part in parts for c in part.callbacks if c.entity in _CLIENTS}
+    everybody = [callback for part in parts for callback in part.callbacks]
     for unit, part in zip(process.working_units, parts, strict=True):
         doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
         for doer in doers:
             for block in doer.blocking:
-                client = clients.get(block.on) if isinstance(block.on, str) else None
-                key = names.key(client) if client is not None else None
-                if client is not None and block.seconds is None and key is not None:
+                for client in asked_by(block, everybody):
+                    key = names.key(client)
                     what = 'service' if client.entity is EntityKind.CLIENT else 'action'
-                    yield ServiceWait(unit, doer, block, what, key)
+                    if key is not None:
+                        yield ServiceWait(unit, doer, block, client, what, key)
 
 
 def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
@@ -191,6 +193,9 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     goal = needs_itself(whole)
     if goal is not None:
         return Unknown(f'the {goal} may need another goal of it')
+    why_open = next(_open_answers(whole), None)
+    if why_open is not None:
+        return why_open
     found = joined(whole, parts)
     if found is None:
         why = why_not_joined(whole, parts)
@@ -203,6 +208,19 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
         by_process.append(tuple(name for part in mine for name in part))
         at += count
     return replace(found, parts=tuple(by_process), between=_BETWEEN)
+
+
+def _open_answers(whole: Spec) -> Iterator[Unknown]:
+    """Waits for answers of which the model of all does not say who gives them."""
+    doers: tuple[Callback | Activity, ...] = (*whole.callbacks, *whole.activities)
+    for block in (block for doer in doers for block in doer.blocking):
+        clients = asked_by(block, whole.callbacks)
+        servers = {each.name: servers_of(each, whole.callbacks) for each in clients}
+        asked = [name for name, known in servers.items() if known]
+        if len(clients) > 1 and asked:
+            yield Unknown(f'{block.call} ends by several answers', block.source)
+        if any(len(known) > 1 for known in servers.values()):
+            yield Unknown(f'several processes offer what {block.call} waits for', block.source)
 
 
 def whole_of(parts: Sequence[Spec]) -> Spec:

@@ -8,10 +8,11 @@ it; topics, services and actions are called as in the graph.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import is_done_callback
 from ros2cc_extract.spec.effects import OUTSIDE, RE_ENTRANT, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
@@ -22,11 +23,12 @@ from ros2cc_extract.spec.model import (
     Executor,
     Spec,
 )
-from ros2cc_extract.spec.node_graph import CHANGE_STATE
+from ros2cc_extract.spec.node_graph import CHANGE_STATE, EndpointKind
 from ros2cc_extract.spec.system.circles.transitions import as_services
 from ros2cc_extract.spec.system.model import Process, SystemNode
 
 _NOBODY = (OUTSIDE, TIME)
+_CLIENTS = (EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT)
 
 
 def parts_of(process: Process) -> tuple[Spec, ...]:
@@ -108,14 +110,14 @@ class PartNames:
         return self.name(on) if isinstance(on, str) and on in self._own else on
 
     def key(self, callback: Callback) -> str | Unknown | None:
-        """The resolved name of a topic, service or action; a done-callback names its client."""
+        """The resolved name of a topic, service or action; a done-callback has its client's."""
         is_transition = callback.entity is EntityKind.LIFECYCLE_SERVICE
         key = CHANGE_STATE if is_transition else callback.key
         node = self._nodes.get(callback.node) if isinstance(callback.node, str) else None
         if not isinstance(key, str):
             return key
-        if callback.entity is EntityKind.DONE_CALLBACK:
-            return self.name(key) if key in self._own else self._of_name(key, node)
+        if is_done_callback(callback):
+            return self._of_name(key, node, _CLIENTS)
         if node is None:
             return Unknown('its node is not known in the system', callback.source)
         for endpoint in node.endpoints:
@@ -123,10 +125,15 @@ class PartNames:
                 return endpoint.name
         return self._of_name(key, node)
 
-    def _of_name(self, key: str, node: SystemNode | None) -> str | Unknown:
-        """A name by the rules alone, as of what rclpy itself makes."""
+    def _of_name(
+        self,
+        key: str,
+        node: SystemNode | None,
+        kinds: Container[EndpointKind] = tuple(EndpointKind),
+    ) -> str | Unknown:
+        """How endpoints of these kinds that are written so are called, else by rules alone."""
         ends = node.endpoints if node is not None else ()
-        named = {end.name for end in ends if end.written == key}
+        named = {end.name for end in ends if end.written == key and end.kind in kinds}
         if len(named) == 1:
             return named.pop()
         if node is not None and node.naming is not None:
