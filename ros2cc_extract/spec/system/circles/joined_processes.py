@@ -10,7 +10,7 @@ one name have that of their process before it.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.errors import SpecFormatError
@@ -27,6 +27,11 @@ from ros2cc_extract.spec.model import (
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.circles.action_phases import needs_itself, with_phases
+from ros2cc_extract.spec.system.circles.messages import (
+    ended_by_messages,
+    senders_in,
+    with_messages,
+)
 from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, renamed_parts
 from ros2cc_extract.spec.system.circles.transitions import several_wait
 from ros2cc_extract.spec.system.model import Process, System
@@ -57,9 +62,12 @@ def circles_of(system: System) -> Circles:
     """Find the processes that wait for each other, and put each circle into one unit."""
     found: list[Joined] = []
     left: list[tuple[tuple[Process, ...], Unknown]] = []
+    senders = senders_in(system)
     for circle in circles_in(system):
         why = next(filter(None, map(_why_not, circle)), None)
-        one = _joined(circle) if why is None else why
+        names = {each.name for each in circle}
+        sent = {topic for topic, by in senders.items() if by <= names}
+        one = _joined(circle, sent) if why is None else why
         if isinstance(one, Joined):
             found.append(one)
         elif one is not None:
@@ -68,25 +76,53 @@ def circles_of(system: System) -> Circles:
 
 
 def circles_in(system: System) -> Iterator[list[Process]]:
-    """Sets of several processes, each of which needs each other one."""
+    """
+    Sets of several processes, each of which needs each other one.
+
+    A message is needed of a circle only where nobody beside it sends on the topic.
+    """
     offered = {
         (each.what, each.name): {
             end.process.name for kind in _SERVERS for end in each.of_kind(kind)
         }
         for each in system.connections
     }
-    ahead = {
-        process.name: {
-            other for key in _needed(process) for other in offered.get(key, ()) if other
-        }
+    senders = senders_in(system)
+    needed = {
+        process.name: {(wait.what, wait.name) for wait in circle_waits(process)}
         for process in system.processes
+    }
+    while True:
+        known = offered | {('topic', topic): set(by) for topic, by in senders.items()}
+        circles = list(_circles(system.processes, needed, known))
+        beside = {
+            topic
+            for circle in circles
+            for topic, by in senders.items()
+            if any(('topic', topic) in needed[each.name] for each in circle)
+            and not by <= {each.name for each in circle}
+        }
+        if not beside:
+            yield from circles
+            return
+        senders = {topic: by for topic, by in senders.items() if topic not in beside}
+
+
+def _circles(
+    processes: Sequence[Process],
+    needed: Mapping[str, Collection[object]],
+    offered: Mapping[tuple[str, str], Collection[str]],
+) -> Iterator[list[Process]]:
+    ahead = {
+        name: {other for key, by in offered.items() if key in keys for other in by}
+        for name, keys in needed.items()
     }
     reached = {name: _reached(name, ahead) for name in ahead}
     told: set[str] = set()
-    for process in system.processes:
+    for process in processes:
         mine = [
             other
-            for other in system.processes
+            for other in processes
             if other.name in reached[process.name] and process.name in reached[other.name]
         ]
         if len(mine) > 1 and process.name not in told:
@@ -107,9 +143,9 @@ def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
 @dataclass(frozen=True)
 class ServiceWait:
     """
-    A wait without a time-out for the answer of a service or an action.
+    A wait without a time-out for the answer of a service or an action, or for a message.
 
-    :param client: who takes the answer.
+    :param client: who takes it.
     :param name: resolved.
     """
 
@@ -151,11 +187,25 @@ def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
     return found
 
 
-def _needed(process: Process) -> Iterator[tuple[str, str]]:
-    """Services and actions whose answer something in the process waits for."""
-    for wait in service_waits(process):
-        if isinstance(wait.name, str):
-            yield wait.what, wait.name
+def message_waits(process: Process) -> Iterator[ServiceWait]:
+    """The waits of a process that messages alone end."""
+    parts = parts_of(process)
+    names = PartNames(process, parts)
+    everybody = {each.name: each for part in parts for each in part.callbacks}
+    for unit, part in zip(process.working_units, parts, strict=True):
+        doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
+        for doer in doers:
+            for block in doer.blocking:
+                for heard in ended_by_messages(block, everybody):
+                    key = names.key(heard)
+                    if key is not None:
+                        yield ServiceWait(unit, doer, block, heard, 'topic', key)
+
+
+def circle_waits(process: Process) -> Iterator[ServiceWait]:
+    """The waits that other processes end, by which a circle may go."""
+    yield from service_waits(process)
+    yield from message_waits(process)
 
 
 def _why_not(process: Process) -> Unknown | None:
@@ -183,9 +233,13 @@ def _why_not(process: Process) -> Unknown | None:
     return None
 
 
-def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
-    """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
-    parts = with_phases(renamed_parts(circle))
+def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknown | None:
+    """
+    One unit of all; why there is none, or ``None`` where no executor needs itself by them.
+
+    :param sent: topics on which only these processes send.
+    """
+    parts = with_messages(with_phases(renamed_parts(circle)), sent)
     try:
         whole = whole_of(parts)
     except SpecFormatError as error:
