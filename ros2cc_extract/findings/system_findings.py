@@ -11,6 +11,7 @@ from ros2cc_extract.findings.rules.deadlocks.undecided_wait import UNDECIDED
 from ros2cc_extract.findings.rules.systems import (
     life_cycle,
     near_names,
+    parameter_types,
     qos,
     same_node_name,
     sim_time,
@@ -31,6 +32,7 @@ _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (unused_settings.RULE, unused_settings.find),
     (start_order.RULE, start_order.find),
     (life_cycle.RULE, life_cycle.find),
+    (parameter_types.RULE, parameter_types.find),
 )
 
 _OFFERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER, EndpointKind.PUBLISHER)
