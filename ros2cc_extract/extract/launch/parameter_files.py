@@ -83,7 +83,8 @@ def _plain(node: yaml.Node) -> object:
     if isinstance(node, yaml.SequenceNode):
         return tuple(_plain(each) for each in node.value)
     text = str(node.value)
-    return text if node.style in _QUOTES else _of_rcl(text, node.tag)
+    is_quoted = isinstance(node, yaml.ScalarNode) and node.style in _QUOTES
+    return text if is_quoted else _of_rcl(text, node.tag)
 
 
 def _of_rcl(text: str, tag: str) -> object:

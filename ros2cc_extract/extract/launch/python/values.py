@@ -236,8 +236,8 @@ class Values:
             if isinstance(entry, Mapping):
                 yield from self._entries(entry, (*name, Text('.')), place)
             else:
-                value = self.constant_or_text(entry, place)
-                yield Given(name, value, place, _is_text(entry))
+                given = self.constant_or_text(entry, place)
+                yield Given(name, given, place, _is_text(entry))
 
     def constant_or_text(self, value: Value, place: Place) -> Constant | Expression:
         """A constant with its type; a substitution is a text that YAML reads."""
