@@ -240,12 +240,34 @@ def _free(name: str, taken: set[str]) -> str:
     return name
 
 
-def _enough_threads(callbacks: Iterable[Callback], groups: Iterable[CallbackGroup]) -> int:
-    """Count one for each callback that may wait, one of a group, and one for all others."""
+def _enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup]) -> int:
+    """
+    Count one for each run that may wait, one of a group, and one for all others.
+
+    Whoever is in no exclusive group runs for what arrives by itself, and for each who asks it.
+    """
     exclusive = {group.name for group in groups if group.type is GroupType.EXCLUSIVE}
-    waiting = {
-        each.name if each.group not in exclusive or each.groupless else (each.group,)
-        for each in callbacks
-        if each.blocking or each.locks
-    }
-    return max(2, len(waiting) + 1)
+    runs: dict[object, int] = {}
+    for each in (each for each in callbacks if each.blocking or each.locks):
+        is_one = each.group in exclusive and not each.groupless
+        runs[(each.group,) if is_one else each.name] = 1 if is_one else _runs(each, callbacks)
+    return max(2, sum(runs.values()) + 1)
+
+
+def _runs(callback: Callback, callbacks: Sequence[Callback]) -> int:
+    """How often it may run at once, up to what is too much; who asks itself does so once."""
+    number = 0
+    left = [(callback, frozenset[str]())]
+    while left and number <= MOST_THREADS:
+        each, above = left.pop()
+        number += 1
+        above |= {each.name}
+        left += [(c, above) for c in _callers(each, callbacks) if c.name not in above]
+    return number
+
+
+def _callers(callback: Callback, callbacks: Sequence[Callback]) -> Iterator[Callback]:
+    for caller in callbacks:
+        for client in (c for block in caller.blocking for c in asked_by(block, callbacks)):
+            if callback in servers_of(client, callbacks):
+                yield caller

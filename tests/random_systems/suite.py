@@ -31,6 +31,7 @@ from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.pipeline.check import Job, Outcome, check_paths
 from ros2cc_extract.pipeline.config import Config
 from ros2cc_extract.pipeline.system_sources import scan_launch_files
+from ros2cc_extract.pipeline.unit_task import of_joined
 from ros2cc_extract.spec.assumptions import Assumptions
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.joined_executors import has_threads_enough, put_together
@@ -117,7 +118,7 @@ def by_parts(outcome: Outcome) -> str:
         if result.family in {each.value for each in _FAMILIES}
     ]
     for circle in circles.joined:
-        verdicts += _verdicts(circle.spec, OPTIONS)
+        verdicts += _verdicts(circle.spec, of_joined(OPTIONS))
     return _worst([*verdicts, *(Verdict.UNDECIDED for _ in circles.open)])
 
 
