@@ -67,7 +67,7 @@ def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
     part_of = _parts(whole, units)
     if isinstance(part_of, str) or not _wait_for_each_other(whole, part_of):
         return None
-    spec = _as_one(_without_idle(whole), units, part_of)
+    spec = _as_one(without_idle(whole), units, part_of)
     if spec is None:
         return None
     parts = (
@@ -84,12 +84,12 @@ def put_together(whole: Spec, units: Sequence[Spec]) -> Spec | None:
     It is the program exactly where each has one thread, or as many as can be at work in it.
     """
     part_of = _parts(whole, units)
-    return None if isinstance(part_of, str) else _as_one(_without_idle(whole), units, part_of)
+    return None if isinstance(part_of, str) else _as_one(without_idle(whole), units, part_of)
 
 
 def has_threads_enough(unit: Spec) -> bool:
     """Whether a pool has a thread for each callback that may wait, and one for all others."""
-    return len(unit.executor.threads) >= _enough_threads(unit.callbacks, unit.groups)
+    return len(unit.executor.threads) >= enough_threads(unit.callbacks, unit.groups)
 
 
 def why_not_joined(whole: Spec, units: Sequence[Spec]) -> str:
@@ -182,7 +182,7 @@ def _kept_by(doer: Callback | Activity) -> set[object]:
     return {*over, *(lock for act in doer.locks for lock in act.held)}
 
 
-def _without_idle(spec: Spec) -> Spec:
+def without_idle(spec: Spec) -> Spec:
     """Whoever neither waits nor is waited for comes to its end, and takes nothing for ever."""
     needed = {
         name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
@@ -213,7 +213,7 @@ def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> 
         callbacks = [replace(each, group=name) if each.name in own else each for each in callbacks]
     used = {each.group for each in callbacks}
     kept = tuple(group for group in groups.values() if group.name in used)
-    threads = _enough_threads(callbacks, kept)
+    threads = enough_threads(callbacks, kept)
     if threads > MOST_THREADS:
         return None
     executor = Executor(
@@ -240,7 +240,7 @@ def _free(name: str, taken: set[str]) -> str:
     return name
 
 
-def _enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup]) -> int:
+def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup]) -> int:
     """
     Count one for each run that may wait, one of a group, and one for all others.
 

@@ -33,6 +33,7 @@ from ros2cc_extract.spec.system.circles.messages import (
     with_messages,
 )
 from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, renamed_parts
+from ros2cc_extract.spec.system.circles.sure_answers import without_sure_waits
 from ros2cc_extract.spec.system.circles.transitions import several_wait
 from ros2cc_extract.spec.system.model import Process, System
 
@@ -261,7 +262,7 @@ def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknow
         mine = found.parts[at : at + count]
         by_process.append(tuple(name for part in mine for name in part))
         at += count
-    return replace(found, parts=tuple(by_process), between=_BETWEEN)
+    return without_sure_waits(replace(found, parts=tuple(by_process), between=_BETWEEN))
 
 
 def _open_answers(whole: Spec) -> Iterator[Unknown]:
