@@ -15,22 +15,8 @@ import pytest
 from tests.systems.by_launch import SECOND, launch_files
 from tests.systems.test_systems import expected, found_in
 
-LARGE = ('four_in_a_circle_bad', 'goal_needs_confirm_bad', 'goal_needs_confirm_good')
-"""Circles of three processes and more: a busy machine may not decide them in time."""
 
-
-def _cases() -> list[object]:
-    return [
-        pytest.param(
-            path,
-            id=path.name,
-            marks=[pytest.mark.slow] if path.name.partition('.')[0] in LARGE else [],
-        )
-        for path in launch_files()
-    ]
-
-
-@pytest.mark.parametrize('path', _cases())
+@pytest.mark.parametrize('path', launch_files(), ids=lambda path: path.name)
 def test_a_system_has_the_findings_that_it_names(path: Path) -> None:
     found, wanted = found_in(path, below=SECOND), expected(path)
     assert [each[:2] for each in found] == [each[:2] for each in wanted]

@@ -14,6 +14,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
@@ -59,6 +60,7 @@ class Circles:
     open: tuple[tuple[tuple[Process, ...], Unknown], ...]
 
 
+@once
 def circles_of(system: System) -> Circles:
     """Find the processes that wait for each other, and put each circle into one unit."""
     found: list[Joined] = []

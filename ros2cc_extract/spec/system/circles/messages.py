@@ -11,6 +11,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import Act, Blocking, Needs, Waker
@@ -40,6 +41,7 @@ def ended_by_messages(block: Blocking, callbacks: Mapping[str, Callback]) -> tup
     return tuple(heard) if len(heard) == len(by) else ()
 
 
+@once
 def senders_in(system: System) -> dict[str, frozenset[str]]:
     """The processes that send on each topic, where all who may are known, and callbacks do it."""
     if not system.is_whole:
