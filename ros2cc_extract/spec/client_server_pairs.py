@@ -53,11 +53,14 @@ def asked_by(block: Blocking, callbacks: Iterable[Callback]) -> tuple[Callback, 
 
     It waits for one, or for a done-callback of one: nothing else sets its event.
     """
-    by = {waker.by for waker in block.wakers}
-    is_over = by <= _NOBODY if block.needs is Needs.ALL else by & _NOBODY
-    if block.seconds is not None or (by and is_over):
+    if block.seconds is not None:
         return ()
     known = tuple(callbacks)
+    by = {waker.by for waker in block.wakers}
+    is_over = by <= _NOBODY if block.needs is Needs.ALL else by & _NOBODY
+    direct = [each for each in known if each.name == block.on and is_client(each)]
+    if direct or (by and is_over):
+        return tuple(direct)
     ends = [each for each in known if each.name == block.on or each.name in by]
     found = {
         client.name: client

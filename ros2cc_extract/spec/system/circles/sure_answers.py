@@ -77,8 +77,10 @@ def _is_sure(block: Blocking, spec: Spec, ending: Collection[str]) -> bool:
     takers = [by_name.get(name) for name in names if isinstance(name, str)]
     is_sent = all(not waker.conditional for waker in block.wakers)
     servers = servers_of(clients[0], spec.callbacks)
+    is_there = all(not each.conditional and each.alternative is None for each in servers)
     needed = [*takers, clients[0], *servers]
-    return is_sent and len(servers) == 1 and all(_comes(each, spec, ending) for each in needed)
+    is_answered = is_sent and is_there and len(servers) == 1
+    return is_answered and all(_comes(each, spec, ending) for each in needed)
 
 
 def _comes(callback: Callback | None, spec: Spec, ending: Collection[str]) -> bool:
