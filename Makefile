@@ -125,10 +125,13 @@ random-waits: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 # Random systems of two to four processes on Jazzy: one that hung is never satisfied, and what its parts
 # say is what one network of all says. Goes on where it was cut.
 SYSTEMS ?= 1000
+COMPARED ?= 2000
 random-systems: $(VENV)/developed $(JAZZY)/installed
 	@mkdir -p build
 	$(BIN)/python -m tests.random_systems.suite --python $(JAZZY)/bin/python --systems $(SYSTEMS) \
 	    --record build/random_systems.jsonl
+	$(BIN)/python -m tests.random_systems.suite --unrun --systems $(COMPARED) \
+	    --record build/random_systems_compared.jsonl
 
 # rclpy's own tests with the hook and without, from a checkout of the version that ROS holds.
 ROS ?= $(JAZZY)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.findings.base.wording import listing
-from ros2cc_extract.spec.client_server_pairs import is_client, server_of
+from ros2cc_extract.spec.client_server_pairs import asked_by, server_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 
@@ -13,16 +13,19 @@ UNTIL_THERE = ('wait_for_service', 'wait_for_server')
 """Calls that wait until somebody offers the service or the action."""
 
 
-def waited_until_there(unit: Spec, earlier: tuple[Blocking, ...], block: Blocking) -> bool:
+def waited_until_there(
+    unit: Spec, earlier: tuple[Blocking, ...], block: Blocking, client: Callback
+) -> bool:
     """
     Whether the code has waited for the server to be there, in its set-up or before it asks.
 
     A request that is sent before its server is known is lost, and nobody answers it.
 
     :param earlier: what the same callback waits for.
+    :param client: whom it asks.
     """
     return block.call in UNTIL_THERE or any(
-        each.call in UNTIL_THERE and each.on == block.on for each in (*unit.set_up, *earlier)
+        each.call in UNTIL_THERE and each.on == client.name for each in (*unit.set_up, *earlier)
     )
 
 
@@ -37,20 +40,18 @@ def answers_assumed(unit: Spec) -> str:
     if not names:
         return ''
     verb = 'answers' if len(names) == 1 else 'answer'
-    known = all(waited_until_there(unit, earlier, block) for _, earlier, block in waits)
+    known = all(waited_until_there(unit, earlier, block, c) for c, earlier, block in waits)
     is_there = '' if known else ' from the first request on'
     return f'as long as {listing(names, 3)} {verb}{is_there}'
 
 
 def _waits_for_others(unit: Spec) -> Iterator[tuple[Callback, tuple[Blocking, ...], Blocking]]:
-    clients = {each.name: each for each in unit.callbacks if is_client(each)}
     doers: tuple[Callback | Activity, ...] = (*unit.callbacks, *unit.activities)
     for doer in doers:
-        for block in doer.blocking:
-            client = clients.get(block.on) if isinstance(block.on, str) else None
-            asks = client is not None and block.seconds is None and block.call not in UNTIL_THERE
-            if client is not None and asks and server_of(client, unit.callbacks) is None:
-                yield client, doer.blocking, block
+        for block in (each for each in doer.blocking if each.call not in UNTIL_THERE):
+            for client in asked_by(block, unit.callbacks):
+                if server_of(client, unit.callbacks) is None:
+                    yield client, doer.blocking, block
 
 
 def _words(client: Callback) -> str:

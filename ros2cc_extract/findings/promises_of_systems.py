@@ -132,7 +132,7 @@ def _doubts(
         if isinstance(wait.name, Unknown):
             yield f'{who} a {wait.what} whose name is not known ({wait.name.reason})'
             continue
-        if not waited_until_there(wait.unit, wait.doer.blocking, wait.block):
+        if not waited_until_there(wait.unit, wait.doer.blocking, wait.block, wait.client):
             yield (
                 f'{who} {wait.what} {wait.name} and has not waited until it is there: a request '
                 'that comes too early is lost'

@@ -11,6 +11,7 @@ from ros2cc_extract.findings.rules.deadlocks.undecided_wait import UNDECIDED
 from ros2cc_extract.findings.rules.systems import (
     life_cycle,
     near_names,
+    parameter_types,
     qos,
     same_node_name,
     sim_time,
@@ -19,7 +20,7 @@ from ros2cc_extract.findings.rules.systems import (
     unused_settings,
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.circles.joined_processes import circles_of, service_waits
+from ros2cc_extract.spec.system.circles.joined_processes import circle_waits, circles_of
 from ros2cc_extract.spec.system.model import Process, System
 
 _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
@@ -31,7 +32,10 @@ _CHECKS: tuple[tuple[Rule, Callable[[System], Iterator[Hit]]], ...] = (
     (unused_settings.RULE, unused_settings.find),
     (start_order.RULE, start_order.find),
     (life_cycle.RULE, life_cycle.find),
+    (parameter_types.RULE, parameter_types.find),
 )
+
+_OFFERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER, EndpointKind.PUBLISHER)
 
 
 def undecided_circles(system: System) -> Iterator[Finding]:
@@ -39,7 +43,7 @@ def undecided_circles(system: System) -> Iterator[Finding]:
     for circle, why in circles_of(system).open:
         offered = {name for process in circle for name in _offered(process, system)}
         for process in circle:
-            for wait in service_waits(process):
+            for wait in circle_waits(process):
                 if (wait.what, wait.name) not in offered:
                     continue
                 place = wait.block.source or process.launched.source
@@ -58,7 +62,7 @@ def undecided_circles(system: System) -> Iterator[Finding]:
 
 def _offered(process: Process, system: System) -> Iterator[tuple[str, str]]:
     for connection in system.connections:
-        for kind in (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER):
+        for kind in _OFFERS:
             if any(end.process is process for end in connection.of_kind(kind)):
                 yield connection.what, connection.name
 

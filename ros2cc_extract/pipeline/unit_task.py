@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.cache_file import tool_version
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.generator.build import Family
 from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
@@ -16,6 +17,7 @@ from ros2cc_extract.verify.results.results import Verdict, Verification
 from ros2cc_extract.verify.search.options import Checker, Options
 
 LONGEST_JUDGEMENT_S = 10.0
+_OF_WAITS = frozenset({Family.DEADLOCK, Family.PROGRESS})
 _VERDICTS = (Verdict.SATISFIED, Verdict.UNDECIDED, Verdict.NOT_SATISFIED)
 
 
@@ -107,4 +109,9 @@ def judging_options(options: Options) -> Options:
 def joined_task(joined: Joined, policy: Policy, options: Options) -> Task:
     """What several units are asked together: only findings are told of it."""
     task = Task(joined.spec, close(joined.spec, policy), options, False, joined)
-    return replace(task, options=judging_options(options))
+    return replace(task, options=of_joined(judging_options(options)))
+
+
+def of_joined(options: Options) -> Options:
+    """Of units together only the waits are asked; their pool has as many threads as they need."""
+    return replace(options, fills_threads=False, families=_OF_WAITS)

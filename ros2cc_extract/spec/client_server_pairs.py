@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 from ros2cc_extract.spec.model import Callback, EntityKind
 
 SERVER_KINDS = {
@@ -15,6 +16,7 @@ SERVER_KINDS = {
     EntityKind.ACTION_CLIENT: EntityKind.ACTION_SERVER,
 }
 """What answers each kind of client."""
+_NOBODY = frozenset((OUTSIDE, TIME))
 
 
 def is_client(callback: Callback) -> bool:
@@ -29,18 +31,50 @@ def is_done_callback(callback: Callback) -> bool:
 
 def server_of(client: Callback, callbacks: Iterable[Callback]) -> Callback | None:
     """The one server of the client's name."""
+    return _the_one(servers_of(client, callbacks))
+
+
+def servers_of(client: Callback, callbacks: Iterable[Callback]) -> list[Callback]:
+    """All servers of the client's name, which may all answer."""
     kind = SERVER_KINDS.get(client.entity) if client.entity else None
     if kind is None or not isinstance(client.key, str):
-        return None
-    return _the_one([c for c in callbacks if c.entity is kind and c.key == client.key])
+        return []
+    return [c for c in callbacks if c.entity is kind and c.key == client.key]
 
 
 def client_before(done: Callback, callbacks: Iterable[Callback]) -> Callback | None:
     """The one client of its node that takes the answer for which ``done`` is a done-callback."""
+    return _the_one(_clients_before(done, callbacks))
+
+
+def asked_by(block: Blocking, callbacks: Iterable[Callback]) -> tuple[Callback, ...]:
+    """
+    List the clients by whose answers a wait without a time-out ends.
+
+    It waits for one, or for a done-callback of one: nothing else sets its event.
+    """
+    if block.seconds is not None:
+        return ()
+    known = tuple(callbacks)
+    by = {waker.by for waker in block.wakers}
+    is_over = by <= _NOBODY if block.needs is Needs.ALL else by & _NOBODY
+    direct = [each for each in known if each.name == block.on and is_client(each)]
+    if direct or (by and is_over):
+        return tuple(direct)
+    ends = [each for each in known if each.name == block.on or each.name in by]
+    found = {
+        client.name: client
+        for each in ends
+        for client in ([each] if is_client(each) else _clients_before(each, known))
+    }
+    return tuple(found.values())
+
+
+def _clients_before(done: Callback, callbacks: Iterable[Callback]) -> list[Callback]:
     if not is_done_callback(done) or not isinstance(done.key, str):
-        return None
+        return []
     name = (done.node, done.key)
-    return _the_one([c for c in callbacks if is_client(c) and (c.node, c.key) == name])
+    return [c for c in callbacks if is_client(c) and (c.node, c.key) == name]
 
 
 def _the_one(found: Sequence[Callback]) -> Callback | None:

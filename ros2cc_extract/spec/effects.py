@@ -239,6 +239,8 @@ class Act:
         name is among them where it cannot be taken twice.
     :param tries: of a lock that is taken only if it is free at once, or in some time.
     :param repeats: of what is made: it stands in a loop, so that one run may make several.
+    :param after: of a message, how many of the waits come before it.
+    :param conditional: of a message, true where a branch may skip it.
     """
 
     name: str | Unknown
@@ -247,3 +249,5 @@ class Act:
     held: tuple[str, ...] = ()
     tries: bool = False
     repeats: bool = False
+    after: int = 0
+    conditional: bool = False

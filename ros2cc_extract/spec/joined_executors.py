@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.spec.client_server_pairs import client_before, server_of
+from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Activity,
@@ -67,7 +67,7 @@ def joined(whole: Spec, units: Sequence[Spec]) -> Joined | None:
     part_of = _parts(whole, units)
     if isinstance(part_of, str) or not _wait_for_each_other(whole, part_of):
         return None
-    spec = _as_one(_without_idle(whole), units, part_of)
+    spec = _as_one(without_idle(whole), units, part_of)
     if spec is None:
         return None
     parts = (
@@ -84,12 +84,12 @@ def put_together(whole: Spec, units: Sequence[Spec]) -> Spec | None:
     It is the program exactly where each has one thread, or as many as can be at work in it.
     """
     part_of = _parts(whole, units)
-    return None if isinstance(part_of, str) else _as_one(_without_idle(whole), units, part_of)
+    return None if isinstance(part_of, str) else _as_one(without_idle(whole), units, part_of)
 
 
 def has_threads_enough(unit: Spec) -> bool:
     """Whether a pool has a thread for each callback that may wait, and one for all others."""
-    return len(unit.executor.threads) >= _enough_threads(unit.callbacks, unit.groups)
+    return len(unit.executor.threads) >= enough_threads(unit.callbacks, unit.groups)
 
 
 def why_not_joined(whole: Spec, units: Sequence[Spec]) -> str:
@@ -166,10 +166,10 @@ def enders_of(block: Blocking, spec: Spec) -> Iterator[str]:
     if block.seconds is not None:
         return
     yield from (waker.by for waker in block.wakers)
-    asked = next((each for each in spec.callbacks if each.name == block.on), None)
-    while asked is not None:
-        yield asked.name
-        asked = server_of(asked, spec.callbacks) or client_before(asked, spec.callbacks)
+    yield from (each.name for each in spec.callbacks if each.name == block.on)
+    for client in asked_by(block, spec.callbacks):
+        yield client.name
+        yield from (each.name for each in servers_of(client, spec.callbacks))
 
 
 def _locks_of(doer: Callback | Activity) -> set[object]:
@@ -182,7 +182,7 @@ def _kept_by(doer: Callback | Activity) -> set[object]:
     return {*over, *(lock for act in doer.locks for lock in act.held)}
 
 
-def _without_idle(spec: Spec) -> Spec:
+def without_idle(spec: Spec) -> Spec:
     """Whoever neither waits nor is waited for comes to its end, and takes nothing for ever."""
     needed = {
         name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
@@ -213,7 +213,7 @@ def _as_one(spec: Spec, units: Sequence[Spec], part_of: Mapping[str, _Part]) -> 
         callbacks = [replace(each, group=name) if each.name in own else each for each in callbacks]
     used = {each.group for each in callbacks}
     kept = tuple(group for group in groups.values() if group.name in used)
-    threads = _enough_threads(callbacks, kept)
+    threads = enough_threads(callbacks, kept)
     if threads > MOST_THREADS:
         return None
     executor = Executor(
@@ -240,12 +240,34 @@ def _free(name: str, taken: set[str]) -> str:
     return name
 
 
-def _enough_threads(callbacks: Iterable[Callback], groups: Iterable[CallbackGroup]) -> int:
-    """Count one for each callback that may wait, one of a group, and one for all others."""
+def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup]) -> int:
+    """
+    Count one for each run that may wait, one of a group, and one for all others.
+
+    Whoever is in no exclusive group runs for what arrives by itself, and for each who asks it.
+    """
     exclusive = {group.name for group in groups if group.type is GroupType.EXCLUSIVE}
-    waiting = {
-        each.name if each.group not in exclusive or each.groupless else (each.group,)
-        for each in callbacks
-        if each.blocking or each.locks
-    }
-    return max(2, len(waiting) + 1)
+    runs: dict[object, int] = {}
+    for each in (each for each in callbacks if each.blocking or each.locks):
+        is_one = each.group in exclusive and not each.groupless
+        runs[(each.group,) if is_one else each.name] = 1 if is_one else _runs(each, callbacks)
+    return max(2, sum(runs.values()) + 1)
+
+
+def _runs(callback: Callback, callbacks: Sequence[Callback]) -> int:
+    """How often it may run at once, up to what is too much; who asks itself does so once."""
+    number = 0
+    left = [(callback, frozenset[str]())]
+    while left and number <= MOST_THREADS:
+        each, above = left.pop()
+        number += 1
+        above |= {each.name}
+        left += [(c, above) for c in _callers(each, callbacks) if c.name not in above]
+    return number
+
+
+def _callers(callback: Callback, callbacks: Sequence[Callback]) -> Iterator[Callback]:
+    for caller in callbacks:
+        for client in (c for block in caller.blocking for c in asked_by(block, callbacks)):
+            if callback in servers_of(client, callbacks):
+                yield caller

@@ -107,6 +107,20 @@ class Awaited:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DeclaredParameter:
+    """
+    A parameter that the code declares with a type, which what a launch sets must have.
+
+    :param conditional: a branch may skip it.
+    """
+
+    name: str
+    type: str
+    source: Place
+    conditional: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class NodeGraph:
     """
     A node with what it has in the graph.
@@ -114,6 +128,7 @@ class NodeGraph:
     :param name: as the code says; ``namespace`` too, ``''`` where it says none.
     :param entry: where its program starts, as of a unit.
     :param parameters: names that the code declares or asks for; ``None`` where not all are known.
+    :param declared: those of them that have a type.
     :param open: why it may have more endpoints than these.
     :param awaits: what its program waits for before it is spun.
     :param apart: why names and remaps that its process is told may not reach it.
@@ -124,6 +139,7 @@ class NodeGraph:
     entry: str | None = None
     endpoints: tuple[Endpoint, ...] = ()
     parameters: tuple[str, ...] | None = ()
+    declared: tuple[DeclaredParameter, ...] = ()
     open: Unknown | None = None
     awaits: tuple[Awaited, ...] = ()
     apart: Unknown | None = None

@@ -60,13 +60,14 @@ def verify_unit(
         twice = replace(options, max_cycle=TWO_ARRIVALS)
         found = joined(found, _ask(of_two, closed, twice, progress, shelf))
     if options.max_cycle == 1 and options.profile is build.Profile.RCLPY:
-        found = ask_again(
-            found,
-            queries,
-            closed,
-            lambda left, more, limits: _ask(left, more, options, progress, shelf, limits),
-            options.limits,
-        )
+        if options.fills_threads:
+            found = ask_again(
+                found,
+                queries,
+                closed,
+                lambda left, more, limits: _ask(left, more, options, progress, shelf, limits),
+                options.limits,
+            )
         if _may_be_sliced(options):
             by_chance = partial(refute_by_chance, options=options)
             found = refute_by_using_up(found, queries, closed, by_chance, options.limits)

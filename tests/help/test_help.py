@@ -31,6 +31,7 @@ NO_PROGRAM = {
     'CC706': 'a system of several programs: tests/systems',
     'CC707': 'a system of several programs: tests/systems',
     'CC708': 'a system of several programs: tests/systems',
+    'CC709': 'a system of several programs: tests/systems',
     'CC705': 'a system of several programs: tests/systems',
 }
 PAIRS = [

@@ -2,8 +2,9 @@
 Random systems: one that hung on real rclpy must not be *satisfied*.
 
 ``python -m tests.random_systems.suite --python PYTHON --record FILE`` draws systems and runs them,
-several side by side; ``--judge FILE`` judges what a record has, and puts each system into one big
-network too, where that shows it as it is, to compare. Both go on where they were cut.
+several side by side, judges what the record has, and puts each system into one big network too,
+where that shows it as it is, to compare. With ``--unrun`` it runs none, and judges in both ways
+those that one network shows. All go on where they were cut.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,8 @@ from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.jobs.pools import Processes
 from ros2cc_extract.pipeline.check import Job, Outcome, check_paths
 from ros2cc_extract.pipeline.config import Config
+from ros2cc_extract.pipeline.system_sources import scan_launch_files
+from ros2cc_extract.pipeline.unit_task import of_joined
 from ros2cc_extract.spec.assumptions import Assumptions
 from ros2cc_extract.spec.close import Policy, close
 from ros2cc_extract.spec.joined_executors import has_threads_enough, put_together
@@ -58,14 +61,27 @@ def judged(folder: Path, seed: int) -> dict[str, Any]:
     """What is said of a system by its parts, and by one network of all."""
     path = write(seed, folder)
     os.chdir(folder)
-    outcome = check_paths(_job(path.relative_to(folder), folder), io.StringIO())
-    assert outcome.system is not None
-    return {
-        'seed': seed,
-        'said': said_of(outcome),
-        'parts': by_parts(outcome),
-        'whole': by_one_network(outcome.system),
-    }
+    found = _by_parts_and_said(path.relative_to(folder), folder)
+    return {'seed': seed, **found, 'whole': by_one_network(_system(path.relative_to(folder)))}
+
+
+def compared(folder: Path, seed: int) -> dict[str, Any]:
+    """The same, without its parts where one network does not show it."""
+    path = write(seed, folder)
+    os.chdir(folder)
+    whole = by_one_network(_system(path.relative_to(folder)))
+    is_shown = whole not in (NOT_EXACT, TOO_LARGE)
+    found = _by_parts_and_said(path.relative_to(folder), folder) if is_shown else {}
+    return {'seed': seed, **found, 'whole': whole}
+
+
+def _by_parts_and_said(path: Path, folder: Path) -> dict[str, Any]:
+    outcome = check_paths(_job(path, folder), io.StringIO())
+    return {'said': said_of(outcome), 'parts': by_parts(outcome)}
+
+
+def _system(path: Path) -> System:
+    return scan_launch_files([path], {}, io.StringIO(), cached=False).system
 
 
 def _job(path: Path, folder: Path) -> Job:
@@ -102,7 +118,7 @@ def by_parts(outcome: Outcome) -> str:
         if result.family in {each.value for each in _FAMILIES}
     ]
     for circle in circles.joined:
-        verdicts += _verdicts(circle.spec, OPTIONS)
+        verdicts += _verdicts(circle.spec, of_joined(OPTIONS))
     return _worst([*verdicts, *(Verdict.UNDECIDED for _ in circles.open)])
 
 
@@ -155,18 +171,33 @@ def run(record: Path, python: str, seeds: Sequence[int], first_domain: int) -> N
 
 def judge_all(record: Path, seeds: Sequence[int], jobs: int) -> None:
     """Judge what a record has, and write it beside."""
-    known = {row['seed'] for row in load(_judgements(record))}
-    left = [
-        row['seed'] for row in load(record) if row['seed'] in seeds and row['seed'] not in known
-    ]
+    run_ones = [row['seed'] for row in load(record) if row['seed'] in seeds]
+    _judge_left(_judge, run_ones, _judgements(record), jobs)
+
+
+def compare_all(record: Path, seeds: Sequence[int], jobs: int) -> None:
+    """Judge systems in both ways, whether they were run or not."""
+    _judge_left(_compare, seeds, record, jobs)
+
+
+def _judge_left(
+    judge: Callable[[int], dict[str, Any]], seeds: Iterable[int], record: Path, jobs: int
+) -> None:
+    known = {row['seed'] for row in load(record)}
+    left = [seed for seed in seeds if seed not in known]
     with multiprocessing.Pool(jobs, maxtasksperchild=20) as pool:
-        for row in pool.imap_unordered(_judge, left):
-            add(_judgements(record), [row])
+        for row in pool.imap_unordered(judge, left):
+            add(record, [row])
 
 
 def _judge(seed: int) -> dict[str, Any]:
     with tempfile.TemporaryDirectory(prefix='ros2cc-judged-') as folder:
         return judged(Path(folder), seed)
+
+
+def _compare(seed: int) -> dict[str, Any]:
+    with tempfile.TemporaryDirectory(prefix='ros2cc-judged-') as folder:
+        return compared(Path(folder), seed)
 
 
 def _judgements(record: Path) -> Path:
@@ -192,21 +223,32 @@ def told(record: Path, seeds: Sequence[int]) -> Iterator[str]:
     for hung in (True, False):
         counts = ', '.join(f'{table[hung, s]} {s}' for s in (NOT_SATISFIED, UNDECIDED, SATISFIED))
         yield f'{"hung" if hung else "went on"}: {counts}'
-    compared = [row for row in rows if row['whole'] in (SATISFIED, NOT_SATISFIED)]
-    equal = sum(row['parts'] == row['whole'] for row in compared)
-    yield f'in one network too: {len(compared)}, equal {equal}'
+    yield from told_of_both(rows)
     yield from (f'{row["seed"]}: hung {stuck[row["seed"]]}, {row}' for row in wrong(rows, stuck))
 
 
-def wrong(rows: Iterable[dict[str, Any]], stuck: dict[int, list[str]]) -> list[dict[str, Any]]:
+def told_of_both(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """How many systems one network shows, and of how many the parts say the same."""
+    shown = [row for row in rows if row['whole'] in (SATISFIED, NOT_SATISFIED)]
+    equal = sum(row['parts'] == row['whole'] for row in shown)
+    undecided = sum(row['parts'] == UNDECIDED for row in shown)
+    yield f'in one network too: {len(shown)}, equal {equal}, undecided by parts {undecided}'
+
+
+def wrong(rows: Iterable[dict[str, Any]], stuck: Mapping[int, list[str]]) -> list[dict[str, Any]]:
     """Systems that hung and are satisfied, and those of which parts and whole say opposites."""
-    both = {SATISFIED, NOT_SATISFIED}
     return [
         row
         for row in rows
-        if (stuck[row['seed']] and row['said'] == SATISFIED)
-        or {row['parts'], row['whole']} == both
+        if (stuck.get(row['seed']) and row['said'] == SATISFIED) or _are_opposites(row)
     ]
+
+
+def _are_opposites(row: Mapping[str, Any]) -> bool:
+    return {row.get('parts'), row['whole']} == {SATISFIED, NOT_SATISFIED} or (
+        row.get('said'),
+        row['whole'],
+    ) == (SATISFIED, NOT_SATISFIED)
 
 
 def main() -> int:
@@ -217,9 +259,15 @@ def main() -> int:
     parser.add_argument('--record', type=Path, required=True, help='what was run')
     parser.add_argument('--domain', type=int, default=1, help='the first ROS domain of these')
     parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='who judge at once')
+    parser.add_argument('--unrun', action='store_true', help='compare only, without running any')
     args = parser.parse_args()
     seeds = range(args.first, args.first + args.systems)
     record = args.record.absolute()
+    if args.unrun:
+        compare_all(record, seeds, args.jobs)
+        rows = [row for row in load(record) if row['seed'] in seeds]
+        print('\n'.join([*told_of_both(rows), *map(str, wrong(rows, {}))]))
+        return 1 if wrong(rows, {}) else 0
     if args.python is not None:
         run(record, str(Path(args.python).absolute()), seeds, args.domain)
     judge_all(record, seeds, args.jobs)

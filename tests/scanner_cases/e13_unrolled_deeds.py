@@ -47,7 +47,7 @@ if __name__ == '__main__':
 #     blocks client.call on arm_client @30
 #     blocks client.call on base_client @30
 #     locks lock @26
-#     publishes out @27
+#     publishes out after 1 @27
 #     changes timer @28
 #   timer print in a_default every 1 conditional count=? when=callback
 #   client arm_client in group key=arm

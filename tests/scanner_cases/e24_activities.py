@@ -64,7 +64,7 @@ if __name__ == '__main__':
 #       ended by late @33
 #     reads A.latest @29
 #     reads A.latest @30
-#     publishes out @30
+#     publishes out after 1 conditional @30
 #   activity timer late (A.late)
 #   activity pool call started by ask @40 count=?
 #     blocks client.call on go_client @40

@@ -68,4 +68,4 @@ if __name__ == '__main__':
 #   subscription on_in in a_default key=in
 #     blocks Barrier.wait on gate all @26
 #       ended by take after 1 @33
-#     publishes /out @28
+#     publishes /out after 1 @28

@@ -69,7 +69,7 @@ if __name__ == '__main__':
 # unit lamp: SingleThreadedExecutor x1 rclpy.spin, main
 #   group lamp_default EXCLUSIVE default
 #   timer show in lamp_default every 0.5 conditional when=later
-#     publishes lamp @23
+#     publishes lamp conditional @23
 #     changes timer @23>19
 #   subscription left_on_message in lamp_default (Lamp.on_message) key=left conditional when=later
 #   subscription right_on_message in lamp_default (Lamp.on_message) key=right conditional when=later

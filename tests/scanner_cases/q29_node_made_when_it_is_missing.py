@@ -57,6 +57,6 @@ door = Door()
 # unit backend: SingleThreadedExecutor x1 spin in thread, spin
 #   group backend_default EXCLUSIVE default
 #   timer show in backend_default every 0.5 when=later
-#     publishes lamp @39
+#     publishes lamp conditional @39
 #     changes timer @38
 #   subscription heard in backend_default key=door conditional when=later

@@ -7,6 +7,7 @@ Kilted each bad one stands still, and each good one goes on.
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -14,23 +15,44 @@ import pytest
 from tests.systems.by_launch import SECOND, launch_files
 from tests.systems.test_systems import expected, found_in
 
-LARGE = ('four_in_a_circle_bad', 'goal_needs_confirm_bad', 'goal_needs_confirm_good')
-"""Circles of three processes and more: a busy machine may not decide them in time."""
 
-
-def _cases() -> list[object]:
-    return [
-        pytest.param(
-            path,
-            id=path.name,
-            marks=[pytest.mark.slow] if path.name.partition('.')[0] in LARGE else [],
-        )
-        for path in launch_files()
-    ]
-
-
-@pytest.mark.parametrize('path', _cases())
+@pytest.mark.parametrize('path', launch_files(), ids=lambda path: path.name)
 def test_a_system_has_the_findings_that_it_names(path: Path) -> None:
     found, wanted = found_in(path, below=SECOND), expected(path)
     assert [each[:2] for each in found] == [each[:2] for each in wanted]
     assert all(want in has for (_, _, has), (_, _, want) in zip(found, wanted, strict=True))
+
+
+SENDS_REPLIES = """\
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Clerk(Node):
+    def __init__(self):
+        super().__init__('clerk')
+        self.replies = self.create_publisher(String, 'replies', 10)
+        self.create_timer(1.0, self.reply)
+
+    def reply(self):
+        self.replies.publish(String())
+
+
+rclpy.init()
+rclpy.spin(Clerk())
+"""
+CLERK = '<node pkg="second" exec="clerk.py"/>'
+
+
+def test_a_message_that_comes_from_beside_the_circle_ends_a_wait(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    below = tmp_path / 'second'
+    shutil.copytree(SECOND, below)
+    monkeypatch.chdir(below)
+    path = below / 'launch' / 'ordered_by_topic_bad.launch.xml'
+    (below / 'programs' / 'clerk.py').write_text(SENDS_REPLIES, encoding='utf-8')
+    text = path.read_text(encoding='utf-8').replace('</group>', f'{CLERK}</group>')
+    path.write_text(text, encoding='utf-8')
+    assert found_in(path, below=below) == []

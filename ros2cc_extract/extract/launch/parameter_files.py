@@ -2,11 +2,13 @@
 Parameters of YAML files: which nodes they are for, and their values.
 
 Source: rcl_yaml_param_parser (Jazzy): nodes by name, below namespaces or with them in the key,
-``ros__parameters`` below; nested keys are joined by dots; ``/**`` and ``/*`` stand for any.
+``ros__parameters`` below; nested keys are joined by dots; ``/**`` and ``/*`` stand for any; a
+value without quotes is a bool, a number or a text by rules of its own (``parse.c``).
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import yaml
@@ -18,6 +20,14 @@ from ros2cc_extract.spec.yaml.bounds import LOADER, UnboundedYamlError, check, c
 _PARAMETERS = 'ros__parameters'
 _DEEPEST = 20
 _SCALARS = (bool, int, float, str, type(None))
+_TEXT = 'tag:yaml.org,2002:str'
+_TRUE = frozenset(['Y', 'y', 'yes', 'Yes', 'YES', 'true', 'True', 'TRUE', 'on', 'On', 'ON'])
+_FALSE = frozenset(['N', 'n', 'no', 'No', 'NO', 'false', 'False', 'FALSE', 'off', 'Off', 'OFF'])
+_INTEGER = re.compile(r'[+-]?(0x[0-9a-f]+|0[0-7]*|[1-9][0-9]*)', re.IGNORECASE)
+_DOUBLE = re.compile(r'[+-]?((\d+\.?\d*|\.\d+)(e[+-]?\d+)?|\.?inf|infinity|\.?nan)', re.IGNORECASE)
+_SPECIAL = re.compile(r'\.(inf|nan)', re.IGNORECASE)
+_QUOTES = ('"', "'")
+_FIRST_TOO_LARGE = 2**63
 
 
 def parameters_in(text: str, shown: str) -> tuple[SetParameter, ...] | Unknown:
@@ -72,6 +82,25 @@ def _values(
 def _plain(node: yaml.Node) -> object:
     if isinstance(node, yaml.SequenceNode):
         return tuple(_plain(each) for each in node.value)
-    if node.tag == 'tag:yaml.org,2002:str':
-        return str(node.value)
-    return read_value(str(node.value))
+    text = str(node.value)
+    is_quoted = isinstance(node, yaml.ScalarNode) and node.style in _QUOTES
+    return text if is_quoted else _of_rcl(text, node.tag)
+
+
+def _of_rcl(text: str, tag: str) -> object:
+    """What stands without quotes, as rcl reads it, which has no ``null``; some have ``!!str``."""
+    if tag == _TEXT and not isinstance(read_value(text), str):
+        return text
+    if text in _TRUE or text in _FALSE:
+        return text in _TRUE
+    if _INTEGER.fullmatch(text) and abs(number := _integer(text)) < _FIRST_TOO_LARGE:
+        return number
+    if _DOUBLE.fullmatch(text):
+        return float(_SPECIAL.sub(r'\1', text))
+    return text or None
+
+
+def _integer(text: str) -> int:
+    digits = text.lstrip('+-').lower()
+    base = 16 if digits.startswith('0x') else 8 if digits.startswith('0') else 10
+    return int(digits, base) * (-1 if text.startswith('-') else 1)

@@ -126,7 +126,8 @@ class ProcessFacts:
                 value = source.value.value
             else:
                 text = self._evaluator.value(source.value)
-                value = text if isinstance(text, Unknown) else read_value(text)
+                is_done = isinstance(text, Unknown) or source.is_text
+                value = text if is_done else read_value(str(text))
             yield SetParameter(name=name, value=value, source=source.place)
 
     def _from_file(self, path: Value, open_facts: Open) -> Iterator[SetParameter]:

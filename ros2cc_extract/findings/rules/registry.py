@@ -52,6 +52,7 @@ from ros2cc_extract.findings.rules.starvation import (
 from ros2cc_extract.findings.rules.systems import (
     life_cycle,
     near_names,
+    parameter_types,
     qos,
     same_node_name,
     sim_time,
@@ -120,6 +121,7 @@ RULES: tuple[Rule, ...] = (
     unused_settings.RULE,
     start_order.RULE,
     life_cycle.RULE,
+    parameter_types.RULE,
 )
 BY_CODE = {rule.code: rule for rule in RULES}
 BY_SLUG = {rule.slug: rule for rule in RULES}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from ros2cc_extract.spec.node_graph import EndpointKind
-from ros2cc_extract.spec.system.circles.joined_processes import circles_in, service_waits
+from ros2cc_extract.spec.system.circles.joined_processes import circle_waits, circles_in
 from ros2cc_extract.spec.system.model import Process, System
 
 Key = tuple[str, str]
@@ -13,11 +13,11 @@ Key = tuple[str, str]
 
 
 def in_circles(system: System) -> Mapping[Key, frozenset[str]]:
-    """The services and actions by which processes wait for each other, with these processes."""
+    """The services, actions and topics of circles of waits, with the processes in these."""
     found: dict[Key, frozenset[str]] = {}
     for circle in circles_in(system):
         names = frozenset(process.name for process in circle)
-        for wait in (wait for process in circle for wait in service_waits(process)):
+        for wait in (wait for process in circle for wait in circle_waits(process)):
             if isinstance(wait.name, str) and _is_offered_by(wait.what, wait.name, circle, system):
                 key = (wait.what, wait.name)
                 found[key] = found.get(key, frozenset()) | names
@@ -25,7 +25,7 @@ def in_circles(system: System) -> Mapping[Key, frozenset[str]]:
 
 
 def _is_offered_by(what: str, name: str, circle: Collection[Process], system: System) -> bool:
-    kinds = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
+    kinds = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER, EndpointKind.PUBLISHER)
     return any(
         end.process in circle
         for each in system.connections

@@ -14,7 +14,7 @@ from functools import cached_property
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import Spec, Unresolved
-from ros2cc_extract.spec.node_graph import Endpoint, EndpointKind
+from ros2cc_extract.spec.node_graph import DeclaredParameter, Endpoint, EndpointKind
 from ros2cc_extract.spec.system.launched import Fact, Launched
 from ros2cc_extract.spec.system.names import Naming, Remap
 
@@ -63,6 +63,7 @@ class SystemNode:
     :param name: fully qualified.
     :param own_name: what the code calls it, as the units do.
     :param open: why it may have more endpoints than these.
+    :param declared: parameters with a type, where the code was read for this.
     """
 
     name: Fact
@@ -73,6 +74,7 @@ class SystemNode:
     awaits: tuple[SystemAwaited, ...] = ()
     source: Place | None = None
     naming: Naming | None = field(default=None, repr=False, compare=False)
+    declared: tuple[DeclaredParameter, ...] = field(default=(), repr=False, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)

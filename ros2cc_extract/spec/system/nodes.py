@@ -48,6 +48,7 @@ def system_node(graph: NodeGraph, launched: Launched) -> SystemNode:
         endpoints=endpoints,
         awaits=tuple(_awaited(graph.awaits, endpoints)),
         parameters=graph.parameters,
+        declared=graph.declared,
         open=graph.open,
         source=graph.source,
         naming=known if why is None else None,

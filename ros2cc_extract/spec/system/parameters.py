@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ros2cc_extract.spec.system.launched import ANY_NODE, Launched
+from ros2cc_extract.spec.system.launched import ANY_NODE, Launched, SetParameter
 from ros2cc_extract.spec.system.model import SystemNode
 
 _WILD = re.compile(r'/\*\*|\*')
@@ -29,7 +29,7 @@ def parameters_for(
     """
     names = [node.name for node in nodes if isinstance(node.name, str)]
     found: dict[str, object] = {}
-    are_all = not any(fact in _OPEN for fact, _ in launched.open)
+    are_all = are_all_known(launched)
     for each in launched.parameters:
         reached = [name for name in names if matches(each.node, name)]
         is_for_all = each.node == ANY_NODE or (bool(names) and len(reached) == len(nodes))
@@ -39,6 +39,18 @@ def parameters_for(
             found.pop(each.name, None)
             are_all = False
     return found, are_all
+
+
+def are_all_known(launched: Launched) -> bool:
+    """Whether nothing else may be set than what is in sight."""
+    return not any(fact in _OPEN for fact, _ in launched.open)
+
+
+def set_for(launched: Launched, node: SystemNode) -> dict[str, SetParameter]:
+    """What is set for a node, by name: the last value counts."""
+    name = node.name if isinstance(node.name, str) else ''
+    reached = (p for p in launched.parameters if p.node == ANY_NODE or matches(p.node, name))
+    return {each.name: each for each in reached}
 
 
 def matches(pattern: str, name: str) -> bool:

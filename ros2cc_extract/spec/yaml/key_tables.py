@@ -163,6 +163,8 @@ ACT = record(
                 ('held', 'held', listing(TEXT)),
                 ('tries', 'tries', FLAG),
                 ('repeats', 'repeats', FLAG),
+                ('after', 'after', COUNT),
+                ('conditional', 'conditional', FLAG),
                 _SOURCE,
                 _CHAIN,
             ),

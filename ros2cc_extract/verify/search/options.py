@@ -35,6 +35,7 @@ class Options:
     :param verifyta: the program, where it is not to be looked for.
     :param jobs: threads that explore one model together; no answer depends on them.
     :param structural: profile rclpy also asks who starves under unlimited arrivals.
+    :param fills_threads: asks once more, with runs of one callback on all threads.
     :param families: what alone is asked; all that there is where it is left out.
     """
 
@@ -45,6 +46,7 @@ class Options:
     text: Text = Text.COMPACT
     max_cycle: int | None = 1
     structural: bool = True
+    fills_threads: bool = True
     families: frozenset[Family] | None = None
     engine: EngineKind = EngineKind.AUTO
     fairness: Fairness = Fairness.NONE

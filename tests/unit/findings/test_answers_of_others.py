@@ -19,6 +19,8 @@ from ros2cc_extract.verify.unit import verify_unit
 from tests.unit.findings.finding_units import calls, client, service, threads, timer, unit
 
 NODE = """\
+import threading
+
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
@@ -35,7 +37,7 @@ class Arm(Node):
         self.create_timer(0.5, self.move)
 
     def move(self):
-        self.client.call(Trigger.Request())
+        {waits}
 
 
 rclpy.init()
@@ -45,8 +47,15 @@ executor.spin()
 """
 
 
-def waits_of(there: str) -> Judgement:
-    [spec] = scan_text(NODE.format(there=there), 'arm.py').units
+CALLS = 'self.client.call(Trigger.Request())'
+BY_AN_EVENT = """answered = threading.Event()
+        future = self.client.call_async(Trigger.Request())
+        future.add_done_callback(lambda _: answered.set())
+        answered.wait({seconds})"""
+
+
+def waits_of(there: str, waits: str = CALLS) -> Judgement:
+    [spec] = scan_text(NODE.format(there=there, waits=waits), 'arm.py').units
     judged = judge(spec, verify_unit(close(spec), Options(profile=Profile.RCLPY)), ())
     (waits,) = (each for each in judged if each.promise is Promise.WAITS)
     return waits
@@ -60,6 +69,15 @@ def test_an_answer_from_elsewhere_is_an_assumption_of_a_promise_that_is_kept() -
 def test_who_waits_until_the_server_is_there_assumes_less() -> None:
     there = 'self.client.wait_for_service(5.0)'
     assert waits_of(there).reason == "as long as service 'plan' answers"
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'assumed'), [('', "as long as service 'plan' answers"), ('1.0', '')]
+)
+def test_an_event_that_the_answer_sets_waits_for_the_answer(seconds: str, assumed: str) -> None:
+    there = 'self.client.wait_for_service(5.0)'
+    judged = waits_of(there, BY_AN_EVENT.format(seconds=seconds))
+    assert (judged.mark, judged.reason) == (Mark.KEPT, assumed)
 
 
 def asking(*services: str, **facts: object) -> Spec:

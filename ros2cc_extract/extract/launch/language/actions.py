@@ -35,11 +35,16 @@ class Constant:
 
 @dataclass(frozen=True)
 class Given:
-    """One parameter; ``value`` as it is written, or as a text that YAML reads."""
+    """
+    One parameter; ``value`` as it is written, or as a text that YAML reads.
+
+    :param is_text: it stays a text, whatever it looks like.
+    """
 
     name: Expression
     value: Constant | Expression
     place: Place
+    is_text: bool = False
 
 
 @dataclass(frozen=True)

@@ -131,7 +131,8 @@ def _parameters(elements: Iterable[Element], prefix: Expression) -> list[Paramet
         if nested:
             found += _parameters(nested, (*name, Text('.')))
         else:
-            found.append(Given(name, _required(element, 'value'), element.place))
+            is_text = element.attributes.get('type') == 'str'
+            found.append(Given(name, _required(element, 'value'), element.place, is_text))
     return found
 
 

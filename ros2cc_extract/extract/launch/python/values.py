@@ -35,6 +35,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Instance,
     Mystery,
+    Native,
     Value,
     options_of,
 )
@@ -71,6 +72,15 @@ def why_open(value: Value, place: Place) -> Unknown:
     if isinstance(value, Mystery):
         return Unknown(value.unknown.reason, value.unknown.at or place)
     return Unknown('it depends on a branch or is computed at run time', place)
+
+
+def _is_text(value: Value) -> bool:
+    """Whether ``ParameterValue(…, value_type=str)`` keeps what is evaluated from being read."""
+    state = made(value)
+    if state is None or state.call is None or state.kind != 'ParameterValue':
+        return False
+    kind = state.call.argument(1, 'value_type')
+    return isinstance(kind, Native) and kind.name == 'builtins.str'
 
 
 class Values:
@@ -226,7 +236,8 @@ class Values:
             if isinstance(entry, Mapping):
                 yield from self._entries(entry, (*name, Text('.')), place)
             else:
-                yield Given(name, self.constant_or_text(entry, place), place)
+                given = self.constant_or_text(entry, place)
+                yield Given(name, given, place, _is_text(entry))
 
     def constant_or_text(self, value: Value, place: Place) -> Constant | Expression:
         """A constant with its type; a substitution is a text that YAML reads."""

@@ -142,7 +142,7 @@ def activity(
         reads=tuple(effects.reads),
         writes=tuple(effects.writes),
         locks=tuple(effects.locks),
-        publishes=tuple(effects.publishes),
+        publishes=waits.messages_of(state),
         changes=tuple(effects.changes),
         spins=spins,
         pieces=pieces,

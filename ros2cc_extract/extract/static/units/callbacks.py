@@ -281,7 +281,6 @@ class UnitBuilder:
             reads=tuple(effects.reads) if effects else (),
             writes=tuple(effects.writes) if effects else (),
             locks=tuple(effects.locks) if effects else (),
-            publishes=tuple(effects.publishes) if effects else (),
             changes=tuple(effects.changes) if effects else (),
             pieces=pieces_of(entity, self._world),
         )
@@ -326,7 +325,7 @@ class UnitBuilder:
         doers = {names[id(doer)]: doer for doer in (*entities, *states)}
         return (
             tuple(
-                replace(callback, blocking=waits.of(entity))
+                replace(callback, blocking=waits.of(entity), publishes=waits.messages_of(entity))
                 for callback, entity in zip(callbacks, entities, strict=True)
             ),
             tuple(

@@ -23,6 +23,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
+from ros2cc_extract.spec.system.circles.rewritten_waits import with_waits
 
 _WHOLE = 'send_goal'
 """The call that waits for both."""
@@ -49,7 +50,8 @@ def with_phases(parts: Sequence[Spec]) -> list[Spec]:
         for name, keys_of in ((callback.name, sure), (second[callback.name], certain))
         if callback.key in keys_of
     }
-    return [_split(part, keys, second, left_out) for part in parts]
+    waiting = with_waits(parts, lambda _, block: _both(block, second, left_out))
+    return [_split(part, keys, second, left_out) for part in waiting]
 
 
 def _sure_goals(part: Spec) -> Iterator[object]:
@@ -111,7 +113,6 @@ def _split(
     callbacks: list[Callback] = []
     groups = list(part.groups)
     for callback in part.callbacks:
-        callback = replace(callback, blocking=_both(callback.blocking, second, left_out))
         key = callback.key if callback.key in keys else None
         if key is None:
             callbacks.append(callback)
@@ -128,15 +129,11 @@ def _split(
             callbacks.append(server)
         else:
             callbacks.append(callback)
-    activities = (
-        replace(each, blocking=_both(each.blocking, second, left_out)) for each in part.activities
-    )
     used = {callback.group for callback in callbacks}
     return replace(
         part,
         callbacks=tuple(callbacks),
         groups=tuple(group for group in groups if group.name in used),
-        activities=tuple(activities),
     )
 
 
@@ -173,17 +170,13 @@ def _clients(callback: Callback, name: str) -> list[Callback]:
 
 
 def _both(
-    blocking: Sequence[Blocking], second: Mapping[str, str], left_out: Collection[str]
+    block: Blocking, second: Mapping[str, str], left_out: Collection[str]
 ) -> tuple[Blocking, ...]:
-    """Each wait for a whole action as two, one behind the other."""
-    found: list[Blocking] = []
-    for block in blocking:
-        on = block.on if isinstance(block.on, str) else ''
-        if on not in second or block.call.rpartition('.')[2] != _WHOLE:
-            found.append(_for(block, on, second[on]) if on in left_out else block)
-            continue
-        found += [_for(block, on, name) for name in (on, second[on]) if name not in left_out]
-    return tuple(found)
+    """A wait for a whole action as two, one behind the other."""
+    on = block.on if isinstance(block.on, str) else ''
+    if on not in second or block.call.rpartition('.')[2] != _WHOLE:
+        return (_for(block, on, second[on]) if on in left_out else block,)
+    return tuple(_for(block, on, name) for name in (on, second[on]) if name not in left_out)
 
 
 def _for(block: Blocking, on: str, name: str) -> Blocking:

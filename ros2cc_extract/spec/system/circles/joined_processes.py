@@ -10,12 +10,14 @@ one name have that of their process before it.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.errors import SpecFormatError
+from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined, why_not_joined
 from ros2cc_extract.spec.model import (
@@ -26,11 +28,16 @@ from ros2cc_extract.spec.model import (
 )
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.circles.action_phases import needs_itself, with_phases
+from ros2cc_extract.spec.system.circles.messages import (
+    ended_by_messages,
+    senders_in,
+    with_messages,
+)
 from ros2cc_extract.spec.system.circles.part_names import PartNames, parts_of, renamed_parts
+from ros2cc_extract.spec.system.circles.sure_answers import without_sure_waits
 from ros2cc_extract.spec.system.circles.transitions import several_wait
 from ros2cc_extract.spec.system.model import Process, System
 
-_CLIENTS = (EntityKind.CLIENT, EntityKind.ACTION_CLIENT)
 _SERVERS = (EndpointKind.SERVICE, EndpointKind.ACTION_SERVER)
 _BETWEEN = '; they are in processes that run at the same time'
 _OFFERS = {
@@ -53,13 +60,17 @@ class Circles:
     open: tuple[tuple[tuple[Process, ...], Unknown], ...]
 
 
+@once
 def circles_of(system: System) -> Circles:
     """Find the processes that wait for each other, and put each circle into one unit."""
     found: list[Joined] = []
     left: list[tuple[tuple[Process, ...], Unknown]] = []
+    senders = senders_in(system)
     for circle in circles_in(system):
         why = next(filter(None, map(_why_not, circle)), None)
-        one = _joined(circle) if why is None else why
+        names = {each.name for each in circle}
+        sent = {topic for topic, by in senders.items() if by <= names}
+        one = _joined(circle, sent) if why is None else why
         if isinstance(one, Joined):
             found.append(one)
         elif one is not None:
@@ -68,25 +79,53 @@ def circles_of(system: System) -> Circles:
 
 
 def circles_in(system: System) -> Iterator[list[Process]]:
-    """Sets of several processes, each of which needs each other one."""
+    """
+    Sets of several processes, each of which needs each other one.
+
+    A message is needed of a circle only where nobody beside it sends on the topic.
+    """
     offered = {
         (each.what, each.name): {
             end.process.name for kind in _SERVERS for end in each.of_kind(kind)
         }
         for each in system.connections
     }
-    ahead = {
-        process.name: {
-            other for key in _needed(process) for other in offered.get(key, ()) if other
-        }
+    senders = senders_in(system)
+    needed = {
+        process.name: {(wait.what, wait.name) for wait in circle_waits(process)}
         for process in system.processes
+    }
+    while True:
+        known = offered | {('topic', topic): set(by) for topic, by in senders.items()}
+        circles = list(_circles(system.processes, needed, known))
+        beside = {
+            topic
+            for circle in circles
+            for topic, by in senders.items()
+            if any(('topic', topic) in needed[each.name] for each in circle)
+            and not by <= {each.name for each in circle}
+        }
+        if not beside:
+            yield from circles
+            return
+        senders = {topic: by for topic, by in senders.items() if topic not in beside}
+
+
+def _circles(
+    processes: Sequence[Process],
+    needed: Mapping[str, Collection[object]],
+    offered: Mapping[tuple[str, str], Collection[str]],
+) -> Iterator[list[Process]]:
+    ahead = {
+        name: {other for key, by in offered.items() if key in keys for other in by}
+        for name, keys in needed.items()
     }
     reached = {name: _reached(name, ahead) for name in ahead}
     told: set[str] = set()
-    for process in system.processes:
+    for process in processes:
         mine = [
             other
-            for other in system.processes
+            for other in processes
             if other.name in reached[process.name] and process.name in reached[other.name]
         ]
         if len(mine) > 1 and process.name not in told:
@@ -107,14 +146,16 @@ def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
 @dataclass(frozen=True)
 class ServiceWait:
     """
-    A wait without a time-out for the answer of a service or an action.
+    A wait without a time-out for the answer of a service or an action, or for a message.
 
+    :param client: who takes it.
     :param name: resolved.
     """
 
     unit: Spec
     doer: Callback | Activity
     block: Blocking
+    client: Callback
     what: str
     name: str | Unknown
 
@@ -123,16 +164,16 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
     """The waits of a process for answers."""
     parts = parts_of(process)
     names = PartNames(process, parts)
-    clients = {c.name: c for part in parts for c in part.callbacks if c.entity in _CLIENTS}
+    everybody = [callback for part in parts for callback in part.callbacks]
     for unit, part in zip(process.working_units, parts, strict=True):
         doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
         for doer in doers:
             for block in doer.blocking:
-                client = clients.get(block.on) if isinstance(block.on, str) else None
-                key = names.key(client) if client is not None else None
-                if client is not None and block.seconds is None and key is not None:
+                for client in asked_by(block, everybody):
+                    key = names.key(client)
                     what = 'service' if client.entity is EntityKind.CLIENT else 'action'
-                    yield ServiceWait(unit, doer, block, what, key)
+                    if key is not None:
+                        yield ServiceWait(unit, doer, block, client, what, key)
 
 
 def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
@@ -149,11 +190,25 @@ def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
     return found
 
 
-def _needed(process: Process) -> Iterator[tuple[str, str]]:
-    """Services and actions whose answer something in the process waits for."""
-    for wait in service_waits(process):
-        if isinstance(wait.name, str):
-            yield wait.what, wait.name
+def message_waits(process: Process) -> Iterator[ServiceWait]:
+    """The waits of a process that messages alone end."""
+    parts = parts_of(process)
+    names = PartNames(process, parts)
+    everybody = {each.name: each for part in parts for each in part.callbacks}
+    for unit, part in zip(process.working_units, parts, strict=True):
+        doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
+        for doer in doers:
+            for block in doer.blocking:
+                for heard in ended_by_messages(block, everybody):
+                    key = names.key(heard)
+                    if key is not None:
+                        yield ServiceWait(unit, doer, block, heard, 'topic', key)
+
+
+def circle_waits(process: Process) -> Iterator[ServiceWait]:
+    """The waits that other processes end, by which a circle may go."""
+    yield from service_waits(process)
+    yield from message_waits(process)
 
 
 def _why_not(process: Process) -> Unknown | None:
@@ -181,9 +236,13 @@ def _why_not(process: Process) -> Unknown | None:
     return None
 
 
-def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
-    """One unit of all; why there is none, or ``None`` where no executor needs itself by them."""
-    parts = with_phases(renamed_parts(circle))
+def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknown | None:
+    """
+    One unit of all; why there is none, or ``None`` where no executor needs itself by them.
+
+    :param sent: topics on which only these processes send.
+    """
+    parts = with_messages(with_phases(renamed_parts(circle)), sent)
     try:
         whole = whole_of(parts)
     except SpecFormatError as error:
@@ -191,6 +250,9 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
     goal = needs_itself(whole)
     if goal is not None:
         return Unknown(f'the {goal} may need another goal of it')
+    why_open = next(_open_answers(whole), None)
+    if why_open is not None:
+        return why_open
     found = joined(whole, parts)
     if found is None:
         why = why_not_joined(whole, parts)
@@ -202,7 +264,20 @@ def _joined(circle: Sequence[Process]) -> Joined | Unknown | None:
         mine = found.parts[at : at + count]
         by_process.append(tuple(name for part in mine for name in part))
         at += count
-    return replace(found, parts=tuple(by_process), between=_BETWEEN)
+    return without_sure_waits(replace(found, parts=tuple(by_process), between=_BETWEEN))
+
+
+def _open_answers(whole: Spec) -> Iterator[Unknown]:
+    """Waits for answers of which the model of all does not say who gives them."""
+    doers: tuple[Callback | Activity, ...] = (*whole.callbacks, *whole.activities)
+    for block in (block for doer in doers for block in doer.blocking):
+        clients = asked_by(block, whole.callbacks)
+        servers = {each.name: servers_of(each, whole.callbacks) for each in clients}
+        asked = [name for name, known in servers.items() if known]
+        if len(clients) > 1 and asked:
+            yield Unknown(f'{block.call} ends by several answers', block.source)
+        if any(len(known) > 1 for known in servers.values()):
+            yield Unknown(f'several processes offer what {block.call} waits for', block.source)
 
 
 def whole_of(parts: Sequence[Spec]) -> Spec:

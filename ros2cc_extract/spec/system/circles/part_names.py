@@ -8,10 +8,11 @@ it; topics, services and actions are called as in the graph.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.client_server_pairs import is_done_callback
 from ros2cc_extract.spec.effects import OUTSIDE, RE_ENTRANT, TIME, Act, Blocking, Waker
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.model import (
@@ -22,11 +23,12 @@ from ros2cc_extract.spec.model import (
     Executor,
     Spec,
 )
-from ros2cc_extract.spec.node_graph import CHANGE_STATE
+from ros2cc_extract.spec.node_graph import CHANGE_STATE, EndpointKind
 from ros2cc_extract.spec.system.circles.transitions import as_services
-from ros2cc_extract.spec.system.model import Process, SystemNode
+from ros2cc_extract.spec.system.model import Process, SystemEndpoint, SystemNode
 
 _NOBODY = (OUTSIDE, TIME)
+_CLIENTS = (EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT)
 
 
 def parts_of(process: Process) -> tuple[Spec, ...]:
@@ -108,14 +110,14 @@ class PartNames:
         return self.name(on) if isinstance(on, str) and on in self._own else on
 
     def key(self, callback: Callback) -> str | Unknown | None:
-        """The resolved name of a topic, service or action; a done-callback names its client."""
+        """The resolved name of a topic, service or action; a done-callback has its client's."""
         is_transition = callback.entity is EntityKind.LIFECYCLE_SERVICE
         key = CHANGE_STATE if is_transition else callback.key
         node = self._nodes.get(callback.node) if isinstance(callback.node, str) else None
         if not isinstance(key, str):
             return key
-        if callback.entity is EntityKind.DONE_CALLBACK:
-            return self.name(key) if key in self._own else self._of_name(key, node)
+        if is_done_callback(callback):
+            return self._of_name(key, node, _CLIENTS)
         if node is None:
             return Unknown('its node is not known in the system', callback.source)
         for endpoint in node.endpoints:
@@ -123,15 +125,39 @@ class PartNames:
                 return endpoint.name
         return self._of_name(key, node)
 
-    def _of_name(self, key: str, node: SystemNode | None) -> str | Unknown:
-        """A name by the rules alone, as of what rclpy itself makes."""
+    def topic(self, written: str | Unknown, of_node: str | Unknown | None) -> str | Unknown:
+        """The name of a topic that the code of a node publishes, by whichever node has it."""
+        if not isinstance(written, str):
+            return written
+        node = self._nodes.get(of_node) if isinstance(of_node, str) else None
+        for nodes in ([node] if node else [], self._nodes.values()):
+            ends = [end for each in nodes for end in each.endpoints if _is_sent(end, written)]
+            named = {end.name for end in ends}
+            if len(named) == 1:
+                return named.pop()
+            if named:
+                break
+        return Unknown('its name in the system is not known')
+
+    def _of_name(
+        self,
+        key: str,
+        node: SystemNode | None,
+        kinds: Container[EndpointKind] = tuple(EndpointKind),
+    ) -> str | Unknown:
+        """How endpoints of these kinds that are written so are called, else by rules alone."""
         ends = node.endpoints if node is not None else ()
-        named = {end.name for end in ends if end.written == key}
+        named = {end.name for end in ends if end.written == key and end.kind in kinds}
         if len(named) == 1:
             return named.pop()
         if node is not None and node.naming is not None:
             return node.naming.resolved(key, is_service=True)
         return Unknown('its name in the system is not known')
+
+
+def _is_sent(end: SystemEndpoint, written: str) -> bool:
+    is_same = isinstance(end.written, str) and end.written.strip('/') == written.strip('/')
+    return end.kind is EndpointKind.PUBLISHER and is_same
 
 
 def _names_of(units: Iterable[Spec]) -> set[str]:
@@ -172,7 +198,8 @@ def _callback(callback: Callback, names: PartNames) -> Callback:
         node=names.name(callback.node) if isinstance(callback.node, str) else callback.node,
         key=names.key(callback),
         alternative=None if callback.alternative is None else names.name(callback.alternative),
-        blocking=tuple(_blocking(each, names) for each in callback.blocking),
+        blocking=tuple(_blocking(each, names, callback.node) for each in callback.blocking),
+        publishes=_publishes(callback, names),
         locks=tuple(_lock(each, names) for each in callback.locks),
         reads=(),
         writes=(),
@@ -186,7 +213,8 @@ def _activity(activity: Activity, names: PartNames) -> Activity:
         name=names.name(activity.name),
         node=names.name(activity.node) if isinstance(activity.node, str) else activity.node,
         starts=tuple(_waker(each, names) for each in activity.starts),
-        blocking=tuple(_blocking(each, names) for each in activity.blocking),
+        blocking=tuple(_blocking(each, names, activity.node) for each in activity.blocking),
+        publishes=_publishes(activity, names),
         locks=tuple(_lock(each, names) for each in activity.locks),
         reads=(),
         writes=(),
@@ -204,9 +232,15 @@ def _executor(executor: Executor, names: PartNames) -> Executor:
     return replace(executor, name=names.name(executor.name), threads=threads)
 
 
-def _blocking(block: Blocking, names: PartNames) -> Blocking:
+def _publishes(doer: Callback | Activity, names: PartNames) -> tuple[Act, ...]:
+    return tuple(replace(act, name=names.topic(act.name, doer.node)) for act in doer.publishes)
+
+
+def _blocking(block: Blocking, names: PartNames, node: str | Unknown | None) -> Blocking:
+    asked = (names.topic(each, node) for each in (block.answer_to or '').split(', ') if each)
     return replace(
         block,
+        answer_to=', '.join(each for each in asked if isinstance(each, str)) or None,
         on=names.on(block.on),
         held=tuple(names.name(lock) for lock in block.held),
         resource=None if block.resource is None else names.name(block.resource),

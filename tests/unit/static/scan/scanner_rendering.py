@@ -209,6 +209,8 @@ def _access(access: Access) -> str:
 def _act(act: Act) -> str:
     held = f' holding {", ".join(act.held)}' if act.held else ''
     held += ' tries' if act.tries else ''
+    held += f' after {act.after}' if act.after else ''
+    held += ' conditional' if act.conditional else ''
     return f'{_known(act.name)}{held}{_trail(act.source, act.chain)}'
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import field
+from dataclasses import field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
@@ -22,8 +22,8 @@ from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Blocking, Waker
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Waker
 
 Doer = EntityState | ActivityState
 
@@ -115,6 +115,14 @@ class DataWriters:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
                     yield self._does(doer, act.name, act.source)
 
+    def messages_of(self, doer: Doer) -> tuple[Act, ...]:
+        """What it publishes, each message with the waits that come before it."""
+        acts = (doer.effects or EffectLog()).publishes
+        sent = [(act, self._does(doer, act.name, act.source)) for act in acts]
+        return tuple(
+            replace(act, after=by.after or 0, conditional=by.conditional) for act, by in sent
+        )
+
     def _by_main(self, raw: Blocking, on: DataRef, doer: Doer) -> Iterator[Waker]:
         """
         What the program does when the spin has ended, which ends its threads from outside.
@@ -129,7 +137,7 @@ class DataWriters:
             elif beside is not None and raw.call != WORKING_LOOP:
                 yield Waker(by=OUTSIDE, source=beside)
 
-    def _does(self, doer: Doer, name: str, source: Place | None) -> Waker:
+    def _does(self, doer: Doer, name: str | Unknown, source: Place | None) -> Waker:
         """A write or a message of ``doer`` that ends a wait."""
         behind, is_open = (doer.effects or EffectLog()).written.get((name, source), (None, False))
         after = self._kept[id(doer)].places.get(behind, 0)

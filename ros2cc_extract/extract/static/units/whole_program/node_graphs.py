@@ -10,6 +10,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     PublisherState,
     RosWorld,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.values.declared_types import declared_in
 from ros2cc_extract.extract.static.python.values.exclusive_paths import beyond
 from ros2cc_extract.extract.static.python.values.values import (
     Const,
@@ -54,6 +55,7 @@ def graphs_of(world: RosWorld, entry: str | None) -> Iterator[NodeGraph]:
             entry=entry,
             endpoints=tuple(_endpoints(node, world)),
             parameters=_parameters(node),
+            declared=declared_in(node),
             awaits=tuple(awaits_of(node, world)),
             open=Unknown(*more[0]) if more else _cut(world),
             source=node.state.begun or node.place,

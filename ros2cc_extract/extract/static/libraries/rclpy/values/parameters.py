@@ -8,6 +8,10 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.values.declared_types import (
+    DESCRIPTOR,
+    note_declared,
+)
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.assumed_defaults import default_of
@@ -62,6 +66,13 @@ def _parameter(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return made
 
 
+def _declare(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    """``declare_parameter(name, value, descriptor, ignore_override)``."""
+    if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):
+        note_declared(machine, receiver, call)
+    return _parameter(machine, receiver, Call(call.place, call.args[:2], call.keywords, call.more))
+
+
 def _given(machine: RosMachine, name: object, default: Value | None) -> Value | None:
     """What the launch sets, before the default."""
     given = machine.world.parameters.values.get(str(name))
@@ -96,13 +107,15 @@ def _declare_all(machine: RosMachine, receiver: Value, call: Call) -> Value:
     """``declare_parameters(namespace, [(name, default, …), …])``."""
     space, rows = call.argument(0, 'namespace'), call.argument(1, 'parameters')
     items, rest = machine.items_of(rows or NONE, call.place)
+    is_ignored = call.argument(2, 'ignore_override')
     made = []
     for row in items:
         parts = list(row.items) if isinstance(row, Sequence) else []
         name = parts[0] if parts else NONE
         if isinstance(space, Const) and isinstance(name, Const) and space.value:
             parts[0] = Const(f'{space.value}.{name.value}')
-        made.append(_parameter(machine, receiver, Call(call.place, parts[:2])))
+        named = {} if is_ignored is None else {'ignore_override': is_ignored}
+        made.append(_declare(machine, receiver, Call(call.place, parts[:3], named)))
     return Sequence(tuple(made), 'list', rest)
 
 
@@ -158,7 +171,7 @@ def _get_parameter_value(machine: RosMachine, receiver: Value, call: Call) -> Va
 
 
 PARAMETER_METHODS: dict[str, Handler] = {
-    'declare_parameter': _parameter,
+    'declare_parameter': _declare,
     'declare_parameters': _declare_all,
     'get_parameter': _parameter,
     'get_parameters': _get_all,
@@ -169,6 +182,7 @@ PARAMETER_METHODS: dict[str, Handler] = {
 
 TABLE = Library(
     classes={
+        'rcl_interfaces.msg.ParameterDescriptor': DESCRIPTOR,
         'rclpy.parameter.Parameter': LibraryClass(
             init=_keep_parameter,
             properties={'value': _parameter_value},
