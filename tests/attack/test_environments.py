@@ -35,7 +35,8 @@ def ended(subcommand: str, surroundings: Surroundings, folder: Path) -> Ended:
     temporary.mkdir(exist_ok=True)
     temporary.chmod(0o1777)
     variables = {'TMPDIR': str(temporary), **surroundings.variables}
-    done = run_tool(*SUBCOMMANDS[subcommand], cwd=folder, prefix=surroundings.prefix, **variables)
+    prefix = surroundings.prefix or ('env',)  # by which Python itself starts it
+    done = run_tool(*SUBCOMMANDS[subcommand], cwd=folder, prefix=prefix, **variables)
     assert_orderly(done)
     assert list(temporary.iterdir()) == []
     return done

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from tests.support.starting import run_command
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / 'launch_free_examples'
@@ -44,15 +44,7 @@ def run(tmp_path: Path, cache: Path) -> Run:
     def runner(
         *arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = (), given: bytes = b''
     ) -> Outcome:
-        done = subprocess.run(
-            [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
-            cwd=cwd,
-            env=environment(cache),
-            input=given,
-            capture_output=True,
-            timeout=120,
-            check=False,
-        )
+        done = run_command(arguments, cwd=cwd, env=environment(cache), prefix=prefix, given=given)
         return Outcome(done.returncode, done.stdout.decode(), done.stderr.decode())
 
     return runner
