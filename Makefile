@@ -29,7 +29,9 @@ QUICK ?= tests/architecture tests/unit/findings tests/unit/generator tests/unit/
 # The whole suite with Jazzy; before it, that source and live run agree on Kilted too.
 test: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 	$(call pytest_with,$(KILTED)) -q -n auto tests/live/test_live_examples_hold.py -k static_and_live
-	ROS2CC_KILTED_PYTHON=$(CURDIR)/$(KILTED)/bin/python $(call pytest_with,$(JAZZY)) -n auto $(PYTEST_FLAGS)
+	ROS2CC_KILTED_PYTHON=$(CURDIR)/$(KILTED)/bin/python $(call pytest_with,$(JAZZY)) $(SHARED) $(PYTEST_FLAGS)
+# Each worker has files as a whole, whose tests share what they are about, until one has none left.
+SHARED := -n auto --dist worksteal
 
 # Random comparisons in the numbers of record, hours on the pure Python checker; before them all
 # live tests on Kilted, after them the examples of hypothesis drawn anew.
