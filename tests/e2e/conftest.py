@@ -41,10 +41,16 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def run(tmp_path: Path, cache: Path) -> Run:
-    def runner(
-        *arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = (), given: bytes = b''
+    return runner(tmp_path, cache)
+
+
+def runner(folder: Path, cache: Path) -> Run:
+    """What runs the command in ``folder``, where no other is named."""
+
+    def run_there(
+        *arguments: object, cwd: Path = folder, prefix: Sequence[str] = (), given: bytes = b''
     ) -> Outcome:
         done = run_command(arguments, cwd=cwd, env=environment(cache), prefix=prefix, given=given)
         return Outcome(done.returncode, done.stdout.decode(), done.stderr.decode())
 
-    return runner
+    return run_there
