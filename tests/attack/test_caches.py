@@ -68,12 +68,19 @@ WAYS: tuple[Callable[[str], tuple[Callable[..., object], tuple[object, ...]]], .
 """Before any of them is tried on the tool, a test sees that it works."""
 
 
-@pytest.fixture
-def home(tmp_path: Path) -> Path:
+@pytest.fixture(scope='module')
+def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cache that was filled by a check."""
-    run(tmp_path)
-    assert len(list(entries(tmp_path))) >= 3
-    return tmp_path
+    folder = tmp_path_factory.mktemp('filled')
+    run(folder)
+    assert len(list(entries(folder))) >= 3
+    return folder
+
+
+@pytest.fixture
+def home(filled: Path, tmp_path: Path) -> Path:
+    """The cache, for one test alone."""
+    return shutil.copytree(filled, tmp_path, dirs_exist_ok=True)
 
 
 def entries(home: Path) -> Iterator[Path]:
