@@ -245,8 +245,9 @@ $(VENV)/developed: $(VENV)/bin/python pyproject.toml
 	$(BIN)/python -m pip install $(PIP_FLAGS) -e '.[dev]'
 	@touch $(VENV)/installed $@
 
-.venv-%/installed: .venv-%/bin/python pyproject.toml
-	.venv-$*/bin/python -m pip install $(PIP_FLAGS) -e '.[$*]'
+# What is native stands beside the sources already, made by the same Python.
+.venv-%/installed: .venv-%/bin/python pyproject.toml | $(VENV)/developed
+	ROS2CC_NATIVE_BUILD=none .venv-$*/bin/python -m pip install $(PIP_FLAGS) -e '.[$*]'
 	@touch $@
 
 clean:
