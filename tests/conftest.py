@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import gc
-
 import pytest
 from hypothesis import HealthCheck, settings
-
-from ros2cc_extract.cli.main import OBJECTS_BEFORE_COLLECTING
 
 # How long an example takes is no verdict: machines are busy, and emulated processors slow.
 settings.register_profile(
@@ -25,10 +21,3 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if item.get_closest_marker('live'):
             # Real processes and real middleware: one lost race is theirs, three are ours.
             item.add_marker(pytest.mark.flaky(reruns=2))
-
-
-def pytest_collection_finish() -> None:
-    """Thousands of tests stay to the end: what looks for garbage need not look at them."""
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(OBJECTS_BEFORE_COLLECTING)  # as the command has it
