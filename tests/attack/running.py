@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from tests.support.repositories import environment
-
-TOOL = (sys.executable, '-m', 'ros2cc_extract.cli.main')
-PATIENCE_S = 120
-"""Far more than any of them needs on a busy machine: who is not done by then hangs."""
+from tests.support.starting import run_command
 
 
 @dataclass(frozen=True)
@@ -29,15 +24,8 @@ class Ended:
 
 
 def run_tool(*arguments: object, cwd: Path, prefix: Sequence[str] = (), **variables: str) -> Ended:
-    done = subprocess.run(
-        [*prefix, *TOOL, *map(str, arguments)],
-        cwd=cwd,
-        env=environment(**{'XDG_CACHE_HOME': f'{cwd}.cache', **variables}),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        timeout=PATIENCE_S,
-        check=False,
-    )
+    env = environment(**{'XDG_CACHE_HOME': f'{cwd}.cache', **variables})
+    done = run_command(arguments, cwd=cwd, env=env, prefix=prefix)
     texts = (stream.decode(errors='surrogateescape') for stream in (done.stdout, done.stderr))
     return Ended(done.returncode, *texts)
 

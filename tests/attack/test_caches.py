@@ -20,6 +20,7 @@ from ros2cc_extract import cache_file
 from tests.attack.conftest import Tally
 from tests.attack.running import Ended
 from tests.attack.test_attach import NOBODY, as_root
+from tests.support.starting import run_command
 
 CLASS = 'caches'
 
@@ -67,28 +68,33 @@ WAYS: tuple[Callable[[str], tuple[Callable[..., object], tuple[object, ...]]], .
 """Before any of them is tried on the tool, a test sees that it works."""
 
 
-@pytest.fixture
-def home(tmp_path: Path) -> Path:
+@pytest.fixture(scope='module')
+def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cache that was filled by a check."""
-    run(tmp_path)
-    assert len(list(entries(tmp_path))) >= 3
-    return tmp_path
+    folder = tmp_path_factory.mktemp('filled')
+    run(folder)
+    assert len(list(entries(folder))) >= 3
+    return folder
+
+
+@pytest.fixture
+def home(filled: Path, tmp_path: Path) -> Path:
+    """The cache, for one test alone."""
+    return shutil.copytree(filled, tmp_path, dirs_exist_ok=True)
 
 
 def entries(home: Path) -> Iterator[Path]:
     return iter(sorted((home / 'ros2cc-extract').iterdir()))
 
 
+def environment(home: Path) -> dict[str, str]:
+    """Where no bytecode is kept, what would stand beside it is in the cache too."""
+    return {**os.environ, 'XDG_CACHE_HOME': str(home), 'PYTHONDONTWRITEBYTECODE': '1'}
+
+
 def run(home: Path, *options: str) -> Ended:
-    done = subprocess.run(
-        [sys.executable, '-m', 'ros2cc_extract.cli.main', str(NODE), *options],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-        env={**os.environ, 'XDG_CACHE_HOME': str(home)},
-    )
-    return Ended(done.returncode, done.stdout, done.stderr)
+    done = run_command([NODE, *options], cwd=Path.cwd(), env=environment(home))
+    return Ended(done.returncode, done.stdout.decode(), done.stderr.decode())
 
 
 def test_a_pickle_in_the_cache_is_not_run(home: Path, tmp_path: Path) -> None:
@@ -253,7 +259,7 @@ def many_runs(home: Path) -> Iterator[Callable[..., str]]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
-        env={**os.environ, 'XDG_CACHE_HOME': str(home)},
+        env=environment(home),
     ) as process:
         assert process.stdin is not None and process.stdout is not None
         lines, answers = process.stdin, process.stdout

@@ -20,9 +20,11 @@ import yaml
 from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.extract.static.scan import scanning
 from ros2cc_extract.jobs.process_pool import ProcessPool
-from tests.attack.running import PATIENCE_S, TOOL, Ended, assert_orderly, run_tool
+from tests.attack.running import Ended, assert_orderly, run_tool
 from tests.support.packages import DEADLOCK, MENDED
+from tests.support.products import every_pair
 from tests.support.repositories import environment
+from tests.support.starting import PATIENCE_S, TOOL
 
 CLASS = 'environments and ends'
 
@@ -69,8 +71,9 @@ SILENT = ('spec node.py -o out.yaml', 'diff node.py clean.py', 'check --nonsense
 """They have nothing to say on stdout."""
 
 
-@pytest.mark.parametrize('command', COMMANDS)
-@pytest.mark.parametrize('redirection', ['>&-', '>/dev/full', '<&- >&- 2>&-'])
+@pytest.mark.parametrize(
+    ('command', 'redirection'), every_pair(COMMANDS, ['>&-', '>/dev/full', '<&- >&- 2>&-'])
+)
 def test_a_result_that_cannot_be_written_is_an_error(
     command: str, redirection: str, folder: Path
 ) -> None:
@@ -83,8 +86,9 @@ def test_a_result_that_cannot_be_written_is_an_error(
         )
 
 
-@pytest.mark.parametrize('command', COMMANDS)
-@pytest.mark.parametrize('redirection', ['2>&-', '2>/dev/full', '<&-'])
+@pytest.mark.parametrize(
+    ('command', 'redirection'), every_pair(COMMANDS, ['2>&-', '2>/dev/full', '<&-'])
+)
 def test_a_result_is_written_though_nobody_listens(
     command: str, redirection: str, folder: Path
 ) -> None:
@@ -117,8 +121,10 @@ def test_a_user_without_name_home_and_rights(command: str, folder: Path) -> None
         assert ended.out == usual.out
 
 
-@pytest.mark.parametrize('form', ['json', 'sarif', 'html', 'junit', 'mermaid'])
-@pytest.mark.parametrize('encoding', ['ascii', 'latin-1'])
+@pytest.mark.parametrize(
+    ('form', 'encoding'),
+    every_pair(['json', 'sarif', 'html', 'junit', 'mermaid'], ['ascii', 'latin-1']),
+)
 def test_what_programs_read_is_the_same_in_every_locale(
     encoding: str, form: str, folder: Path
 ) -> None:
@@ -301,8 +307,12 @@ needs_cores = pytest.mark.skipif(
 
 
 @needs_cores
-@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGKILL])
-@pytest.mark.parametrize('whom', ['parent', 'group'])
+@pytest.mark.parametrize(
+    ('number', 'whom'),
+    every_pair(
+        [signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGKILL], ['parent', 'group']
+    ),
+)
 def test_a_signal_leaves_no_child(number: signal.Signals, whom: str, repository: Path) -> None:
     with working(repository) as (process, children):
         assert children

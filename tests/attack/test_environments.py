@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import shutil
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from tests.attack.environments import (
 from tests.attack.running import Ended, assert_orderly, run_tool
 
 CLASS = 'environments'
+ENV = str(shutil.which('env'))
 COMBINED = 150
 LINE = 'ros2cc-extract: '
 
@@ -35,7 +37,8 @@ def ended(subcommand: str, surroundings: Surroundings, folder: Path) -> Ended:
     temporary.mkdir(exist_ok=True)
     temporary.chmod(0o1777)
     variables = {'TMPDIR': str(temporary), **surroundings.variables}
-    done = run_tool(*SUBCOMMANDS[subcommand], cwd=folder, prefix=surroundings.prefix, **variables)
+    prefix = surroundings.prefix or (ENV,)  # by which Python itself starts it
+    done = run_tool(*SUBCOMMANDS[subcommand], cwd=folder, prefix=prefix, **variables)
     assert_orderly(done)
     assert list(temporary.iterdir()) == []
     return done

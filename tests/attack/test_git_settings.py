@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,7 @@ import pytest
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.revision.git import Repository
 from tests.attack.repositories import ATTACKS, Scene
+from tests.attack.running import Ended, run_tool
 from tests.support.packages import DEADLOCK
 from tests.support.repositories import commit, environment, git, make_repository
 
@@ -20,19 +21,25 @@ CLASS = 'git configurations'
 CANARY = 'canary'
 
 
-@pytest.fixture
-def scene(tmp_path: Path) -> Scene:
-    """Two commits, between which nothing was added but a line."""
-    program = tmp_path / 'program'
-    program.write_text(f'#!/bin/sh\necho "$0 $@" >> "{tmp_path / CANARY}"\nexit 1\n')
-    program.chmod(0o755)
-    folder = tmp_path / 'repository'
+@pytest.fixture(scope='module')
+def two_commits(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A repository with two commits, between which nothing was added but a line."""
+    folder = tmp_path_factory.mktemp('commits') / 'repository'
     make_repository(folder)
     (folder / 'node.py').write_text(DEADLOCK)
     assert commit(folder, 'start').returncode == 0
     (folder / 'node.py').write_text(f'# moved\n{DEADLOCK}')
     assert commit(folder, 'move').returncode == 0
-    return Scene(folder, program)
+    return folder
+
+
+@pytest.fixture
+def scene(two_commits: Path, tmp_path: Path) -> Scene:
+    """A copy of the repository, and a program that none of its settings may have run."""
+    program = tmp_path / 'program'
+    program.write_text(f'#!/bin/sh\necho "$0 $@" >> "{tmp_path / CANARY}"\nexit 1\n')
+    program.chmod(0o755)
+    return Scene(shutil.copytree(two_commits, tmp_path / 'repository', symlinks=True), program)
 
 
 def variables(name: str, scene: Scene) -> dict[str, str]:
@@ -42,19 +49,10 @@ def variables(name: str, scene: Scene) -> dict[str, str]:
     return {key: pattern.sub(lambda found: places[found[0]], value) for key, value in given}
 
 
-def check(
-    scene: Scene, below: str = '', base: str = 'HEAD~1', **more: str
-) -> subprocess.CompletedProcess[str]:
+def check(scene: Scene, below: str = '', base: str = 'HEAD~1', **more: str) -> Ended:
     node = str(scene.folder / 'node.py')
-    return subprocess.run(
-        [sys.executable, '-m', 'ros2cc_extract.cli.main', node, '--diff-base', base],
-        cwd=scene.folder / below,
-        env=environment(XDG_CACHE_HOME=str(scene.folder.parent / 'cache'), **more),
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    cache = {'XDG_CACHE_HOME': f'{scene.folder}.cache'}
+    return run_tool(node, '--diff-base', base, cwd=scene.folder / below, **cache, **more)
 
 
 @pytest.mark.parametrize('name', ATTACKS)
@@ -65,9 +63,9 @@ def test_no_program_of_the_repository_is_run(name: str, scene: Scene) -> None:
     canary.unlink(missing_ok=True)
     done = check(scene, attack.below, **variables(name, scene))
     assert not canary.exists(), canary.read_text()
-    assert done.returncode == attack.status, done.stdout + done.stderr
+    assert done.status == attack.status, done.told
     if attack.told:
-        (line,) = done.stderr.splitlines()
+        (line,) = done.err.splitlines()
         assert re.search(attack.told, line)
 
 
@@ -94,7 +92,7 @@ def clean(scene: Scene) -> str:
 def test_what_the_base_holds_is_not_replaced(scene: Scene, clean: str) -> None:
     assert git(scene.folder, 'replace', clean, 'HEAD~1').returncode == 0
     assert git(scene.folder, 'grep', '-q', 'rclpy', 'HEAD').returncode == 0
-    assert check(scene, base='HEAD').returncode == 1
+    assert check(scene, base='HEAD').status == 1
 
 
 def test_a_graft_does_not_move_the_base(scene: Scene, clean: str) -> None:
@@ -103,7 +101,7 @@ def test_a_graft_does_not_move_the_base(scene: Scene, clean: str) -> None:
     mine = git(scene.folder, 'rev-parse', 'HEAD').stdout.strip()
     scene.write('.git/info/grafts', f'{mine} {start}\n')
     assert git(scene.folder, 'merge-base', clean, 'HEAD').stdout.strip().endswith(start)
-    assert check(scene, base=clean).returncode == 1
+    assert check(scene, base=clean).status == 1
 
 
 def test_settings_that_never_end_are_not_waited_for(
@@ -145,7 +143,7 @@ def test_names_in_a_tree_lead_nowhere(name: bytes, scene: Scene) -> None:
     before = sorted(scene.folder.parent.rglob('*'))
     base = commit_of(scene, tree_of(scene, node, other))
     done = check(scene, base=base)
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done.err
     grown = {path.name for path in set(scene.folder.parent.rglob('*')) - set(before)}
     assert 'evil.py' not in grown
 
@@ -157,8 +155,8 @@ def test_a_tree_that_doubles_is_refused(scene: Scene) -> None:
     for _ in range(40):
         tree = tree_of(scene, *(b'40000 %c\0' % n + bytes.fromhex(tree) for n in b'ab'))
     done = check(scene, base=commit_of(scene, tree))
-    (line,) = done.stderr.splitlines()
-    assert (done.returncode, 'gives more than' in line) == (2, True)
+    (line,) = done.err.splitlines()
+    assert (done.status, 'gives more than' in line) == (2, True)
 
 
 def test_a_submodule_within_itself_ends(scene: Scene) -> None:
@@ -169,4 +167,4 @@ def test_a_submodule_within_itself_ends(scene: Scene) -> None:
         for mode, name in ((b'160000 a', start), (b'100644 node.py', blob))
     )
     (scene.folder / 'a').symlink_to('.')
-    assert check(scene, base=commit_of(scene, tree_of(scene, module, node))).returncode == 0
+    assert check(scene, base=commit_of(scene, tree_of(scene, module, node))).status == 0

@@ -14,8 +14,8 @@ import pytest
 
 from tests.attack.conftest import Tally
 from tests.attack.environments import SUBCOMMANDS, fill
-from tests.attack.running import PATIENCE_S, TOOL
 from tests.support.repositories import environment
+from tests.support.starting import PATIENCE_S, TOOL
 
 CLASS = 'signals'
 EXAMPLES = Path(__file__).parents[2] / 'launch_free_examples'

@@ -15,6 +15,7 @@ import pytest
 from ros2cc_extract.files import DISK, read_regular
 from tests.attack.running import assert_orderly, run_tool
 from tests.support.packages import DEADLOCK, MENDED
+from tests.support.products import every_pair
 
 CLASS = 'special files'
 
@@ -64,8 +65,7 @@ def folder(tmp_path: Path) -> Path:
     return made
 
 
-@pytest.mark.parametrize('kind', KINDS)
-@pytest.mark.parametrize('command', ['check', 'spec'])
+@pytest.mark.parametrize(('kind', 'command'), every_pair(KINDS, ['check', 'spec']))
 def test_a_special_file_among_others_is_told(command: str, kind: str, folder: Path) -> None:
     KINDS[kind](folder / 'evil.py')
     plain = run_tool(command, '.', cwd=folder)
@@ -88,8 +88,10 @@ def test_a_special_file_that_is_named_is_an_error(kind: str, folder: Path) -> No
     assert (ended.status, 'evil.py: ' in ended.told) == (2, True)
 
 
-@pytest.mark.parametrize('kind', COMMON)
-@pytest.mark.parametrize('name', ['__init__.py', 'setup.py', 'setup.cfg', 'package.xml'])
+@pytest.mark.parametrize(
+    ('name', 'kind'),
+    every_pair(['__init__.py', 'setup.py', 'setup.cfg', 'package.xml'], COMMON),
+)
 def test_files_around_a_node_do_no_harm(name: str, kind: str, folder: Path) -> None:
     (folder / 'node.py').write_text(f'import helper\n{DEADLOCK}')
     KINDS[kind](folder / name)
@@ -99,25 +101,24 @@ def test_files_around_a_node_do_no_harm(name: str, kind: str, folder: Path) -> N
         assert 'node.py' in ended.told
 
 
-@pytest.mark.parametrize('kind', COMMON)
-@pytest.mark.parametrize(
-    'arguments',
-    [
-        ('check', 'clean.py', '--baseline', 'evil.json'),
-        ('check', 'clean.py', '--assume', 'threads=2'),
-        ('collect', '.'),
-        ('verify', 'evil.xml'),
-        ('verify', 'model.xml', 'evil.q'),
-        ('verify', 'evil.json'),
-        ('merge', 'clean.py', 'evil.json'),
-        ('diff', 'clean.py', 'evil.json'),
-        ('spec', '--check', 'evil.xml', 'clean.py'),
-        ('conform', 'evil.json', 'clean.py'),
-        ('init', 'sub'),
-    ],
-    ids=' '.join,
-)
-def test_special_files_that_are_named(arguments: tuple[str, ...], kind: str, folder: Path) -> None:
+NAMED = [
+    'check clean.py --baseline evil.json',
+    'check clean.py --assume threads=2',
+    'collect .',
+    'verify evil.xml',
+    'verify model.xml evil.q',
+    'verify evil.json',
+    'merge clean.py evil.json',
+    'diff clean.py evil.json',
+    'spec --check evil.xml clean.py',
+    'conform evil.json clean.py',
+    'init sub',
+]
+
+
+@pytest.mark.parametrize(('command', 'kind'), every_pair(NAMED, COMMON))
+def test_special_files_that_are_named(command: str, kind: str, folder: Path) -> None:
+    arguments = command.split()
     shutil.copy(Path(__file__).parents[1] / 'models' / 'peterson.xml', folder / 'model.xml')
     (folder / 'sub').mkdir()
     for name in ('evil.json', 'evil.xml', 'evil.q', 'sub/package.xml', 'pyproject.toml'):

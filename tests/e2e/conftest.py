@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from tests.support.starting import run_command
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / 'launch_free_examples'
@@ -41,18 +41,16 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def run(tmp_path: Path, cache: Path) -> Run:
-    def runner(
-        *arguments: object, cwd: Path = tmp_path, prefix: Sequence[str] = (), given: bytes = b''
+    return runner(tmp_path, cache)
+
+
+def runner(folder: Path, cache: Path) -> Run:
+    """What runs the command in ``folder``, where no other is named."""
+
+    def run_there(
+        *arguments: object, cwd: Path = folder, prefix: Sequence[str] = (), given: bytes = b''
     ) -> Outcome:
-        done = subprocess.run(
-            [*prefix, sys.executable, '-m', 'ros2cc_extract.cli.main', *map(str, arguments)],
-            cwd=cwd,
-            env=environment(cache),
-            input=given,
-            capture_output=True,
-            timeout=120,
-            check=False,
-        )
+        done = run_command(arguments, cwd=cwd, env=environment(cache), prefix=prefix, given=given)
         return Outcome(done.returncode, done.stdout.decode(), done.stderr.decode())
 
-    return runner
+    return run_there

@@ -15,8 +15,10 @@ import pytest
 from tests.e2e.conftest import EXAMPLES, Run, environment
 from tests.support.knots import write_knots
 from tests.support.mazes import write_mazes
+from tests.support.products import every_pair
 
-REASON = 'the limit of 15 s for all units was reached; see --max-seconds'
+LIMIT_S = 8
+REASON = f'the limit of {LIMIT_S} s for all units was reached; see --max-seconds'
 
 
 def repository(folder: Path, others: int = 12) -> Path:
@@ -31,7 +33,7 @@ def test_what_the_time_leaves_open_is_undecided_and_the_rest_is_told(
     run: Run, tmp_path: Path
 ) -> None:
     repository(tmp_path / 'src', others=60)  # some 1.5 s each, on any machine of today
-    told = run('src', '--max-seconds', 15, '--output-format', 'json')
+    told = run('src', '--max-seconds', LIMIT_S, '--output-format', 'json')
     assert told.status == 1
     report = json.loads(told.out)
     verdicts = {unit['model']: unit['queries'] for unit in report['verdicts']}
@@ -81,18 +83,23 @@ def long_to_scan(folder: Path, *, remarks: int = 0) -> Path:
 @pytest.mark.parametrize('remarks', [0, 1_000])
 def test_scanning_is_within_the_time_too(run: Run, tmp_path: Path, remarks: int) -> None:
     long_to_scan(tmp_path / 'src', remarks=remarks)
-    told = run('src', '--max-seconds', 15, '--profile', 'rclpy')
+    told = run('src', '--max-seconds', LIMIT_S, '--profile', 'rclpy')
     assert told.status == 1
-    assert 'files are not followed to their end: the limit of 15 s for all units' in told.out
+    assert (
+        f'files are not followed to their end: the limit of {LIMIT_S} s for all units' in told.out
+    )
     assert 'a_short.py:' in told.out
     assert 'CC101' in told.out
 
 
-@pytest.mark.parametrize('remarks', [0, 1_000])
-@pytest.mark.parametrize(('number', 'status'), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+@pytest.mark.parametrize(
+    ('ending', 'remarks'),
+    every_pair([(signal.SIGTERM, 143), (signal.SIGINT, 130)], [0, 1_000]),
+)
 def test_whoever_is_asked_to_end_while_scanning_tells_what_is_done(
-    number: int, status: int, remarks: int, tmp_path: Path, cache: Path
+    ending: tuple[int, int], remarks: int, tmp_path: Path, cache: Path
 ) -> None:
+    number, status = ending
     long_to_scan(tmp_path / 'src', remarks=remarks)
     child = subprocess.Popen(
         [sys.executable, '-m', 'ros2cc_extract.cli.main', 'src'],

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
-from tests.e2e.conftest import Outcome, Run
+from tests.e2e.conftest import Outcome, Run, runner
 from tests.support.trees import write_tree
 
 PARTS = 3
@@ -16,11 +17,12 @@ ACCEPTED = '        self.client.call(None)  # ros2cc: ignore[CC101] asked on pur
 USELESS = '        self.said = None  # ros2cc: ignore[CC101] nothing is wrong here'
 
 
-@pytest.fixture
-def tree(tmp_path: Path) -> Path:
+@pytest.fixture(scope='module')
+def of_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Twelve nodes; comments accept a finding of one of them, and nothing in another."""
-    write_tree(tmp_path / 'tree')
-    accepting, useless = (tmp_path / 'tree' / 'one' / f'arm_{n}.py' for n in (1, 2))
+    tree = tmp_path_factory.mktemp('shards') / 'tree'
+    write_tree(tree)
+    accepting, useless = (tree / 'one' / f'arm_{n}.py' for n in (1, 2))
     for path, line, comment in (
         (accepting, '        self.client.call(None)', ACCEPTED),
         (useless, '        self.said = None', USELESS),
@@ -28,15 +30,23 @@ def tree(tmp_path: Path) -> Path:
         text = path.read_text()
         assert line in text
         path.write_text(text.replace(line, comment))
-    return tmp_path / 'tree'
+    return tree
 
 
-def shards(run: Run, tree: Path, *more: object, parts: int = PARTS) -> list[Outcome]:
-    told = ('--output-format', 'json', '--no-cache', *more)
+@pytest.fixture(scope='module')
+def parts(of_all: Path) -> list[Outcome]:
+    """What each part of the check says."""
+    run = runner(of_all, of_all.parent / 'cache')
+    told = ('--output-format', 'json', '--no-cache')
     return [
-        run('one', 'two', '--shard', f'{number}/{parts}', *told, cwd=tree)
-        for number in range(1, parts + 1)
+        run('one', 'two', '--shard', f'{number}/{PARTS}', *told) for number in range(1, PARTS + 1)
     ]
+
+
+@pytest.fixture
+def tree(of_all: Path, tmp_path: Path) -> Path:
+    """The nodes, for one test alone."""
+    return shutil.copytree(of_all, tmp_path / 'tree')
 
 
 def written(outcomes: Sequence[Outcome], folder: Path) -> list[Path]:
@@ -47,34 +57,37 @@ def written(outcomes: Sequence[Outcome], folder: Path) -> list[Path]:
 
 
 @pytest.mark.parametrize('form', ['text', 'json', 'sarif', 'html'])
-def test_parts_are_one_check(run: Run, tree: Path, tmp_path: Path, form: str) -> None:
-    paths = written(shards(run, tree), tmp_path)
+def test_parts_are_one_check(
+    run: Run, tree: Path, parts: list[Outcome], tmp_path: Path, form: str
+) -> None:
+    paths = written(parts, tmp_path)
     told = ('--output-format', form, '--no-cache')
     whole = run('one', 'two', *told, cwd=tree)
     assert whole.status == 1
     assert run('one', 'two', *told, '--from-shards', *paths, cwd=tree) == whole
 
 
-def test_each_unit_is_in_one_part(run: Run, tree: Path) -> None:
-    outcomes = shards(run, tree)
-    units = [unit['node']['name'] for o in outcomes for unit in json.loads(o.out)['units']]
+def test_each_unit_is_in_one_part(parts: list[Outcome]) -> None:
+    units = [unit['node']['name'] for o in parts for unit in json.loads(o.out)['units']]
     assert sorted(units) == sorted([f'arm_{n}' for n in range(6)] * 2)
-    assert len({len(json.loads(o.out)['units']) for o in outcomes} - {0, 12}) > 0
+    assert len({len(json.loads(o.out)['units']) for o in parts} - {0, 12}) > 0
 
 
-def test_a_part_does_not_judge_what_another_may_need(run: Run, tree: Path) -> None:
+def test_a_part_does_not_judge_what_another_may_need(
+    run: Run, tree: Path, parts: list[Outcome]
+) -> None:
     """Which comment accepts nothing is known of all units only."""
-    for outcome in shards(run, tree):
+    for outcome in parts:
         assert 'CC502' not in {f['code'] for f in json.loads(outcome.out)['findings']}
     whole = json.loads(run('one', 'two', '--output-format', 'json', cwd=tree).out)
     assert [f['path'] for f in whole['findings'] if f['code'] == 'CC502'] == ['one/arm_2.py']
 
 
 def test_nothing_is_verified_when_parts_are_put_together(
-    run: Run, tree: Path, tmp_path: Path
+    run: Run, tree: Path, parts: list[Outcome], tmp_path: Path
 ) -> None:
     """A verdict that a part was told is believed, also one that nobody would find."""
-    paths = written(shards(run, tree), tmp_path)
+    paths = written(parts, tmp_path)
     for path in paths:
         data = json.loads(path.read_text())
         for unit in data['shard']['units'].values():
@@ -106,8 +119,10 @@ def test_what_cannot_be_asked_is_one_line(
     assert told in outcome.err.splitlines()[-1]
 
 
-def test_results_that_do_not_fit_are_refused(run: Run, tree: Path, tmp_path: Path) -> None:
-    first, second, third = paths = written(shards(run, tree), tmp_path)
+def test_results_that_do_not_fit_are_refused(
+    run: Run, tree: Path, parts: list[Outcome], tmp_path: Path
+) -> None:
+    first, second, third = paths = written(parts, tmp_path)
 
     def refused(*given: Path) -> str:
         outcome = run('one', 'two', '--from-shards', *given, cwd=tree)

@@ -15,6 +15,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.starting import TOOL, run_command
+
 ROOT = Path(__file__).parents[2]
 SCREENS = Path(__file__).parent / 'screens'
 EXAMPLES = ('service_deadlock', 'pool_exhaustion', 'two_groups', 'paper_case1')
@@ -94,29 +96,18 @@ def environment(**more: str) -> Mapping[str, str]:
     return {n: v for n, v in os.environ.items() if n not in left_out} | more
 
 
-def command(path: str) -> list[str]:
-    return [sys.executable, '-m', 'ros2cc_extract.cli.main', path]
-
-
 def in_a_log(folder: Path, path: str, columns: int, **more: str) -> str:
-    done = subprocess.run(
-        command(path),
-        cwd=folder,
-        env=environment(COLUMNS=str(columns), **more),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run_command([path], cwd=folder, env=environment(COLUMNS=str(columns), **more))
     assert done.returncode in (0, 1, 2), done.stderr
-    assert done.stderr == ''
-    return done.stdout
+    assert done.stderr == b''
+    return done.stdout.decode()
 
 
 def on_a_terminal(folder: Path, path: str, columns: int, **more: str) -> str:
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack('HHHH', 50, columns, 0, 0))
     child = subprocess.Popen(
-        command(path),
+        [*TOOL, path],
         cwd=folder,
         env=environment(TERM='xterm-256color', **more),
         stdin=subprocess.DEVNULL,

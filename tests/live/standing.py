@@ -53,13 +53,34 @@ def programs(
         domain = stack.enter_context(free_domain())
         starts = [_started(python, name, text, domain, variables) for name, text in texts.items()]
         started = [stack.enter_context(each) for each in starts]
-        deadline = time.monotonic() + BEGINS_WITHIN_S
         for process, log in started:
-            while until not in log.read_text() and time.monotonic() < deadline:
-                time.sleep(0.05)
-                if process.poll() is not None:
-                    break
+            _wait_until(until, process, log)
         yield [process for process, _ in started]
+
+
+@contextmanager
+def cells_at_once(
+    python: str, cells: Sequence[Cell], **variables: str
+) -> Iterator[list[subprocess.Popen[str]]]:
+    """Run programs side by side, each in a domain of its own, until all of them stand or go on."""
+    with ExitStack() as stack:
+        started = []
+        for cell in cells:
+            domain = stack.enter_context(free_domain())
+            start = _started(python, cell.path.name, text_of(cell), domain, variables)
+            started.append(stack.enter_context(start))
+        for cell, (process, log) in zip(cells, started, strict=True):
+            _wait_until(awaited(cell), process, log)
+        time.sleep(SETTLES_S)
+        yield [process for process, _ in started]
+
+
+def _wait_until(word: str, process: subprocess.Popen[str], log: Path) -> None:
+    deadline = time.monotonic() + BEGINS_WITHIN_S
+    while word not in log.read_text() and time.monotonic() < deadline:
+        time.sleep(0.05)
+        if process.poll() is not None:
+            break
 
 
 @contextmanager

@@ -69,7 +69,9 @@ def test_all_orders_of_two_callbacks_are_run(rclpy_python: str, tmp_path: Path) 
     }
 
 
-@pytest.mark.parametrize('name', ['g2_lost_update_mended', 'g4_lock_order_mended'])
+@pytest.mark.parametrize(
+    'name', ['g4_lock_order_mended', pytest.param('g2_lost_update_mended', marks=pytest.mark.slow)]
+)
 def test_nothing_is_found_in_a_good_twin(name: str, rclpy_python: str, tmp_path: Path) -> None:
     done = explore('--schedules', 22, '-o', tmp_path, '--', rclpy_python, BUGS / f'{name}.py')
     assert done.returncode == 0, done.stdout + done.stderr

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -68,6 +69,7 @@ SOUND = node(TICKS)
 @contextmanager
 def watched(python: str, text: str, folder: Path) -> Iterator[Path]:
     """Run a program under the watch of its hook; gives the folder of the explanations."""
+    folder.mkdir(exist_ok=True)
     variables = hooked_environment({}, folder, limit_s=LIMIT_S)
     with programs(python, {'node.py': text}, **variables):
         yield folder
@@ -88,60 +90,58 @@ def explanation(folder: Path) -> str:
     return text
 
 
+def at_once(
+    python: str, texts: Sequence[str], folder: Path, look: Callable[[Path], str]
+) -> list[str]:
+    """Watch programs side by side, for they only wait; gives what ``look`` says of each."""
+
+    def run(at: int) -> str:
+        with watched(python, texts[at], folder / str(at)) as written:
+            return look(written)
+
+    with ThreadPoolExecutor(len(texts)) as pool:
+        return [*pool.map(run, range(len(texts)))]
+
+
 @pytest.mark.parametrize('variable', EVERY_RELEASE)
-@pytest.mark.parametrize(
-    ('made', 'says'),
-    [
-        # Kilted runs callbacks of its own at the start, which may end within the limit.
-        ((ASKS,), ('no callback has ended', 'a callback has not ended')),
-        ((ASKS, TICKS), ('a callback has not ended',)),
-    ],
-)
-def test_deadlock_is_explained_once(
-    variable: str, made: tuple[str, ...], says: tuple[str, ...], tmp_path: Path
-) -> None:
-    with watched(interpreter_of(variable), node(*made), tmp_path) as folder:
-        text = explanation(folder)
-    first, verdict, *lines = text.splitlines()
-    assert first.removeprefix('ros2cc-extract: ').startswith(says)
-    assert ' (/some): deadlock: ' in verdict
-    assert 'CC101 Some.ask ' in lines[0]
+def test_deadlock_is_explained_once(variable: str, tmp_path: Path) -> None:
+    programs = [node(ASKS), node(ASKS, TICKS)]
+    alone, beside = at_once(interpreter_of(variable), programs, tmp_path, explanation)
+    # Kilted runs callbacks of its own at the start, which may end within the limit.
+    for text, says in (
+        (alone, ('no callback has ended', 'a callback has not ended')),
+        (beside, ('a callback has not ended',)),
+    ):
+        first, verdict, *lines = text.splitlines()
+        assert first.removeprefix('ros2cc-extract: ').startswith(says)
+        assert ' (/some): deadlock: ' in verdict
+        assert 'CC101 Some.ask ' in lines[0]
 
 
-@pytest.mark.parametrize(
-    ('text', 'verdict'),
-    [
-        (node('self.create_timer(0.1, self.sleep)'), 'busy'),
-        (node(TICKS, spins='time.sleep(600)'), 'never spun'),
-        (node("Client = self.create_client(Trigger, 'elsewhere')",
-              'self.create_timer(0.1, lambda: Client.wait_for_service())'),
-         'waits for another process'),
-    ],
-)  # fmt: skip
-def test_what_else_stands_still_is_explained(
-    text: str, verdict: str, rclpy_python: str, tmp_path: Path
-) -> None:
-    with watched(rclpy_python, text, tmp_path) as folder:
-        assert f' (/some): {verdict}: ' in explanation(folder)
+def test_what_else_stands_still_is_explained(rclpy_python: str, tmp_path: Path) -> None:
+    elsewhere = "Client = self.create_client(Trigger, 'elsewhere')"
+    stands = {
+        'busy': node('self.create_timer(0.1, self.sleep)'),
+        'never spun': node(TICKS, spins='time.sleep(600)'),
+        'waits for another process': node(
+            elsewhere, 'self.create_timer(0.1, lambda: Client.wait_for_service())'
+        ),
+    }
+    texts = at_once(rclpy_python, [*stands.values()], tmp_path, explanation)
+    for verdict, text in zip(stands, texts, strict=True):
+        assert f' (/some): {verdict}: ' in text
 
 
-@pytest.mark.parametrize('text', [IDLE, SOUND])
-def test_node_that_is_idle_or_goes_on_is_not_reported(
-    text: str, rclpy_python: str, tmp_path: Path
-) -> None:
-    with watched(rclpy_python, text, tmp_path) as folder:
+def test_node_that_is_idle_or_goes_on_is_not_reported(rclpy_python: str, tmp_path: Path) -> None:
+    """Nor a long callback beside others that end."""
+    long = node('self.create_timer(0.1, self.sleep)', TICKS)
+
+    def news(folder: Path) -> str:
         time.sleep(4 * LIMIT_S)
-        assert explanations(folder) == []
         assert list(folder.glob('*.json'))
+        return ''.join(explanations(folder))
 
-
-def test_long_callback_beside_others_that_end_is_no_news(
-    rclpy_python: str, tmp_path: Path
-) -> None:
-    text = node('self.create_timer(0.1, self.sleep)', TICKS)
-    with watched(rclpy_python, text, tmp_path) as folder:
-        time.sleep(4 * LIMIT_S)
-        assert explanations(folder) == []
+    assert at_once(rclpy_python, [IDLE, SOUND, long], tmp_path, news) == ['', '', '']
 
 
 def test_callback_that_comes_to_a_stop_later_is_explained_again(

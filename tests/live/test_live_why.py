@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
-from interpreters import EVERY_RELEASE, interpreter_of
+from interpreters import INTERPRETER_VARIABLE, KILTED_VARIABLE, interpreter_of
 
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.extract.live import injection, why
@@ -16,9 +18,10 @@ from ros2cc_extract.extract.live.hang_analysis.formats import as_text
 from ros2cc_extract.extract.live.why import explain_process
 from ros2cc_extract.hang_proof import judge
 from ros2cc_extract.hang_proof.judge import judged
-from tests.live.standing import awaited, program, text_of, told
+from tests.live.standing import cells_at_once, program, told
 from tests.support.cells import all_cells
 
+AT_ONCE = 5
 CELLS = {cell.name: cell for cell in all_cells()}
 EXPECTED = {
     'call_own_group_multi': ('deadlock', [('ask', 20, 'CC101')]),
@@ -37,6 +40,8 @@ EXPECTED = {
     'await_foreign_thread_single': ('asleep', []),
     'await_foreign_thread_multi': ('asleep', []),
 }
+OF_EACH_VERDICT = {verdict: name for name, (verdict, _) in reversed(EXPECTED.items())}.values()
+"""On the second release these; all of them there by ``make why`` too."""
 LOCKS = """
 import threading, time
 import rclpy
@@ -82,30 +87,48 @@ def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(judge, 'SECONDS', 60.0)
 
 
-@pytest.mark.parametrize('variable', EVERY_RELEASE)
-@pytest.mark.parametrize('name', EXPECTED)
-def test_process_is_explained(name: str, variable: str) -> None:
-    cell = CELLS[name]
-    with program(interpreter_of(variable), text_of(cell), cell.path, awaited(cell)) as process:
-        explanation = judged(explain_process(process.pid))
-        assert told(explanation) == EXPECTED[name]
-        assert process.poll() is None
-    is_proven = explanation.proof == 'proven by the model'
-    assert is_proven == (EXPECTED[name][0] == 'deadlock')
+def batches(names: Iterable[str]) -> Iterator[tuple[str, ...]]:
+    """So many as run side by side."""
+    left = iter(names)
+    return iter(lambda: tuple(itertools.islice(left, AT_ONCE)), ())
+
+
+@pytest.mark.parametrize(
+    ('variable', 'names'),
+    [
+        *((INTERPRETER_VARIABLE, names) for names in batches(EXPECTED)),
+        *((KILTED_VARIABLE, names) for names in batches(OF_EACH_VERDICT)),
+        *(
+            pytest.param(KILTED_VARIABLE, names, marks=pytest.mark.slow)
+            for names in batches(name for name in EXPECTED if name not in OF_EACH_VERDICT)
+        ),
+    ],
+)
+def test_processes_are_explained(variable: str, names: tuple[str, ...]) -> None:
+    said, proven = {}, set()
+    cells = [CELLS[name] for name in names]
+    with cells_at_once(interpreter_of(variable), cells) as processes:
+        for name, process in zip(names, processes, strict=True):
+            explanation = judged(explain_process(process.pid))
+            said[name] = told(explanation)
+            proven |= {name} if explanation.proof == 'proven by the model' else set()
+            assert process.poll() is None
+    assert said == {name: EXPECTED[name] for name in names}
+    assert proven == {name for name in names if EXPECTED[name][0] == 'deadlock'}
 
 
 @pytest.mark.parametrize('traced', [False, True])
-@pytest.mark.parametrize(
-    'name', ['event_own_group_multi', 'call_other_group_single', 'await_other_group_multi']
-)
-def test_hooked_process_is_explained_alike(
-    name: str, traced: bool, rclpy_python: str, tmp_path: Path
+def test_hooked_processes_are_explained_alike(
+    traced: bool, rclpy_python: str, tmp_path: Path
 ) -> None:
     """The thread of the hook is none of the program's: it ends no wait."""
-    cell, hooked = CELLS[name], hooked_environment({}, tmp_path, traced=traced)
-    with program(rclpy_python, cell.text, cell.path, awaited(cell), **hooked) as process:
-        assert told(explain_process(process.pid)) == EXPECTED[name]
-    assert list(tmp_path.glob('*.json'))
+    names = ('event_own_group_multi', 'call_other_group_single', 'await_other_group_multi')
+    hooked = hooked_environment({}, tmp_path, traced=traced)
+    cells = [CELLS[name] for name in names]
+    with cells_at_once(rclpy_python, cells, **hooked) as processes:
+        for name, process in zip(names, processes, strict=True):
+            assert told(explain_process(process.pid)) == EXPECTED[name], name
+    assert len(list(tmp_path.glob('*.json'))) == len(names)
 
 
 def test_locks_that_wait_for_each_other_are_a_deadlock(rclpy_python: str) -> None:

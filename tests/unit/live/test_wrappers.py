@@ -11,6 +11,7 @@ import gc
 import inspect
 import pickle
 import weakref
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from types import SimpleNamespace
@@ -41,6 +42,15 @@ from tests.unit.live.stand_ins import (
     WaitSet,
     wrap,
 )
+
+
+@pytest.fixture(scope='module', autouse=True)
+def _only_what_is_new_is_garbage() -> Iterator[None]:
+    """Nothing of the thousands of other tests is looked at when these look for garbage."""
+    gc.collect()
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 def test_group_is_reported_and_its_answer_given_back(
