@@ -76,10 +76,14 @@ FREE_ARM = ARM.replace(
     "'/pose', lambda request, response: response,\n"
     '            callback_group=MutuallyExclusiveCallbackGroup())',
 )
-SLOW_PLANNER = PLANNER.replace(
-    "        print('asks', flush=True)\n        self.other.wait",
-    "        import time; print('asks', flush=True); time.sleep(60)\n        self.other.wait",
-)
+
+
+def slow(text: str) -> str:
+    """The same with a service that works for a minute before it asks."""
+    return text.replace(
+        "        print('asks', flush=True)\n        self.other.wait",
+        "        import time; print('asks', flush=True); time.sleep(60)\n        self.other.wait",
+    )
 
 
 @pytest.fixture(autouse=True)
@@ -120,7 +124,7 @@ def test_service_that_another_process_answers_in_time_is_no_deadlock(rclpy_pytho
 
 
 def test_wait_for_a_process_at_work_names_it(rclpy_python: str) -> None:
-    with pair(rclpy_python, ARM, SLOW_PLANNER) as (arm, planner):
+    with pair(rclpy_python, ARM, slow(PLANNER)) as (arm, planner):
         explanation = explain_node('arm', [arm, planner])
     (asking,) = (each for each in explanation.standings if each.asked)
     assert (explanation.process, explanation.verdict) == (arm, Verdict.OUTSIDE)
@@ -128,8 +132,16 @@ def test_wait_for_a_process_at_work_names_it(rclpy_python: str) -> None:
     assert asking.reasons[0].startswith(f'it is offered by process {planner} (/robot/planner); ')
 
 
+def test_wait_for_an_own_service_at_work_is_for_no_other_process(rclpy_python: str) -> None:
+    own = slow(robot('arm', 'plan', 'plan', DRIVES))
+    with programs(rclpy_python, {'arm.py': own}) as (arm,):
+        time.sleep(SETTLES_S)
+        (explanation,) = explain_all([arm.pid]).found
+    assert explanation.verdict is Verdict.BUSY
+
+
 def test_node_is_found_by_its_name(rclpy_python: str) -> None:
-    with pair(rclpy_python, FREE_ARM, SLOW_PLANNER) as (arm, planner):
+    with pair(rclpy_python, FREE_ARM, slow(PLANNER)) as (arm, planner):
         for name in ('/robot/planner', 'robot/planner', 'planner'):
             assert explain_node(name, [arm, planner]).process == planner
         with pytest.raises(InputError) as wrong:

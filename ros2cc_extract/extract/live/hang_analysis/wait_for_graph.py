@@ -326,6 +326,14 @@ class _Graph:
             and all(each.kind != 'timers' or each.cancelled for each in timers)
         )
 
+    def is_answered_here(self, wait: Wait) -> bool:
+        """Whether it waits for an answer that only services of this process give."""
+        client = self.look.entities.get(wait.resource or 0)
+        if wait.kind not in _ANSWERS or client is None:
+            return False
+        servers = self.servers_of(client)
+        return bool(servers) and all(graph is self for graph, _ in servers)
+
     def _servers_elsewhere(self, wait: Wait) -> list[tuple[_Graph, Entity]]:
         client = self.look.entities.get(wait.resource or 0)
         if wait.kind is not Kind.ANSWER or client is None:
@@ -421,17 +429,21 @@ def _verdict(standings: Sequence[Standing], before: Look, graph: _Graph) -> Verd
         return Verdict.IN_NO_EXECUTOR
     if any(each.asleep for each in standings):
         return Verdict.ASLEEP
-    return _verdict_on_waits(standings)
+    return _verdict_on_waits(standings, graph)
 
 
-def _verdict_on_waits(standings: Sequence[Standing]) -> Verdict:
+def _verdict_on_waits(standings: Sequence[Standing], graph: _Graph) -> Verdict:
     # Waits of main and of own threads count where only a callback, or another process, ends them.
     asking = [s for s in standings if s.activity.entities or s.wait.kind not in _OWN_BUSINESS]
-    kinds = {s.wait.kind for s in asking if not s.wait.timed and not s.moved}
-    if kinds & set(_ANSWERS) and not kinds & {Kind.LOCK, *_BY_ANY_CODE}:
+    standing = [s for s in asking if not s.wait.timed and not s.moved]
+    kinds = {s.wait.kind for s in standing}
+    here = [s for s in standing if graph.is_answered_here(s.wait)]
+    by_others = [s for s in standing if s.wait.kind in _ANSWERS and s not in here]
+    if by_others and not kinds & {Kind.LOCK, *_BY_ANY_CODE}:
         return Verdict.OUTSIDE
     if any(s.wait.kind is Kind.SERVER for s in asking):
         return Verdict.OUTSIDE
-    if kinds & {Kind.LOCK, Kind.JOIN, *_BY_ANY_CODE}:
+    at_work = [s for s in standings if s.in_callback and (s.moved or s.wait.timed)]
+    if kinds & {Kind.LOCK, Kind.JOIN, *_BY_ANY_CODE} or (here and not at_work):
         return Verdict.UNDECIDED
     return Verdict.BUSY if any(s.in_callback for s in standings) else Verdict.HEALTHY

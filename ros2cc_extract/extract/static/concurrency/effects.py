@@ -131,7 +131,8 @@ class Effects(Waits):
         is_content = kind is AccessKind.UPDATE_IN_PLACE
         flows = name in reading.flowing
         chosen = is_content and (flows or name in reading.choices.get(at, ()))
-        rests = reading.governs(name, self.world.path) or flows or chosen
+        is_tested = reading.governs(name, self.world.path)
+        rests = is_tested or flows or chosen
         is_used = rests and is_read and at in reading.used
         # What is imported is the same each time, whatever was found before.
         is_import = isinstance(reading.stored, (Library, Module))
@@ -153,7 +154,7 @@ class Effects(Waits):
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
-            later=(is_used or (is_content and rests))
+            later=(is_used or (is_content and is_tested))
             and reading.has_called_since(name, self.world.path),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
