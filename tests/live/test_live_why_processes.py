@@ -133,7 +133,8 @@ def test_wait_for_a_process_at_work_names_it(rclpy_python: str) -> None:
 
 
 def test_wait_for_an_own_service_at_work_is_for_no_other_process(rclpy_python: str) -> None:
-    own = slow(robot('arm', 'plan', 'plan', DRIVES))
+    apart = 'self.serve, callback_group=MutuallyExclusiveCallbackGroup())'
+    own = slow(robot('arm', 'plan', 'plan', DRIVES)).replace('self.serve)', apart)
     with programs(rclpy_python, {'arm.py': own}) as (arm,):
         time.sleep(SETTLES_S)
         (explanation,) = explain_all([arm.pid]).found
