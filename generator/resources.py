@@ -162,7 +162,7 @@ def is_left_open(block: Blocking, spec: Spec) -> bool:
 def _is_open(block: Blocking, spec: Spec) -> bool:
     known = _known(spec).union(_BY_ITSELF)
     is_unknown = block.escapes is not None or any(w.by not in known for w in block.wakers)
-    return is_unknown or may_be_used_up(block, spec)
+    return is_unknown or may_be_used_up(block, spec) or block.goes_by_data
 
 
 def may_be_used_up(block: Blocking, spec: Spec) -> bool:

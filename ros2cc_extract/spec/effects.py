@@ -155,6 +155,19 @@ class Blocking:
         """Whether it ends after some time in any case."""
         return self.seconds is not None or any(waker.by == TIME for waker in self.wakers)
 
+    @property
+    def goes_by_data(self) -> bool:
+        """
+        Whether data decides both that a condition is waited on and that it is notified.
+
+        So it is in a lock for readers and writers: one waits while others are at work, and these
+        notify while one waits. Taken to happen at any time, both would show deadlocks that data
+        prevents.
+        """
+        is_for_condition = self.call.startswith('Condition.') and self.conditional
+        is_each = bool(self.wakers) and all(waker.conditional for waker in self.wakers)
+        return is_for_condition and is_each
+
 
 RE_ENTRANT = ' (re-entrant)'
 SHARED = ' (shared)'

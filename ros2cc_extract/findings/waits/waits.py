@@ -157,7 +157,7 @@ def _stepped(loop: Blocking, step: Blocking) -> Blocking:
 def _needs(block: Blocking, caller: Callback, context: Context) -> Iterator[Callback]:
     needed = context.by_name.get(block.on) if isinstance(block.on, str) else None
     needed = needed or _one_of_a_client(block, context)
-    if kind_of(block) is WaitKind.PRESENCE:
+    if kind_of(block) is WaitKind.PRESENCE or block.goes_by_data:
         return
     if needed is None or needed == caller or exclude_each_other(needed, caller):
         return

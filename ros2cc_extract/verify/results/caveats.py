@@ -19,6 +19,8 @@ _TASK_WAKES_NOBODY = (
     'something else does so'
 )
 
+_GOES_BY_DATA = 'data decides whether it waits, and whether anybody notifies it'
+
 
 def caveats_of(unit: Spec, profile: Profile) -> Iterator[str]:
     """Say what the reader of all verdicts should know."""
@@ -84,7 +86,8 @@ def _open_ends_of(doer: Actor, unit: Spec) -> Iterator[OpenEnd]:
     known = {id(block) for block in unknown}
     for block in doer.blocking:
         if _is_open(block, doer, unit):
-            yield OpenEnd(block)
+            is_by_data = block.escapes is None and block.goes_by_data
+            yield OpenEnd(block, _GOES_BY_DATA if is_by_data else '')
         elif id(block) in known:
             is_late = isinstance(doer, Callback) and is_unseen(block, doer, unit)
             yield OpenEnd(block, _TASK_WAKES_NOBODY if is_late else '')
