@@ -162,7 +162,12 @@ def is_left_open(block: Blocking, spec: Spec) -> bool:
 def _is_open(block: Blocking, spec: Spec) -> bool:
     known = _known(spec).union(_BY_ITSELF)
     is_unknown = block.escapes is not None or any(w.by not in known for w in block.wakers)
-    return is_unknown or may_be_used_up(block, spec) or block.goes_by_data
+    return is_unknown or may_be_used_up(block, spec) or _goes_by_data(block, spec)
+
+
+def _goes_by_data(block: Blocking, spec: Spec) -> bool:
+    """Of callbacks alone: a thread that waits for work in this way is idle, and need not go on."""
+    return block.goes_by_data and any(block in each.blocking for each in spec.callbacks)
 
 
 def may_be_used_up(block: Blocking, spec: Spec) -> bool:
