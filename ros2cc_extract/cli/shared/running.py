@@ -10,7 +10,7 @@ from ros2cc_extract.cli.shared.arguments import number_of_seconds
 if TYPE_CHECKING:
     from ros2cc_extract.pipeline.system_paths import Side
 
-DEFAULT_SECONDS = 5.0
+DEFAULT_SECONDS = 10.0
 
 
 def add_running_arguments(parser: argparse.ArgumentParser) -> None:

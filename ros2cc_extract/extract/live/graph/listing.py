@@ -1,7 +1,7 @@
 """
 Lists the nodes of the ROS graph with their endpoints, as JSON on standard output.
 
-As ``python listing.py SECONDS``: looks until nothing new has been seen for two seconds, for
+As ``python listing.py SECONDS``: looks until nothing new has been seen for four seconds, for
 SECONDS at most. Runs with the user's interpreter: the standard library and rclpy only. Joins the
 domain of its environment with a node of its own, which is hidden and offers nothing.
 """
@@ -17,7 +17,9 @@ from pathlib import Path
 from typing import Any
 
 NODE = '_ros2cc_listing'
-SETTLED_S = 2.0
+# Whose first announcement is lost is seen by the next, each 3 s (Fast DDS documentation, general
+# discovery settings: default of `leaseDuration_announcementperiod`).
+SETTLED_S = 4.0
 ROUND_S = 0.1
 _HIDDEN = '/_action/'
 Row = dict[str, Any]
