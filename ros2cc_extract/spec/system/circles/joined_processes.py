@@ -165,15 +165,21 @@ def service_waits(process: Process) -> Iterator[ServiceWait]:
     parts = parts_of(process)
     names = PartNames(process, parts)
     everybody = [callback for part in parts for callback in part.callbacks]
+    for unit, doer, block in _waits_of(process, parts):
+        for client in asked_by(block, everybody):
+            key = names.key(client)
+            what = 'service' if client.entity is EntityKind.CLIENT else 'action'
+            if key is not None:
+                yield ServiceWait(unit, doer, block, client, what, key)
+
+
+def _waits_of(
+    process: Process, parts: Sequence[Spec]
+) -> Iterator[tuple[Spec, Callback | Activity, Blocking]]:
+    """Each wait of the parts of a process, with the unit that the part is of."""
     for unit, part in zip(process.working_units, parts, strict=True):
         doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
-        for doer in doers:
-            for block in doer.blocking:
-                for client in asked_by(block, everybody):
-                    key = names.key(client)
-                    what = 'service' if client.entity is EntityKind.CLIENT else 'action'
-                    if key is not None:
-                        yield ServiceWait(unit, doer, block, client, what, key)
+        yield from ((unit, doer, block) for doer in doers for block in doer.blocking)
 
 
 def units_by_offer(system: System) -> dict[tuple[str, str], list[Spec]]:
@@ -195,14 +201,11 @@ def message_waits(process: Process) -> Iterator[ServiceWait]:
     parts = parts_of(process)
     names = PartNames(process, parts)
     everybody = {each.name: each for part in parts for each in part.callbacks}
-    for unit, part in zip(process.working_units, parts, strict=True):
-        doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
-        for doer in doers:
-            for block in doer.blocking:
-                for heard in ended_by_messages(block, everybody):
-                    key = names.key(heard)
-                    if key is not None:
-                        yield ServiceWait(unit, doer, block, heard, 'topic', key)
+    for unit, doer, block in _waits_of(process, parts):
+        for heard in ended_by_messages(block, everybody):
+            key = names.key(heard)
+            if key is not None:
+                yield ServiceWait(unit, doer, block, heard, 'topic', key)
 
 
 def circle_waits(process: Process) -> Iterator[ServiceWait]:
