@@ -17,8 +17,10 @@ from ros2cc_extract.verify.results.evidence import Evidence, Moment
 
 _AWAIT, _GO_ON, _WAKE, _END = 'await', 'go_on', 'wake', 'end'
 _ARRIVALS = ('due', 'arrival')
+_SIGNALS = ('signal', 'silence')
+_OF_RUNS = ('start', _END)
 #: What others do for a wait while it lasts.
-_PARTS = (*_ARRIVALS, 'start', 'signal', 'silence', _END)
+_PARTS = (*_ARRIVALS, *_OF_RUNS, *_SIGNALS)
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ def show_hang(
     if not waits:
         return run
     told = sorted(
-        _told(run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)})
+        set(_told(run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)}))
     )
     return replace(
         run,
@@ -146,6 +148,8 @@ def _told(
     moments: Sequence[Moment], waits: Sequence[Standstill], names: Collection[str]
 ) -> Iterator[int]:
     """Of the waiting callbacks the run that waits; of others what they do for it meanwhile."""
+    for wait in waits:
+        yield from _given_too_early(moments[: wait.since], wait)
     waiting = {wait.who: wait.since for wait in waits}
     begin = {who: _begin(moments, who, since) for who, since in waiting.items()}
     first = min(waiting.values())
@@ -162,6 +166,20 @@ def _told(
                     last_wake = None
         elif index > first and event.kind in _PARTS and event.who in names:
             yield index
+
+
+def _given_too_early(before: Sequence[Moment], wait: Standstill) -> Iterator[int]:
+    """Where those that could end a wait have done it before it began, and who has used that up."""
+    begin = _begin(before, wait.who, wait.since)
+    of_enders, earlier, is_given = [], [], False
+    for index, event in _events(before):
+        if event.who in wait.enders and event.kind in (*_OF_RUNS, *_SIGNALS):
+            of_enders.append(index)
+            is_given |= event.kind in (*_SIGNALS, _END)
+        elif event.who == wait.who and event.kind in _OF_RUNS and index < begin:
+            earlier.append(index)
+    if is_given:
+        yield from (*of_enders, *earlier)
 
 
 def _begin(moments: Sequence[Moment], who: str, since: int) -> int:

@@ -14,7 +14,7 @@ from ros2cc_extract.checker.api import Limits, Verdict
 from ros2cc_extract.generator.build import Family, Query
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.arrivals.needed_arrivals import crowding
-from ros2cc_extract.verify.arrivals.repeated_takers import taking_again
+from ros2cc_extract.verify.arrivals.repeated_takers import not_looked_at, taking_again
 from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search.search_results import Found, key_of, total, weighs_more
 
@@ -30,10 +30,28 @@ def ask_again(
     """
     Ask again what one arrival for each has not refuted, and keep what is refuted or open now.
 
-    The search has its own bound on states: who waits may overlap itself in many a unit.
+    The search has its own bound on states: who waits may overlap itself in many a unit. What no
+    number of arrivals shows leaves open what is not refuted.
     """
+    of_ends = [query for query in queries if query.family in OF_ENDS]
+    again = _asked_again(found, of_ends, closed, ask, limits)
+    reason = not_looked_at(closed.spec, found.results)
+    if not reason:
+        return again
+    results = dict(again.results)
+    for key in map(key_of, of_ends):
+        if results[key].verdict is Verdict.SATISFIED:
+            results[key] = replace(
+                results[key], verdict=Verdict.UNDECIDED, reason=reason, run=None, in_doubt=True
+            )
+    return replace(again, results=results)
+
+
+def _asked_again(
+    found: Found, of_ends: Sequence[Query], closed: ClosedSpec, ask: Ask, limits: Limits
+) -> Found:
     arrivals = _arrivals(found, closed)
-    asked = [query for query in queries if query.family in OF_ENDS and _may_be_of(query, arrivals)]
+    asked = [query for query in of_ends if _may_be_of(query, arrivals)]
     left = [query for query in asked if _may_be_refuted(found.results[key_of(query)])]
     if not arrivals or not left:
         return found

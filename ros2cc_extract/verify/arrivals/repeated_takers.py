@@ -15,6 +15,7 @@ from ros2cc_extract.generator.build import Family
 from ros2cc_extract.generator.program_steps import NamedWait
 from ros2cc_extract.generator.resources import Actor, all_actors
 from ros2cc_extract.generator.waits import waits_of
+from ros2cc_extract.spec.display_names import display_names
 from ros2cc_extract.spec.effects import ENDLESS_LOOP, WORKING_LOOP
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, EntityKind, Spec
 from ros2cc_extract.verify.results.results import QueryResult
@@ -25,25 +26,41 @@ MOST_RUNS = 8
 
 
 def taking_again(spec: Spec, results: Mapping[Key, QueryResult]) -> Mapping[str, int]:
+    """Give the callbacks that need more than one run to use up what there is, and how many."""
+    runs: dict[str, int] = {}
+    for callback, wait, needed in _takers(spec, results):
+        if wait.block is not None and not wait.block.conditional:
+            runs[callback.name] = min(max(needed, runs.get(callback.name, 1)), MOST_RUNS)
+    return runs
+
+
+def not_looked_at(spec: Spec, results: Mapping[Key, QueryResult]) -> str:
     """
-    Give the callbacks that need more than one run to use up what there is, and how many.
+    Say which runs that use up what there is no number of arrivals shows; empty where all are.
 
-    A wait that a branch may skip is left at one: what it asks before may keep it from the rest.
+    Of a wait that a branch may skip, what it asks before may keep it from the rest.
     """
-    runs = {c.name: _runs(c, spec, results) for c in spec.callbacks if not c.one_shot}
-    return {name: number for name, number in runs.items() if number > 1}
+    for callback, wait, needed in _takers(spec, results):
+        if wait.block is None:
+            continue
+        who = display_names(spec).get(callback.name, callback.name)
+        used = f'each {wait.block.call} of {who} uses up what is given'
+        if wait.block.conditional:
+            return f'{used} a limited number of times, and data decides which of its runs do so'
+        if needed > MOST_RUNS:
+            return f'{used} {needed - 1} times, and {MOST_RUNS} of its runs are looked at'
+    return ''
 
 
-def _runs(callback: Callback, spec: Spec, results: Mapping[Key, QueryResult]) -> int:
-    needed = (_given(wait, spec, results) + 1 for wait in _takes(callback, spec))
-    return min(max(needed, default=1), MOST_RUNS)
-
-
-def _takes(callback: Callback, spec: Spec) -> Iterator[NamedWait]:
-    for wait in waits_of(callback, spec):
-        is_each = wait.resource is not None and wait.resource.is_each and not wait.is_signal
-        if is_each and wait.block is not None and not wait.block.conditional:
-            yield wait
+def _takers(
+    spec: Spec, results: Mapping[Key, QueryResult]
+) -> Iterator[tuple[Callback, NamedWait, int]]:
+    """Give who takes what may not be given once more, and in how many runs that is used up."""
+    for callback in spec.callbacks:
+        for wait in () if callback.one_shot else waits_of(callback, spec):
+            is_each = wait.resource is not None and wait.resource.is_each and not wait.is_signal
+            if is_each and (given := _given(wait, spec, results)):
+                yield callback, wait, given + 1
 
 
 def _given(wait: NamedWait, spec: Spec, results: Mapping[Key, QueryResult]) -> int:

@@ -11,6 +11,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import BY_ITSELF, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Executor
+from ros2cc_extract.verify.results.results import Verdict
 
 
 def logs(why: str = f'the first 3 {BY_ITSELF}', *givers: str) -> Callback:
@@ -115,6 +116,48 @@ def test_what_is_given_once_serves_one_run() -> None:
     )
 
 
+def test_the_run_shows_what_was_given_and_who_took_it() -> None:
+    give = replace(timer('give', 'other'), one_shot=True)
+    spec = unit(threads(4), takes(Waker(by='give', after=0)), give)
+    run = only(spec, 'CC109', verified(spec)).run
+    assert run is not None
+    starts_and_ends = [
+        (event.kind, event.who)
+        for moment in run.moments
+        for event in moment.events
+        if event.kind in ('start', 'end', 'wait')
+    ]
+    given, taken = [('start', 'give'), ('end', 'give')], [('start', 'take'), ('end', 'take')]
+    assert sorted(starts_and_ends[:4]) == sorted((*given, *taken))
+    assert starts_and_ends[4:] == [('start', 'take'), ('wait', 'take')]
+
+
+@pytest.mark.parametrize(
+    ('givers', 'conditional', 'why'),
+    [
+        (1, True, 'a limited number of times, and data decides which of its runs do so'),
+        (8, False, '8 times, and 8 of its runs are looked at'),
+    ],
+    ids=['a branch may skip the wait', 'more than runs are looked at'],
+)
+def test_what_no_number_of_runs_shows_is_not_decided(
+    givers: int, conditional: bool, why: str
+) -> None:
+    wakers = (Waker(by='give', after=0, source=at(61 + n)) for n in range(givers))
+    give = replace(timer('give', 'other'), one_shot=True)
+    spec = unit(threads(4), takes(*wakers, conditional=conditional), give)
+    finding = only(spec, 'CC120', verified(spec))
+    assert finding.message == (
+        'not decided: take waits in Queue.get for goals, and each Queue.get of take uses up what '
+        f'is given {why}'
+    )
+    assert {
+        result.reason
+        for result in verified(spec).results
+        if result.family in ('deadlock', 'progress') and result.verdict is not Verdict.SATISFIED
+    } == {f'each Queue.get of take uses up what is given {why}'}
+
+
 def test_what_is_given_twice_in_one_run_serves_two() -> None:
     give = replace(timer('give', 'other'), one_shot=True)
     wakers = (Waker(by='give', after=0, source=at(41)), Waker(by='give', after=0, source=at(42)))
@@ -135,15 +178,11 @@ def test_who_hangs_behind_what_he_gives_serves_one_run() -> None:
     [
         (takes(Waker(by='give', after=0)), timer('give', 'other')),
         (
-            takes(Waker(by='give', after=0), conditional=True),
-            replace(timer('give', 'other'), one_shot=True),
-        ),
-        (
             replace(takes(Waker(by='give', after=0)), one_shot=True),
             replace(timer('give', 'other'), one_shot=True),
         ),
     ],
-    ids=['it gives each period', 'a branch may skip the wait', 'each runs once'],
+    ids=['it gives each period', 'each runs once'],
 )
 def test_who_is_served_each_time_ends(taker: Callback, give: Callback) -> None:
     spec = unit(threads(4), taker, give)
