@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -14,6 +16,17 @@ PATIENT = settings.get_profile('patient')
 settings.register_profile('same', parent=PATIENT)
 settings.register_profile('new', parent=PATIENT, derandomize=False)
 settings.load_profile('same')
+
+
+def pytest_configure() -> None:
+    """
+    Signals as on a terminal: what we start is asked to end by them, and must not ignore them.
+
+    A shell without job control ignores SIGINT for what it starts in the background, ``nohup``
+    ignores SIGHUP, and both are inherited.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
