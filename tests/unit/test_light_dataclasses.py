@@ -89,3 +89,52 @@ def test_only_frozen_values_can_be_hashed() -> None:
 
 def test_a_frozen_class_has_no_functions_that_refuse_assignments() -> None:
     assert '__setattr__' not in vars(Point)
+
+
+@dataclass(frozen=True)
+class Base:
+    names: list[str] = dataclasses.field(default_factory=list, hash=False)
+    doubled: int = dataclasses.field(init=False, default=0)
+    given: int = 0
+
+    def __post_init__(self) -> None:
+        self.__dict__['doubled'] = 2 * self.given
+
+
+@dataclass(frozen=True)
+class Derived(Base):
+    more: int = 0
+
+
+def test_what_is_written_late_is_what_the_standard_library_writes() -> None:
+    assert Derived(given=4, more=1).doubled == 8
+    assert Derived(['a'], 1) == Derived(['a'], 1) != Derived(['b'], 1)
+    assert Base().names is not Base().names
+    with pytest.raises(TypeError, match=r'^Derived\.__init__\(\) got an unexpected keyword'):
+        Derived(doubled=3)  # type: ignore[call-arg]
+
+
+def test_values_that_were_not_made_by_calling_the_class_are_equal_and_hashed() -> None:
+    @dataclass(frozen=True)
+    class Stored:
+        x: int
+
+    class_is_uncalled = [object.__new__(Stored) for _ in range(2)]
+    for value in class_is_uncalled:
+        value.__dict__['x'] = 1
+    first, second = class_is_uncalled
+    assert hash(first) == hash(second)
+    assert first == second
+
+
+def test_each_function_is_written_at_the_first_call_and_once() -> None:
+    @dataclass
+    class Late:
+        x: int
+
+    before = vars(Late)['__init__']
+    assert Late(1).x == 1
+    written = vars(Late)['__init__']
+    assert written is not before
+    assert Late(2) == Late(2)
+    assert vars(Late)['__init__'] is written
