@@ -9,8 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 
+from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, SetUpWait
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import in_words
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     NodeState,
@@ -19,9 +22,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
+from ros2cc_extract.extract.static.units.unserved_threads import UnservedThreads, UnservedWait
 from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
 _UNSPUN = 'nothing in sight spins {node} meanwhile'
@@ -68,41 +73,83 @@ def told(
     findings = {each.place for each in world.diagnostics if each.slug == 'nobody-spins'}
     return tuple(
         dict.fromkeys(
-            _decided(block, by_block[id(raw)], world, doers, is_told=block.source in findings)
+            block
+            if block.source in findings
+            else _SetUpWaits(world, named, doers).decided(block, by_block[id(raw)])
             for raw, block in found
         )
     )
 
 
-def _decided(
-    block: Blocking,
-    wait: SetUpWait,
-    world: RosWorld,
-    doers: Mapping[str, object],
-    *,
-    is_told: bool,
-) -> Blocking:
-    """The wait with the reason why nobody knows whether it ends, where that is so."""
-    is_open = block.seconds is None and block.escapes is None and not is_told
-    is_open = is_open and not block.initial  # of a semaphore: it is free
-    if not is_open or any(waker.by in (OUTSIDE, TIME) for waker in block.wakers):
-        return block
-    why = _why_open(block, wait, world, doers)
-    return block if why is None else replace(block, escapes=Unknown(why, block.source))
+@dataclass(frozen=True)
+class _SetUpWaits:
+    world: RosWorld
+    named: UnitWaits
+    doers: Mapping[str, object]
+
+    def decided(self, block: Blocking, wait: SetUpWait) -> Blocking:
+        """The wait with the reason why nobody knows whether it ends, where that is so."""
+        is_open = block.seconds is None and block.escapes is None
+        is_open = is_open and not block.initial  # of a semaphore: it is free
+        if not is_open or any(waker.by in (OUTSIDE, TIME) for waker in block.wakers):
+            return block
+        why = self._why_open(block, wait)
+        return block if why is None else replace(block, escapes=Unknown(why, block.source))
+
+    def _why_open(self, block: Blocking, wait: SetUpWait) -> str | None:
+        outside = wait.outside
+        served = {id(node) for node in (*outside.spun, *spun_beside(outside, self.world))}
+        threads = UnservedThreads(self.named, self.doers, frozenset(served))
+        # Where something has been spun before, a thread may have its answers.
+        is_first = outside.begun == 0 and not wait.is_late
+        unserved = [threads.before(waker) for waker in block.wakers] if is_first else []
+        reasons = [
+            _why_not(self.doers.get(waker.by), wait, served) if stuck is None else _why(stuck)
+            for waker, stuck in zip_longest(block.wakers, unserved)
+        ]
+        open_ones = [reason for reason in reasons if reason is not None]
+        is_met = len(open_ones) < len(reasons) if block.needs is not Needs.ALL else not open_ones
+        if reasons and is_met:
+            return None
+        if wait.uncalled:
+            return f'nothing in sight calls {wait.uncalled}'
+        stuck_ones = [each for each in unserved if each is not None]
+        if stuck_ones and self._is_sure(stuck_ones, len(reasons), block, wait):
+            self.world.diagnostics.append(_never(block, stuck_ones[0]))
+            return None
+        return open_ones[0] if open_ones else _NOBODY
+
+    def _is_sure(
+        self, unserved: Sequence[UnservedWait], wakers: int, block: Blocking, wait: SetUpWait
+    ) -> bool:
+        """Whether it never ends, whatever else is there that was not seen."""
+        is_needed = len(unserved) == wakers or block.needs is Needs.ALL
+        is_needed = is_needed and not any(each.may_skip for each in unserved)
+        nodes = (node.state for node in self.world.nodes)
+        in_sight = (isinstance(s, NodeState) and s.ghost is None and not s.more for s in nodes)
+        return is_needed and not wait.outside.path and all(in_sight)
 
 
-def _why_open(
-    block: Blocking, wait: SetUpWait, world: RosWorld, doers: Mapping[str, object]
-) -> str | None:
-    served = {id(node) for node in (*wait.outside.spun, *spun_beside(wait.outside, world))}
-    reasons = [_why_not(doers.get(waker.by), wait, served) for waker in block.wakers]
-    open_ones = [reason for reason in reasons if reason is not None]
-    is_met = len(open_ones) < len(reasons) if block.needs is not Needs.ALL else not open_ones
-    if reasons and is_met:
-        return None
-    if wait.uncalled:
-        return f'nothing in sight calls {wait.uncalled}'
-    return open_ones[0] if open_ones else _NOBODY
+def _why(stuck: UnservedWait) -> str:
+    node = stuck.node.hint or stuck.node.class_name
+    return (
+        f'thread {stuck.thread} itself waits in {in_words(stuck.block.call)}, and '
+        + _UNSPUN.format(node=node)
+    )
+
+
+def _never(block: Blocking, stuck: UnservedWait) -> Diagnostic:
+    at = f' ({stuck.block.source})' if stuck.block.source is not None else ''
+    awaited = f' for {stuck.block.resource}' if stuck.block.resource else ''
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='nobody-spins',
+        place=block.source or Place(''),
+        message=f'{block.call} waits for thread {stuck.thread}, which itself waits in '
+        f'{in_words(stuck.block.call)}{awaited}{at}, and nothing spins the node whose callback '
+        'would end that meanwhile: it waits forever',
+        help='wait for the thread after the spin, or let another thread spin the node before',
+    )
 
 
 def _why_not(doer: object, wait: SetUpWait, served: set[int]) -> str | None:

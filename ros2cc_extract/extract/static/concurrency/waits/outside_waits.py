@@ -39,6 +39,11 @@ _PLAIN = {
 _ASYNCIO_AWAIT = 'asyncio-await'
 
 
+def in_words(call: str) -> str:
+    """Name a wait in a sentence."""
+    return 'a busy loop' if call == 'busy wait' else call
+
+
 def _last(name: str) -> str:
     return name if name in _PLAIN else name.rpartition('.')[2]
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import OutsideWait
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE, in_words
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
@@ -166,14 +166,13 @@ def spins_beside(
 def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic:
     key = client.key
     name = f' of {key.value!r}' if isinstance(key, Const) else ''
-    call = 'a busy loop' if wait.call == 'busy wait' else wait.call
     awaited = 'a timer' if wait.call == RATE else f'the answer{name}'
     return Diagnostic(
         severity=Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
-        message=f'{call} waits for {awaited} while nothing spins the node that {what}: '
-        'it waits forever',
+        message=f'{in_words(wait.call)} waits for {awaited} while nothing spins the node that '
+        f'{what}: it waits forever',
         help='use time.sleep, or spin the node in a thread before, and only there'
         if wait.call == RATE
         else 'spin the nodes concerned in a thread before, and only there, or wait by '
