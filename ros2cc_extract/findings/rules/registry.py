@@ -46,6 +46,7 @@ from ros2cc_extract.findings.rules.starvation import (
     execute_holds_thread,
     group_overload,
     long_sleep,
+    overload,
     timeout_harvest,
     transform_wait,
 )
@@ -95,6 +96,7 @@ RULES: tuple[Rule, ...] = (
     transform_wait.RULE,
     timeout_harvest.RULE,
     endless_reader.RULE,
+    overload.RULE,
     lost_update.RULE,
     unordered_write.RULE,
     outside_groups.RULE,

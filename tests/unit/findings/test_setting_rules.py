@@ -315,6 +315,39 @@ def test_an_overloaded_group_starves_who_is_served_later() -> None:
     assert codes(0.25) == []
 
 
+def test_who_takes_longer_than_its_period_keeps_others_waiting() -> None:
+    slow = timer('slow', period_s=0.1, blocking=sleeps(0.2))
+    spec = unit(ONE_THREAD, timer('beat', period_s=0.05), slow)
+    assert only(spec, 'CC208').message == (
+        'slow takes at least 0.2 s and is due every 0.1 s, more than the only thread of the '
+        'SingleThreadedExecutor has time for: beat runs about 25% as often as due'
+    )
+
+
+def test_those_that_ask_for_too_much_together_are_named_together() -> None:
+    one = timer('one', period_s=0.1, blocking=sleeps(0.06))
+    two = timer('two', period_s=0.1, blocking=sleeps(0.08))
+    spec = unit(ONE_THREAD, one, two, timer('beat', period_s=0.01))
+    assert only(spec, 'CC208').message == (
+        'one, two together ask for 140% of the time, more than the only thread of the '
+        'SingleThreadedExecutor has time for: beat runs about 7% as often as due'
+    )
+
+
+@pytest.mark.parametrize(
+    'callbacks',
+    [
+        (timer('slow', period_s=0.1, blocking=sleeps(0.2)), subscription('on_stop')),
+        (timer('busy', period_s=0.1, blocking=sleeps(0.05)), timer('beat', period_s=0.05)),
+        (timer('slow', period_s=0.1, blocking=sleeps(1.0)), timer('beat', period_s=0.05)),
+    ],
+    ids=['nobody is due often', 'there is time', 'CC201 tells it'],
+)
+def test_else_no_overload_is_told(callbacks: tuple[Callback, ...]) -> None:
+    found_codes = [finding[:5] for finding in found(unit(ONE_THREAD, *callbacks))]
+    assert 'CC208' not in found_codes
+
+
 def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:
     early, late = timer('early'), timer('late', period_s=0.1, blocking=sleeps(0.2))
     free = timer('free', 'other')

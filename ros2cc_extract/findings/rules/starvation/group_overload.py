@@ -50,8 +50,8 @@ def _hit(
 ) -> Hit:
     it = 'it' if len(busy) == 1 else 'one of them'
     return Hit(
-        place=_place(busy[-1]),
-        message=f'{shown(busy)} in {group.display_name} {_asks(busy, load, unit)}: whenever the '
+        place=place_of(busy[-1]),
+        message=f'{shown(busy)} in {group.display_name} {asks(busy, load, unit)}: whenever the '
         f'group opens {it} is due, so {shown(victims)}, served after '
         f'{"it" if len(busy) == 1 else "them"}, may never run',
         help='give what keeps the group busy a group of its own, or a period longer than its '
@@ -61,7 +61,7 @@ def _hit(
     )
 
 
-def _asks(busy: Sequence[Callback], load: Load, unit: Spec) -> str:
+def asks(busy: Sequence[Callback], load: Load, unit: Spec) -> str:
     """Say how much of the time they want."""
     if len(busy) > 1:
         return f'together ask for {load.before:.0%} of the time'
@@ -70,7 +70,7 @@ def _asks(busy: Sequence[Callback], load: Load, unit: Spec) -> str:
     return f'takes {least}{demand.duration_s:g} s and is due every {demand.period_s:g} s'
 
 
-def _place(callback: Callback) -> Place:
+def place_of(callback: Callback) -> Place:
     """Where it sleeps, or else where it stands."""
     sleeps = (b.source for b in callback.blocking if kind_of(b) is WaitKind.SLEEP)
     slept = next((place for place in sleeps if place is not None), None)
