@@ -58,9 +58,7 @@ def submit(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     future = machine.future(call.place, OF_POOL)
     if call.args:
         inner = Call(call.place, call.args[1:], call.keywords, call.more)
-        turns = _one_thread(receiver)
-        pool = _pool(receiver)
-        begin(machine, ActivityKind.POOL, call.args[0], inner, future, turns=turns, pool=pool)
+        _hand_over(machine, receiver, call.args[0], inner, future)
     _keep(machine, receiver, future)
     if is_pool(receiver):
         may_be_done(machine, future)
@@ -71,8 +69,8 @@ def run_in_executor(machine: ConcurrentMachine, receiver: Value, call: Call) -> 
     """``loop.run_in_executor(pool, function, …)``."""
     future = machine.future(call.place, OF_POOL)
     if len(call.args) > 1:
-        inner, pool = Call(call.place, call.args[2:]), _pool(call.args[0])
-        begin(machine, ActivityKind.POOL, call.args[1], inner, future, pool=pool)
+        inner = Call(call.place, call.args[2:])
+        _hand_over(machine, call.args[0], call.args[1], inner, future)
         _keep(machine, call.args[0], future)
     return future
 
@@ -96,6 +94,14 @@ def run_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
     may_be_done(machine, future)
     return future
+
+
+def _hand_over(
+    machine: ConcurrentMachine, to: Value, target: Value, inner: Call, future: Value
+) -> None:
+    """A thread of the pool ``to`` runs it; one that is its only thread runs all in turn."""
+    turns, pool = _one_thread(to), _pool(to)
+    begin(machine, ActivityKind.POOL, target, inner, future, turns=turns, pool=pool)
 
 
 def _pool(value: Value) -> Instance | None:
@@ -129,8 +135,7 @@ def _map(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if call.args:
         items = [loops.items_in(machine, each, call.place) for each in call.args[1:]]
         given = [choice(list(each.known)) if each.known else _item(each) for each in items]
-        inner, pool = Call(call.place, given), _pool(receiver)
-        begin(machine, ActivityKind.POOL, call.args[0], inner, results, pool=pool)
+        _hand_over(machine, receiver, call.args[0], Call(call.place, given), results)
     _keep(machine, receiver, results)
     return results
 
