@@ -13,6 +13,7 @@ from itertools import zip_longest
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, SetUpWait
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import in_words
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
@@ -31,6 +32,7 @@ from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
 _UNSPUN = 'nothing in sight spins {node} meanwhile'
 _NOBODY = 'nothing in sight ends it'
+_IN_HANDLER = 'a handler of a signal keeps the main thread'
 _STAYS = 'the thread may loop forever'
 
 
@@ -52,6 +54,9 @@ def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:
     of = state.of if isinstance(state, PlainState) and state.of is not None else thing
     if isinstance(of, Instance) and isinstance(of.state, EntityState):
         yield of.state.node
+    on = wait.block.on
+    if isinstance(on, EntityRef):
+        yield from (entity.node for entity in world.entities if id(entity) == on.number)
     if isinstance(of, Instance) and isinstance(of.state, NodeState):
         yield of
     yield from wait.outside.spun
@@ -101,7 +106,7 @@ class _SetUpWaits:
         served = {id(node) for node in (*outside.spun, *spun_beside(outside, self.world))}
         threads = UnservedThreads(self.named, self.doers, frozenset(served))
         # Where something has been spun before, a thread may have its answers.
-        is_first = outside.begun == 0 and not wait.is_late
+        is_first = wait.in_handler or (outside.begun == 0 and not wait.is_late)
         unserved = [threads.before(waker) for waker in block.wakers] if is_first else []
         reasons = [
             _why_not(self.doers.get(waker.by), wait, served) if stuck is None else _why(stuck)
@@ -117,7 +122,8 @@ class _SetUpWaits:
         if stuck_ones and self._is_sure(stuck_ones, len(reasons), block, wait):
             self.world.diagnostics.append(_never(block, stuck_ones[0]))
             return None
-        return open_ones[0] if open_ones else _NOBODY
+        why = open_ones[0] if open_ones else _NOBODY
+        return f'{_IN_HANDLER}, and {why}' if wait.in_handler else why
 
     def _is_sure(
         self, unserved: Sequence[UnservedWait], wakers: int, block: Blocking, wait: SetUpWait
@@ -125,6 +131,7 @@ class _SetUpWaits:
         """Whether it never ends, whatever else is there that was not seen."""
         is_needed = len(unserved) == wakers or block.needs is Needs.ALL
         is_needed = is_needed and not any(each.may_skip for each in unserved)
+        is_needed = is_needed and not wait.in_handler
         nodes = (node.state for node in self.world.nodes)
         in_sight = (isinstance(s, NodeState) and s.ghost is None and not s.more for s in nodes)
         return is_needed and not wait.outside.path and all(in_sight)

@@ -163,6 +163,7 @@ class SetUpWait:
     :param uncalled: the function, which nobody in sight calls, that leads there.
     :param by: the thread that waits; one that only spins has no waits of its own.
     :param is_late: the spin is over.
+    :param in_handler: a handler of a signal waits, on the main thread.
     """
 
     block: Blocking
@@ -170,6 +171,7 @@ class SetUpWait:
     uncalled: str | None = None
     by: ActivityState | None = None
     is_late: bool = False
+    in_handler: bool = False
 
 
 @dataclass

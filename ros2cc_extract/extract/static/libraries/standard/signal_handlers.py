@@ -2,7 +2,8 @@
 Functions that the operating system has called: handlers of signals.
 
 A handler runs between two lines of the main thread, whenever the outside likes. What it stores
-ends the loops that test it, and what it sets, puts or notifies ends waits.
+ends the loops that test it, and what it sets, puts or notifies ends waits. While it waits itself,
+the main thread spins nothing.
 Source: CPython 3.12, ``signal`` (handlers run in the main thread, after the signal has come).
 """
 
@@ -10,9 +11,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import (
+    ActivityState,
+    ConcurrentWorld,
+    OutsideWait,
+    SetUpWait,
+)
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -40,10 +47,15 @@ def on_signal(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:
-    """What a handler has stored by calls, now that it was followed."""
+    """What a handler has stored by calls and what it waits for, now that it was followed."""
     for access in handler.effects.writes:
         if access.source is not None:
             world.other_writes.setdefault(access.name, (None, access.source))
+    for block in handler.effects.blocking:
+        place = block.source or handler.place
+        wait = OutsideWait(block.call, None, place, in_thread=False)
+        told = SetUpWait(replace(block, chain=()), wait, in_handler=True)
+        world.set_up.setdefault((block.call, place, handler.place), told)
 
 
 def _beside(handler: Value, place: Place) -> ActivityState:
