@@ -24,7 +24,7 @@ from ros2cc_extract.spec.model import When
 
 JOIN = 'Thread.join'
 RATE = 'Rate.sleep'
-_ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
+ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
 _FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
 
 # Waits for objects that nothing but the program ends, by their kinds.
@@ -68,7 +68,7 @@ def note(
         _remember(world, name, client, place, ())
     if not client.is_answered:
         return
-    if name in _ANSWERS or name.endswith('spin_until_future_complete'):
+    if name in ANSWERS or name.endswith('spin_until_future_complete'):
         _remember(world, name, client, place, spun)
 
 

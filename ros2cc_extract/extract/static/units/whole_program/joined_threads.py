@@ -21,7 +21,12 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     ResourceRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, RATE
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
+    ANSWERS,
+    JOIN,
+    RATE,
+    in_words,
+)
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
@@ -65,13 +70,18 @@ def never_joined(
     for state in world.activities:
         if not any(wait.client is runner for runner in state.runners) or state.serves:
             continue
-        loops = {WORKING_LOOP, POLLING_LOOP} & {b.call for b in state.effects.blocking}
+        around = [b for b in state.effects.blocking if b.call in (WORKING_LOOP, POLLING_LOOP)]
+        loops = {b.call for b in around}
         for block in state.effects.blocking:
             # A loop that does nothing but sleep is one that polls.
             goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
-            goes_round = goes_round or comes_back(block, state, world)
-            goes_round = goes_round and not has_told_of_it(block, state, wait, world)
-            if goes_round or not wait.is_late:
+            asks_again = block.call in ANSWERS and way_of(block) in state.effects.looped
+            goes_round = goes_round or asks_again or comes_back(block, state, world)
+            # Who is behind its only loop is behind what it asks in that.
+            passed = (block, *around) if asks_again and len(around) == 1 else (block,)
+            has_told = any(has_told_of_it(each, state, wait, world) for each in passed)
+            goes_round = goes_round and not has_told
+            if goes_round or not (wait.is_late or block.conditional):
                 why = why_for_ever(block, state, wait, world, spun)
                 if why is not None:
                     yield _told(wait, block, why)
@@ -137,6 +147,9 @@ def why_for_ever(
         return None
     if block.call == RATE:
         return _why_asleep(block, wait, world)
+    asked = _asked(block, world)
+    if asked is not None and wait.is_late:  # before the spin see ``unserved_threads``
+        return None if any(asked.node is each for each in spun) else _NOT_SPUN
     resource = block.resource
     if not isinstance(resource, ResourceRef) or resource.asked:
         return None
@@ -151,6 +164,15 @@ def why_for_ever(
     if others and not _have_given(others, state, wait):
         return None
     return _NOT_SPUN if served else 'and the thread that would end that has ended'
+
+
+def _asked(block: Blocking, world: RosWorld) -> EntityState | None:
+    """The client that must take the answer which the thread waits for."""
+    on = block.on
+    if block.call not in ANSWERS or not isinstance(on, EntityRef) or block.escapes is not None:
+        return None
+    clients = (each for each in world.entities if id(each) == on.number)
+    return next((each for each in clients if not each.destroyed), None)
 
 
 def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | None:
@@ -215,13 +237,13 @@ def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
     may = 'it may wait' if wait.is_late else 'it waits'
-    awaited = 'a timer' if block.call == RATE else block.resource
+    awaited = 'a timer' if block.call == RATE else block.resource or 'an answer'
     return Diagnostic(
         severity=Severity.WARNING if wait.is_late else Severity.ERROR,
         slug='nobody-spins',
         place=wait.place,
-        message=f'{JOIN} waits for a thread that waits in {block.call} for {awaited}{at}, '
-        f'{why}{when}: {may} forever',
+        message=f'{JOIN} waits for a thread that waits in {in_words(block.call)} for '
+        f'{awaited}{at}, {why}{when}: {may} forever',
         help=_help(wait, block),
     )
 
@@ -231,6 +253,8 @@ def _help(wait: OutsideWait, block: Blocking) -> str:
         return 'join it while the executor is still spun, and shut that down behind'
     if not wait.is_late:
         return 'join it after the spin, and wake it before'
+    if block.call in ANSWERS:
+        return 'join it while the node is still spun, or wait for the answer with a time-out'
     return (
         'wake the thread before you join it: by a last item, by a notify after its flag has '
         'changed; or give its wait a time-out'

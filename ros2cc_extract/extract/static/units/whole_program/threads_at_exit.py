@@ -153,8 +153,8 @@ def _told(state: ActivityState, block: Blocking) -> Diagnostic:
         slug='nobody-spins',
         place=state.place,
         message=f'the program ends only when {_who(state)} has ended; which waits in '
-        f'{block.call} for {block.resource}{at} while nothing spins the node whose callback '
-        'would end that any more: the program may never exit',
+        f'{block.call} for {block.resource or "an answer"}{at} while nothing spins the node '
+        'whose callback would end that any more: the program may never exit',
         help='wake it when the spin is over, by a last item or a flag that it asks for, or give '
         f'its wait a time-out; or {_daemon(state)}',
     )
