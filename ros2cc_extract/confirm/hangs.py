@@ -19,6 +19,7 @@ from ros2cc_extract.extract.live.hang_analysis.formats import as_text
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, locks_held
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Look
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import (
+    BY_ANY_CODE,
     Explanation,
     Standing,
     explain,
@@ -36,7 +37,7 @@ def hang(schedule: Schedule, seen: Observations) -> Judgement | None:
         for earlier in seen.samples:
             if later.at - earlier.at < APART_S:
                 break
-            found = _stands_in_both(schedule, earlier, later)
+            found = _stands_in_both(schedule, earlier, later, seen)
             if found is not None:
                 seconds = later.at - earlier.at
                 reason = f'waits at line {schedule.points[0].first} for {seconds:.0f} s and more'
@@ -44,10 +45,20 @@ def hang(schedule: Schedule, seen: Observations) -> Judgement | None:
     return None
 
 
-def _stands_in_both(schedule: Schedule, earlier: Sample, later: Sample) -> Explanation | None:
+def _stands_in_both(
+    schedule: Schedule, earlier: Sample, later: Sample, seen: Observations
+) -> Explanation | None:
     before, after = _explained(schedule, earlier), _explained(schedule, later)
-    found = stand_in_both(before, after, lambda each: _never_ends(each, schedule))
-    return after if found else None
+
+    def is_meant(each: Standing) -> bool:
+        return _never_ends(each, schedule) and not ended_by_stood_in(each, seen)
+
+    return after if stand_in_both(before, after, is_meant) else None
+
+
+def ended_by_stood_in(standing: Standing, seen: Observations) -> bool:
+    """Whether the module that is stood in for might end it: it would call what it was given."""
+    return bool(seen.handed) and standing.wait.kind in BY_ANY_CODE
 
 
 def stand_in_both(

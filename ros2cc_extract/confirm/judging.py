@@ -71,6 +71,9 @@ def not_confirmed(schedule: Schedule, seen: Observations, said: str, *, ended: b
         reason = f'the wait at line {schedule.line} ended; the model says that it never does'
         return Judgement(Outcome.CONTRADICTED, reason, _last_look(seen))
     reason = 'was reached, but nothing was shown'
+    if seen.handed:
+        functions = ', '.join(seen.handed)
+        reason += f'; a module that is stood in for was given {functions}, and might call it'
     if schedule.runs_inside and not seen.raised:
         reason = 'was reached; no other callback was run inside, and this release raises nothing'
     return Judgement(Outcome.NOT_REACHED, reason, _last_look(seen))

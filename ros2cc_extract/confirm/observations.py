@@ -72,6 +72,7 @@ class Observations:
     :param reached, passed: threads by number of the point.
     :param reached_at: when the first point was reached first.
     :param raced: what was read, what another thread wrote then, and what was written over it.
+    :param handed: functions of the program that stand-ins for missing modules were given.
     :param asleep: at each look, loops of asyncio that slept although something was ready.
     :param alone: how often nobody else wrote in time.
     :param times: how long each passing of the first point took, in seconds.
@@ -92,6 +93,7 @@ class Observations:
     failed: list[Row] = field(default_factory=list)
     raced: list[Row] = field(default_factory=list)
     alone: int = 0
+    handed: tuple[str, ...] = ()
     asleep: list[Row] = field(default_factory=list)
     nested: list[Row] = field(default_factory=list)
     begins: list[tuple[float, int]] = field(default_factory=list)
@@ -133,6 +135,8 @@ class Observations:
             self.raced.append(row)
         elif what == 'asleep':
             self.asleep.append(row)
+        elif what == 'handed':
+            self.handed = tuple(map(str, row['functions']))
         elif what == 'alone':
             self.alone += 1
         elif what == 'begin':

@@ -21,7 +21,7 @@ from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.errors import InputError, ToolNotFoundError
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.steering.plan import STUBS_VARIABLE, VARIABLE
-from ros2cc_extract.extract.live.steering.stand_ins.stubs import TEXTS_VARIABLE
+from ros2cc_extract.extract.live.steering.stand_ins.stubs import VALUES_VARIABLE
 from ros2cc_extract.light_dataclasses import dataclass
 
 _SCRIPTS = Path(__file__).resolve().parents[1] / 'extract' / 'live' / 'steering'
@@ -148,8 +148,7 @@ def started_beside(
             (folder / 'plan').write_text(text(folder), encoding='utf-8')
             hooked[variable] = str(folder / 'plan')
         hooked[STUBS_VARIABLE] = '1' if stubs else '0'
-        texts = [each for each in stimulus.values if isinstance(each, str)]
-        hooked[TEXTS_VARIABLE] = json.dumps(texts)
+        hooked[VALUES_VARIABLE] = json.dumps(stimulus.values)
         sends = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
         sends += [json.dumps(stimulus.values), str(stimulus.at_once)]
         sends.append('1' if stimulus.defaults else '0')

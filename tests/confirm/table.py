@@ -2,8 +2,9 @@
 What ``confirm`` says of every node here with a finding, and of its good twin: ``make confirm``.
 
 A twin is forced by the schedule of the bad node, moved to the lines that correspond; whatever
-never ends anywhere in it counts as falsely confirmed. Goes on where it was cut: the record holds a
-line for each node.
+never ends anywhere in it counts as falsely confirmed. Where a module is not installed, the node
+and its twin run again with stand-ins. Goes on where it was cut: the record holds a line for each
+node.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ ROOT = Path(__file__).parents[2]
 LIMIT_S, TWIN_S = 30.0, 14.0
 ALIKE = 0.6
 ANYWHERE = 10**6
+NEEDS_MODULE = 'needs the module'
 
 
 def nodes() -> list[Path]:
@@ -92,12 +94,12 @@ def _like(bad: Path, line: int, twin: Path) -> tuple[int, int] | None:
     return lines_of(tree_of(twin), [x.strip() for x in other].index(found[0]) + 1)
 
 
-def is_confirmed_falsely(schedule: Schedule, python: str) -> str:
+def is_confirmed_falsely(schedule: Schedule, python: str, *, stubs: bool) -> str:
     """Give what is shown of a twin, at the place of the finding or anywhere else."""
     anywhere = Point(file=str(Path(schedule.entry).resolve()), first=1, last=ANYWHERE)
     wide = replace(schedule, code='CC101', points=(anywhere,), race=None)
     seen, end = Observations(), time.monotonic() + TWIN_S
-    with started(schedule, python) as node:
+    with started(schedule, python, stubs=stubs) as node:
         while time.monotonic() < end and node.process.poll() is None:
             if seen.update(node.report):
                 for each in (schedule, wide):
@@ -120,17 +122,22 @@ def rows(
         twin = path.with_name(f'{path.stem}_mended.py')
         for schedule in schedules(path, release):
             result = confirm(schedule, python, LIMIT_S)
+            stubs = NEEDS_MODULE in result.judgement.reason
+            if stubs:
+                result = confirm(schedule, python, LIMIT_S, stubs=True)
             row: dict[str, object] = {
                 'node': str(path.relative_to(ROOT)),
                 'finding': f'{schedule.code}:{schedule.line}',
                 'outcome': result.judgement.outcome.value,
                 'reason': result.judgement.reason,
                 'seconds': round(result.seconds, 1),
+                'stubs': stubs,
             }
             if twin.exists():
-                row['twin'] = is_confirmed_falsely(onto(schedule, twin), python)
+                row['twin'] = is_confirmed_falsely(onto(schedule, twin), python, stubs=stubs)
             found.append(row)
             shown = f'{row["node"]} {row["finding"]}: {row["outcome"]} in {row["seconds"]} s'
+            shown += ' with stand-ins' if stubs else ''
             false = '  TWIN CONFIRMED FALSELY' if row.get('twin') else ''
             print(f'{shown}: {row["reason"]}{false}', flush=True)
         yield {'path': str(path), 'rows': found}

@@ -16,7 +16,8 @@ from enum import Enum
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait, locks_held, wait_of
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Entity, Executor, Look
 
-_BY_ANY_CODE = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE)
+BY_ANY_CODE = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE)
+"""Waits that whatever runs in the process may end."""
 _ANSWERS = (Kind.ANSWER, Kind.ACTION)
 _OWN_BUSINESS = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.WORK, Kind.FUTURE, Kind.JOIN)
 
@@ -187,7 +188,7 @@ class _Graph:
             joined = self._thread(thread.get('ident'))
             own = joined is None or self.waits[joined].kind in _OWN_BUSINESS
             return own or joined in self.live
-        if wait.kind in _BY_ANY_CODE:
+        if wait.kind in BY_ANY_CODE:
             return self._may_any_code_act()
         return wait.kind is not Kind.SPIN
 
@@ -356,7 +357,7 @@ class _Graph:
             yield from self._why_not_served(entity)
             if wait.kind is Kind.ANSWER:
                 yield from self._why_not_answered(entity)
-        elif wait.kind in _BY_ANY_CODE:
+        elif wait.kind in BY_ANY_CODE:
             yield 'no thread moves, and no callback of the program that could end it can begin'
         elif wait.kind is Kind.SPIN:
             yield 'the callback ends when the executor is shut down, and not before'
@@ -439,11 +440,11 @@ def _verdict_on_waits(standings: Sequence[Standing], graph: _Graph) -> Verdict:
     kinds = {s.wait.kind for s in standing}
     here = [s for s in standing if graph.is_answered_here(s.wait)]
     by_others = [s for s in standing if s.wait.kind in _ANSWERS and s not in here]
-    if by_others and not kinds & {Kind.LOCK, *_BY_ANY_CODE}:
+    if by_others and not kinds & {Kind.LOCK, *BY_ANY_CODE}:
         return Verdict.OUTSIDE
     if any(s.wait.kind is Kind.SERVER for s in asking):
         return Verdict.OUTSIDE
     at_work = [s for s in standings if s.in_callback and (s.moved or s.wait.timed)]
-    if kinds & {Kind.LOCK, Kind.JOIN, *_BY_ANY_CODE} or (here and not at_work):
+    if kinds & {Kind.LOCK, Kind.JOIN, *BY_ANY_CODE} or (here and not at_work):
         return Verdict.UNDECIDED
     return Verdict.BUSY if any(s.in_callback for s in standings) else Verdict.HEALTHY

@@ -22,7 +22,7 @@ from .lines import Lines
 from .loops import asleep
 from .plan import STUBS_VARIABLE, VARIABLE, read_plan
 from .report import Report
-from .stand_ins.stubs import offer_stubs
+from .stand_ins.stubs import handed, offer_stubs
 
 LOOKS_EVERY_S = 1.0
 
@@ -71,6 +71,8 @@ class Steering:
             self._director.look_at_the_clock()
             if 'asyncio' in sys.modules:
                 self._report.write('asleep', loops=asleep())
+            if handed:
+                self._report.write('handed', functions=sorted(handed))
             if self._director.is_open:
                 try:
                     looks = [probe.look()]

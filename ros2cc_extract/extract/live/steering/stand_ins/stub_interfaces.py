@@ -4,7 +4,8 @@ Stand-ins for interfaces that are not installed: types that rclpy takes, whose f
 A type of rclpy needs code in C for its messages (``rosidl_generator_py``). A stand-in borrows
 that of an installed type without fields, so what goes over the wire is empty, and the other side
 sees that type. What rclpy hands to a callback is an object of the borrowed type; it is taught to
-have every field. Actions need an installed action, which only test packages bring.
+have every field. A name in capitals is a constant, of which no two are equal. Actions need an
+installed action, which only test packages bring.
 
 Runs inside the user's process: the standard library, and interfaces that are installed.
 """
@@ -22,6 +23,17 @@ _BORROWED = {
 }
 # The parts of a service and of an action that programs make and read.
 _PARTS = ('Request', 'Response', 'Goal', 'Result', 'Feedback')
+
+_constants: dict[str, Constant] = {}
+
+
+class Constant(int):
+    """A constant of a type that is not installed; nobody knows its number."""
+
+
+def constants() -> list[Constant]:
+    """All that the program has asked for."""
+    return list(_constants.values())
 
 
 def holds_interfaces(module: str) -> bool:
@@ -49,8 +61,19 @@ def stand_in(module: str, name: str, field: type) -> type | None:
         return _message(base, field)
     parts = {part: getattr(base, part) for part in _PARTS if hasattr(base, part)}
     made = {part: _message(each, field) for part, each in parts.items()}
-    found: type = type(base)(name, (base,), made)
+    found: type = _with_constants(type(base))(name, (base,), made)
     return found
+
+
+def _with_constants(kind: Any) -> Any:
+    """Give the type of a type whose names in capitals are constants."""
+
+    def missing(_cls: Any, name: str) -> Constant:
+        if name.startswith('_') or not name.isupper():
+            raise AttributeError(name)
+        return _constants.setdefault(name, Constant(len(_constants)))
+
+    return type(kind.__name__, (kind,), {'__getattr__': missing})
 
 
 def _message(base: Any, field: type) -> type:
@@ -67,5 +90,6 @@ def _message(base: Any, field: type) -> type:
     base.__getattr__ = missing
     # The code in C may compare the name of the class with that which it was made for.
     named = {'__module__': base.__module__, '__qualname__': base.__qualname__}
-    found: type = type(base)(base.__name__, (base,), {'__init__': fill, **named})
+    kind = _with_constants(type(base))
+    found: type = kind(base.__name__, (base,), {'__init__': fill, **named})
     return found

@@ -3,16 +3,19 @@ Stand-ins for modules that are not installed, such as the driver of a device.
 
 A stand-in has every name; what is called gives another one, and nothing happens. Whatever the
 program makes of it, nobody has shown that it does so with the device. Interfaces that are not
-installed become types that rclpy takes (``stub_interfaces.py``).
+installed become types that rclpy takes (``stub_interfaces.py``), and of some modules it is known
+what they do.
 
 Runs inside the user's process: the standard library only.
 """
 
 from __future__ import annotations
 
+import importlib
 import importlib.abc
 import importlib.machinery
 import json
+import opcode
 import os
 import sys
 import time
@@ -20,13 +23,19 @@ from collections.abc import Iterator, Sequence
 from types import ModuleType
 from typing import Any
 
-from .stub_interfaces import holds_interfaces, stand_in
+from .stub_interfaces import Constant, constants, holds_interfaces, stand_in
 
-# A JSON list of what the program compares texts with.
-TEXTS_VARIABLE = 'ROS2CC_LIVE_STUB_TEXTS'
+handed: set[str] = set()
+"""Functions of the program that stand-ins were given: the module itself might call them."""
+# A JSON list of the texts and the numbers that the program compares with.
+VALUES_VARIABLE = 'ROS2CC_LIVE_STUB_VALUES'
 # Longer than most callbacks run, so that one call sees one text.
 TURN_S = 0.25
 
+_OF_EXCEPTIONS = ('Exception', 'Error', 'Warning', 'Interrupt')
+_SPREAD = opcode.opmap['UNPACK_SEQUENCE']
+# What they do with the executor is known: a stand-in does the same.
+_KNOWN = {'message_filters': 'message_filters'}
 # These are asked for where they may well be missing.
 _NEVER = ('rclpy', 'sitecustomize', 'usercustomize', '_ros2cc_live', 'ros2cc_extract')
 
@@ -63,7 +72,13 @@ def _asked_by_program() -> bool:
 
 class _Loader(importlib.abc.Loader):
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
-        return _Module(spec.name)
+        module = _Module(spec.name)
+        if spec.name in _KNOWN:
+            known = importlib.import_module(f'.{_KNOWN[spec.name]}', __package__)
+            for name, each in vars(known).items():
+                if getattr(each, '__module__', None) == known.__name__:
+                    setattr(module, name, each)
+        return module
 
     def exec_module(self, module: ModuleType) -> None:
         pass
@@ -73,30 +88,45 @@ class _Module(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith('__'):
             raise AttributeError(name)
-        found = stand_in(self.__name__, name, _Field) or type(name, (_Stub,), {})
+        base = Exception if name.endswith(_OF_EXCEPTIONS) else _Stub
+        found = stand_in(self.__name__, name, _Field) or type(name, (base,), {})
         setattr(self, name, found)
         return found
 
 
 class _Stub(float):
-    """Zero where a number is wanted, and empty where a collection is."""
+    """
+    Zero where a number is wanted, and empty where a collection is.
 
-    def __new__(cls, *_: Any, **__: Any) -> _Stub:
+    Where it is to be spread over so many names, it has as many values.
+    """
+
+    def __new__(cls, *given: Any, **named: Any) -> _Stub:
+        _note_functions(*given, *named.values())
         return super().__new__(cls, 0.0)
 
     def __init__(self, *_: Any, **__: Any) -> None:
         pass
+
+    def __init_subclass__(cls) -> None:
+        if cls.__module__ != __name__:
+            handed.add(cls.__name__)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        _note_functions(value)
+        super().__setattr__(name, value)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith('__'):
             raise AttributeError(name)
         return _Stub()
 
-    def __call__(self, *_: Any, **__: Any) -> Any:
+    def __call__(self, *given: Any, **named: Any) -> Any:
+        _note_functions(*given, *named.values())
         return _Stub()
 
     def __iter__(self) -> Iterator[Any]:
-        return iter(())
+        return iter([_Stub() for _ in range(_names_to_fill(sys._getframe(1)))])
 
     def __len__(self) -> int:
         return 0
@@ -114,26 +144,48 @@ class _Stub(float):
         pass
 
 
+def _note_functions(*values: Any) -> None:
+    for each in values:
+        if callable(each) and not isinstance(each, (type, _Stub)):
+            handed.add(getattr(each, '__qualname__', type(each).__name__))
+
+
+def _names_to_fill(frame: Any) -> int:
+    """How many names are on the left of the ``=`` that is carried out; 0 where none is."""
+    code, at = frame.f_code.co_code, frame.f_lasti
+    is_spread = 0 <= at < len(code) - 1 and code[at] == _SPREAD
+    return int(code[at + 1]) if is_spread else 0
+
+
 class _Field(_Stub):
     """
-    A field of a message: as a message that nobody has filled has it, or a text of the program.
+    A field of a message: as a message that nobody has filled has it, or a value of the program.
 
-    It is equal to one of the texts that the program compares with, to each by turns: a callback
-    that is called again and again takes each of its branches.
+    By turns it is equal to each of the texts and numbers that the program compares with, and to
+    each of the constants of its type, and is true or not: a callback that is called again and
+    again takes each of its branches.
     """
+
+    def __new__(cls, *_: Any, **__: Any) -> _Field:
+        return float.__new__(cls, _of_now([0, *_values(float, int), 1]))
 
     def __getattr__(self, name: str) -> Any:
         super().__getattr__(name)
         return _Field()
 
-    def __call__(self, *_: Any, **__: Any) -> Any:
+    def __call__(self, *given: Any, **named: Any) -> Any:
+        super().__call__(*given, **named)
         return _Field()
 
     def __bool__(self) -> bool:
-        return False
+        return _turn() // (1 + len(_values(str))) % 2 == 1
 
     def __eq__(self, other: object) -> bool:
-        return other == _text_of_now() if isinstance(other, str) else super().__eq__(other)
+        if isinstance(other, str):
+            return other == _text_of_now()
+        if isinstance(other, Constant):
+            return other is _of_now(constants())
+        return super().__eq__(other)
 
     __hash__ = float.__hash__
 
@@ -142,5 +194,17 @@ class _Field(_Stub):
 
 
 def _text_of_now() -> str:
-    texts = ['', *json.loads(os.environ.get(TEXTS_VARIABLE, '[]'))]
-    return str(texts[int(time.monotonic() / TURN_S) % len(texts)])
+    return str(_of_now(['', *_values(str)]))
+
+
+def _values(*kinds: type) -> list[Any]:
+    values = json.loads(os.environ.get(VALUES_VARIABLE, '[]'))
+    return [each for each in values if isinstance(each, kinds)]
+
+
+def _of_now(values: Sequence[Any]) -> Any:
+    return values[_turn() % len(values)]
+
+
+def _turn() -> int:
+    return int(time.monotonic() / TURN_S)

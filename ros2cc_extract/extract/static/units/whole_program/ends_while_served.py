@@ -122,8 +122,22 @@ def _goes(doer: EntityState, world: RosWorld) -> bool:
         return True
     callback = doer.callback
     function = callback.function if isinstance(callback, Bound) else callback
-    parts = ast.walk(function.node) if isinstance(function, Function) else ()
+    parts = _parts_reached(function) if isinstance(function, Function) else ()
     return any(isinstance(part, ast.Raise) or _called(part) in _GOING for part in parts)
+
+
+def _parts_reached(function: Function) -> Iterator[ast.AST]:
+    """What stands in a function, and in the methods of its class that it calls by their names."""
+    body = function.owner.node.body if function.owner is not None else []
+    methods = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
+    left, seen = [function.node], set[ast.AST]()
+    while left:
+        node = left.pop()
+        if node not in seen:
+            seen.add(node)
+            parts = list(ast.walk(node))
+            yield from parts
+            left += [methods[name] for part in parts if (name := _called(part)) in methods]
 
 
 def _called(part: ast.AST) -> str:
