@@ -16,7 +16,13 @@ from ros2cc_extract.confirm.observations import Observations
 from ros2cc_extract.confirm.outcomes import Judgement, Outcome
 from ros2cc_extract.confirm.races import forced_only, raced, used_when_cleared
 from ros2cc_extract.confirm.schedules import Schedule
-from ros2cc_extract.confirm.spins import exception, nested, node_lost, shut_out
+from ros2cc_extract.confirm.spins import (
+    asleep_beside,
+    exception,
+    nested,
+    node_lost,
+    shut_out,
+)
 from ros2cc_extract.extract.live.hang_analysis.formats import as_text
 
 _WAYS: tuple[Callable[[Schedule, Observations], Judgement | None], ...] = (
@@ -25,6 +31,7 @@ _WAYS: tuple[Callable[[Schedule, Observations], Judgement | None], ...] = (
     nested,
     node_lost,
     shut_out,
+    asleep_beside,
     kept_lock,
     crossed_locks,
     timed_out,

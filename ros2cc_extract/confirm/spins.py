@@ -76,6 +76,42 @@ def _out_of_executors(sample: Sample) -> set[int]:
     return {number for number, each in look.entities.items() if not each.builtin} - served
 
 
+def asleep_beside(schedule: Schedule, seen: Observations) -> Judgement | None:
+    """
+    A nested spin sleeps on, nothing of the process begins, and yet a timer is due.
+
+    While the executor that it took the node from ran something of a group, it left that group out
+    of its wait. What ran wakes only its own executor at its end (rclpy 7.1.6 and 9.1.2,
+    ``executors.py``, `_make_handler`), so this one waits without the client it spins for.
+    """
+    both = pair(seen)
+    if schedule.code != 'CC106' or both is None:
+        return None
+    earlier, later = both
+    stood = {frame.number for _, frame in _at_first_point(schedule, earlier)}
+    stands = any(frame.number in stood for _, frame in _at_first_point(schedule, later))
+    due = _due(earlier.looks[0]) & _due(later.looks[1])
+    if not stands or not due or any(at > earlier.at for at, _ in seen.begins):
+        return None
+    names = sorted({str(later.looks[1].entities[each].function) for each in due})
+    seconds = later.at - earlier.at
+    reason = (
+        f'spins at line {schedule.line} for {seconds:.0f} s and more, and nothing begins, '
+        f'although {", ".join(names)} is due'
+    )
+    return Judgement(Outcome.CONFIRMED, reason, as_text((later.explanation,)))
+
+
+def _due(look: Look) -> set[int]:
+    """Timers of the program that nobody holds back, and that run on the clock of the machine."""
+    return {
+        number
+        for number, each in look.entities.items()
+        if each.kind == 'timers' and each.ready and not each.builtin and not each.cancelled
+        if each.active is None and not each.simulated_clock
+    }
+
+
 def shut_out(schedule: Schedule, seen: Observations) -> Judgement | None:
     """A callback spins on and on, and no other member of its group begins meanwhile."""
     both = pair(seen)

@@ -36,6 +36,9 @@ _OF_RCLPY = (
     'get_transition_graph',
 )  # fmt: skip
 _TOPICS_OF_RCLPY = ('/parameter_events', '/rosout', '/clock')
+# `lifecycle_msgs/msg/State` to `Transition`: an unconfigured one is configured, an inactive one
+# activated. A node raises where it has no such transition.
+_TRANSITIONS = {1: 1, 2: 3}
 _NUMBERS = ('int', 'uint', 'float', 'double', 'octet', 'byte')
 
 
@@ -134,9 +137,9 @@ class Stimulus:
             request.parameters = self._parameters(service.rpartition('/')[0])
             return request if request.parameters else None
         if last == 'change_state':
-            # `lifecycle_msgs/msg/Transition`: configure, then activate.
-            request.transition.id = (1, 3)[self._turn % 2]
-            return request
+            state = self._state(service.rpartition('/')[0])
+            request.transition.id = _TRANSITIONS.get(state, 0)
+            return request if state in _TRANSITIONS else None
         return self._filled(request)
 
     def _parameters(self, node: str) -> list[Any]:
@@ -158,6 +161,16 @@ class Stimulus:
             message(name=name, value=value)
             for name, value in zip(own, values.values if values else (), strict=False)
         ]
+
+    def _state(self, node: str) -> int | None:
+        """In which state a life-cycle node is now; `None` until that is known."""
+        kind = importlib.import_module('lifecycle_msgs.srv').GetState
+        service = f'{node}/get_state'
+        found = self._answer(kind, service, kind.Request())
+        if found is not None:
+            # It changes: the next one asks again.
+            self._asked[service].clear()
+        return None if found is None else int(found.current_state.id)
 
     def _answer(self, kind: Any, service: str, request: Any) -> Any:
         """The last answer of a service; `None` until there is one."""
