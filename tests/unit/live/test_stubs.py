@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from ros2cc_extract.extract.live.steering.stand_ins import stubs
-from ros2cc_extract.extract.live.steering.stand_ins.stub_interfaces import Constant, _with_constants
+from ros2cc_extract.extract.live.steering.stand_ins.stub_interfaces import Constant, _kind_over
 
 MISSING = 'no_such_driver_of_ours'
 
@@ -47,13 +47,24 @@ def test_what_is_spread_over_names_has_so_many_values(driver: ModuleType) -> Non
 
 
 def test_constants_of_an_interface_are_told_apart() -> None:
-    kind = _with_constants(type)('Status', (), {})
+    kind = _kind_over(object)('Status', (), {})
     assert isinstance(kind.READY, Constant)
     assert kind.READY == kind.READY != kind.RUNNING
     with pytest.raises(AttributeError):
         _ = kind.ready
     with pytest.raises(AttributeError):
         _ = kind._TYPE_SUPPORT
+
+
+def test_what_has_arrived_is_of_the_type() -> None:
+    """It is of the borrowed type, and ``call_async`` asks whether a request is one."""
+
+    class Borrowed:
+        pass
+
+    kind = _kind_over(Borrowed)('Borrowed', (Borrowed,), {})
+    assert isinstance(Borrowed(), kind)
+    assert not isinstance(3, kind)
 
 
 def test_a_field_is_each_value_in_its_turn(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -65,7 +76,7 @@ def test_a_field_is_each_value_in_its_turn(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_field_is_each_constant_in_its_turn(monkeypatch: pytest.MonkeyPatch) -> None:
-    kind = _with_constants(type)('Status', (), {})
+    kind = _kind_over(object)('Status', (), {})
     monkeypatch.setattr(stubs, 'constants', lambda: [kind.READY, kind.RUNNING])
     assert at(monkeypatch, 0) == kind.READY
     assert at(monkeypatch, 1) == kind.RUNNING

@@ -61,19 +61,27 @@ def stand_in(module: str, name: str, field: type) -> type | None:
         return _message(base, field)
     parts = {part: getattr(base, part) for part in _PARTS if hasattr(base, part)}
     made = {part: _message(each, field) for part, each in parts.items()}
-    found: type = _with_constants(type(base))(name, (base,), made)
+    found: type = _kind_over(base)(name, (base,), made)
     return found
 
 
-def _with_constants(kind: Any) -> Any:
-    """Give the type of a type whose names in capitals are constants."""
+def _kind_over(base: Any) -> Any:
+    """
+    Give the type of a type whose names in capitals are constants.
+
+    Whatever is of the borrowed type is one of it too: what has arrived is passed on.
+    """
 
     def missing(_cls: Any, name: str) -> Constant:
         if name.startswith('_') or not name.isupper():
             raise AttributeError(name)
         return _constants.setdefault(name, Constant(len(_constants)))
 
-    return type(kind.__name__, (kind,), {'__getattr__': missing})
+    def is_one(_cls: Any, each: Any) -> bool:
+        return isinstance(each, base)
+
+    kind = type(base)
+    return type(kind.__name__, (kind,), {'__getattr__': missing, '__instancecheck__': is_one})
 
 
 def _message(base: Any, field: type) -> type:
@@ -90,6 +98,5 @@ def _message(base: Any, field: type) -> type:
     base.__getattr__ = missing
     # The code in C may compare the name of the class with that which it was made for.
     named = {'__module__': base.__module__, '__qualname__': base.__qualname__}
-    kind = _with_constants(type(base))
-    found: type = kind(base.__name__, (base,), {'__init__': fill, **named})
+    found: type = _kind_over(base)(base.__name__, (base,), {'__init__': fill, **named})
     return found
