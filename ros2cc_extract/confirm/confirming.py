@@ -44,10 +44,12 @@ def confirm(
     """
     begun = time.monotonic()
     judgement, raised = _watch(schedule, python, begun + limit_s, stubs)
-    if raised and judgement.outcome is not Outcome.CONFIRMED:
-        # It does not stand messages of defaults, as a text that is to be a number.
-        schedule = replace(schedule, defaults=False)
-        judgement, _ = _watch(schedule, python, begun + limit_s, stubs)
+    # It does not stand messages of defaults, as a text that is to be a number, or those that are
+    # filled, as a map of two by two cells that are not there.
+    for other in (replace(schedule, defaults=False), replace(schedule, filled=False)):
+        if raised and judgement.outcome is not Outcome.CONFIRMED:
+            schedule = other
+            judgement, raised = _watch(schedule, python, begun + limit_s, stubs)
     return Confirmation(schedule, judgement, time.monotonic() - begun)
 
 

@@ -92,6 +92,7 @@ class Stimulus:
     values: Sequence[str | int | float] = ()
     at_once: int = 1
     defaults: bool = True
+    filled: bool = True
     is_sent: bool = True
 
 
@@ -104,7 +105,9 @@ def started(schedule: Schedule, python: str, *, stubs: bool = False) -> Iterator
     """
     command = [python, str(_SCRIPTS / 'launch.py'), schedule.entry]
     command += [schedule.function] if schedule.function else []
-    stimulus = Stimulus(schedule.values, schedule.at_once, schedule.defaults)
+    stimulus = Stimulus(
+        schedule.values, schedule.at_once, defaults=schedule.defaults, filled=schedule.filled
+    )
     with started_beside(
         command, {VARIABLE: functools.partial(_plan, schedule)}, stimulus, python, stubs=stubs
     ) as node:
@@ -151,7 +154,7 @@ def started_beside(
         hooked[VALUES_VARIABLE] = json.dumps(stimulus.values)
         sends = [python, str(_SCRIPTS / 'stimulus.py'), str(folder / READY)]
         sends += [json.dumps(stimulus.values), str(stimulus.at_once)]
-        sends.append('1' if stimulus.defaults else '0')
+        sends += ['1' if each else '0' for each in (stimulus.defaults, stimulus.filled)]
         with ExitStack() as stack:
             said = stack.enter_context((folder / 'said').open('wb'))
             if stimulus.is_sent:

@@ -104,6 +104,7 @@ class Schedule:
     :param race: the finding is about an attribute that two threads write.
     :param runs_inside: the finding says that other callbacks run inside its own.
     :param defaults: every other message holds its defaults.
+    :param filled: the others hold values; if not, all hold their defaults.
     :param at_once: how many requests of one service are on their way at a time.
     :param destroys: what whoever destroys an entity at the first point waits for.
     :param times_out_s: the finding says that the wait always takes so long, in vain.
@@ -124,6 +125,7 @@ class Schedule:
     runs_inside: bool = False
     at_once: int = 1
     defaults: bool = True
+    filled: bool = True
     destroys: str = ''
     times_out_s: float | None = None
 

@@ -118,3 +118,89 @@ def test_interfaces_that_are_not_installed_are_stood_in_for(
     (found,) = json.loads(done.stdout)['findings']
     assert (found['code'], found['outcome']) == ('CC102', 'confirmed'), done.stdout
     assert 'Car.on_order' in found['evidence']
+
+
+# The driver is installed nowhere, and what it is given would end the wait.
+GIVES_ITS_FUNCTION = """
+import threading
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+from no_such_driver import Motor
+
+
+class Car(Node):
+    def __init__(self):
+        super().__init__('car')
+        self.stopped = threading.Event()
+        self.create_subscription(Empty, 'ended', self.on_ended, 10)
+        self.create_subscription(Empty, 'stop', self.on_stop, 10)
+        {given}
+
+    def on_ended(self, msg):
+        self.stopped.set()
+
+    def on_stop(self, msg):
+        self.stopped.wait()
+
+
+rclpy.init()
+rclpy.spin(Car())
+"""
+
+
+@pytest.mark.parametrize(
+    ('given', 'outcome'),
+    [("Motor('/dev/ttyACM0')", 'confirmed'), ('Motor(on_end=self.stopped.set)', 'not reached')],
+)
+def test_what_a_stand_in_was_given_might_end_the_wait(
+    rclpy_python: str, tmp_path: Path, given: str, outcome: str
+) -> None:
+    node = tmp_path / 'node.py'
+    node.write_text(GIVES_ITS_FUNCTION.format(given='Motor()'), encoding='utf-8')
+    # Of the other one, `check` says by itself that somebody may call it.
+    (schedule,) = schedules(node, '7.1.6')
+    node.write_text(GIVES_ITS_FUNCTION.format(given=given), encoding='utf-8')
+    found = confirm(schedule, rclpy_python, 20.0, stubs=True).judgement
+    assert found.outcome.value == outcome, found
+    assert ('given Event.set' in found.reason) == (outcome == 'not reached')
+
+
+# It stands neither the values of messages nor, as a life-cycle node, a transition it has not.
+ONLY_DEFAULTS = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
+
+
+class Cells(LifecycleNode):
+    def __init__(self):
+        super().__init__('cells')
+        self.seen = 0
+
+    def on_configure(self, state):
+        self.client = self.create_client(Trigger, 'save')
+        self.create_subscription(Int32, 'cells', self.on_cells, 10)
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_cells(self, msg):
+        [0][msg.data]
+        self.seen += 1
+        if self.seen > 3:
+            self.client.call(Trigger.Request())
+
+
+rclpy.init()
+rclpy.spin(Cells())
+"""
+
+
+def test_a_node_is_met_as_it_can_stand_it(rclpy_python: str, tmp_path: Path) -> None:
+    node = tmp_path / 'node.py'
+    node.write_text(ONLY_DEFAULTS, encoding='utf-8')
+    (schedule,) = schedules(node, '7.1.6')
+    found = confirm(schedule, rclpy_python, LIMIT_S)
+    assert found.judgement.outcome is Outcome.CONFIRMED, found.judgement
+    assert not found.schedule.filled

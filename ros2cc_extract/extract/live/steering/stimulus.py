@@ -1,12 +1,12 @@
 """
 Gives a node from outside what it waits for.
 
-As ``python stimulus.py READY VALUES AT_ONCE DEFAULTS``. Publishes on every topic that a node of
-the domain subscribes to, calls every service, sends goals to every action server, and offers what
-the clients of the domain ask for and nobody offers. All messages are filled by default at first,
-later with VALUES, a JSON list of texts and numbers that the program compares with; without
-DEFAULTS (0) always with these. Of each service, AT_ONCE requests are on their way at a time. The
-file READY is made once all that was seen at first is offered.
+As ``python stimulus.py READY VALUES AT_ONCE DEFAULTS FILLED``. Publishes on every topic that a
+node of the domain subscribes to, calls every service, sends goals to every action server, and
+offers what the clients of the domain ask for and nobody offers. All messages are filled by default
+at first, later with VALUES, a JSON list of texts and numbers that the program compares with;
+without DEFAULTS (0) always with these, without FILLED never. Of each service, AT_ONCE requests are
+on their way at a time. The file READY is made once all that was seen at first is offered.
 
 Runs with the user's interpreter: the standard library and rclpy only.
 """
@@ -45,7 +45,9 @@ _NUMBERS = ('int', 'uint', 'float', 'double', 'octet', 'byte')
 class Stimulus:
     """All that is offered and sent, by name."""
 
-    def __init__(self, ready: str, values: Sequence[Any], at_once: int, defaults: bool) -> None:
+    def __init__(
+        self, ready: str, values: Sequence[Any], at_once: int, *, defaults: bool, filled: bool
+    ) -> None:
         rclpy = importlib.import_module('rclpy')
         self._rclpy = rclpy
         rclpy.init(args=[])
@@ -57,6 +59,7 @@ class Stimulus:
         self._turn = 0
         self._at_once = at_once
         self._defaults = defaults
+        self._is_filled = filled
         self._ready: str | None = ready
         self._first: float | None = None
         self._publishers: dict[str, Any] = {}
@@ -239,7 +242,7 @@ class Stimulus:
 
     def _filled(self, message: Any, depth: int = 0) -> Any:
         """Every other turn as made, else with the next of the values."""
-        if (self._defaults and self._turn % 2 == 0) or depth > 4:
+        if not self._is_filled or (self._defaults and self._turn % 2 == 0) or depth > 4:
             return message
         turn = self._turn // 2 if self._defaults else self._turn
         for field, kind in message.get_fields_and_field_types().items():
@@ -275,4 +278,12 @@ def _interface(name: str) -> Any:
 
 
 if __name__ == '__main__':
-    Stimulus(sys.argv[1], json.loads(sys.argv[2]), int(sys.argv[3]), sys.argv[4] == '1').run()
+    given = [each == '1' for each in sys.argv[4:6]]
+    sent = Stimulus(
+        sys.argv[1],
+        json.loads(sys.argv[2]),
+        int(sys.argv[3]),
+        defaults=given[0],
+        filled=given[1],
+    )
+    sent.run()
