@@ -180,7 +180,8 @@ def timed_out(schedule: Schedule, seen: Observations) -> Judgement | None:
     seconds, last = schedule.times_out_s, seen.samples[-1:]
     if seconds is None or not seen.times or not last or min(seen.times) < seconds:
         return None
-    clients = [each for each in last[0].looks[1].entities.values() if each.kind == 'clients']
+    entities = last[0].looks[1].entities.values()
+    clients = [e for e in entities if e.kind == 'clients' or e.cls == 'ActionClient']
     if not clients or not all(each.there for each in clients):
         return None
     times = 'time' if len(seen.times) == 1 else 'times'

@@ -204,3 +204,46 @@ def test_a_node_is_met_as_it_can_stand_it(rclpy_python: str, tmp_path: Path) -> 
     found = confirm(schedule, rclpy_python, LIMIT_S)
     assert found.judgement.outcome is Outcome.CONFIRMED, found.judgement
     assert not found.schedule.filled
+
+
+# Two callbacks that wait for an action in vain, as the client is in the group that they close.
+OF_AN_ACTION = """
+import rclpy
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from std_msgs.msg import Empty
+from test_msgs.action import Fibonacci
+
+
+class Head(Node):
+    def __init__(self):
+        super().__init__('head')
+        self.client = ActionClient(self, Fibonacci, 'turn')
+        self.create_timer(0.5, self.look)
+        self.create_subscription(Empty, 'down', self.on_down, 10)
+
+    def look(self):
+        self.turn()
+
+    def on_down(self, msg):
+        self.turn()
+
+    def turn(self):
+        self.client.wait_for_server(timeout_sec=5.0)
+        future = self.client.send_goal_async(Fibonacci.Goal())
+        rclpy.spin_until_future_complete(self, future, timeout_sec=1.0)
+
+
+rclpy.init()
+rclpy.spin(Head())
+"""
+
+
+def test_an_action_that_is_always_waited_for_in_vain(rclpy_python: str, tmp_path: Path) -> None:
+    node = tmp_path / 'node.py'
+    node.write_text(OF_AN_ACTION, encoding='utf-8')
+    schedule = next(each for each in schedules(node, '7.1.6') if each.code == 'CC101')
+    assert schedule.times_out_s == 1.0
+    found = confirm(schedule, rclpy_python, LIMIT_S).judgement
+    assert found.outcome is Outcome.CONFIRMED, found
+    assert found.reason.startswith('took the whole time-out of 1 s')
