@@ -141,7 +141,7 @@ class Stimulus:
             return request if request.parameters else None
         if last == 'change_state':
             state = self._state(service.rpartition('/')[0])
-            request.transition.id = _TRANSITIONS.get(state, 0)
+            request.transition.id = _TRANSITIONS.get(state or 0, 0)
             return request if state in _TRANSITIONS else None
         return self._filled(request)
 
