@@ -94,7 +94,7 @@ def _like(bad: Path, line: int, twin: Path) -> tuple[int, int] | None:
     return lines_of(tree_of(twin), [x.strip() for x in other].index(found[0]) + 1)
 
 
-def is_confirmed_falsely(schedule: Schedule, python: str, *, stubs: bool) -> str:
+def is_confirmed_falsely(schedule: Schedule, python: str, *, stubs: bool = False) -> str:
     """Give what is shown of a twin, at the place of the finding or anywhere else."""
     anywhere = Point(file=str(Path(schedule.entry).resolve()), first=1, last=ANYWHERE)
     wide = replace(schedule, code='CC101', points=(anywhere,), race=None)
