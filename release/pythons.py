@@ -184,8 +184,8 @@ def suite(place: Place, more: Sequence[str]) -> tuple[bool, str]:
     built = subprocess.run(command, env=environment, capture_output=True, text=True)
     if built.returncode:
         return False, built.stderr
-    command = place.as_other(place.python, '-u', '-m', 'pytest', *SUITE, *more, offline=False)
-    return watched(command, place.folder / 'output', place.tree, place.environment)
+    tests = place.as_other(place.python, '-u', '-m', 'pytest', *SUITE, *more, offline=False)
+    return watched(tests, place.folder / 'output', place.tree, place.environment)
 
 
 if __name__ == '__main__':
