@@ -16,7 +16,7 @@ import sys
 
 from packaging.requirements import Requirement
 
-from release.environments import QUIET, made
+from release.environments import QUIET, made, watched
 from release.sources import ROOT, copied_tree
 from release.targets import Interpreter, interpreters
 
@@ -75,12 +75,10 @@ def judged(end: str, interpreter: Interpreter, jobs: str) -> bool:
     subprocess.run(install, check=True, env={**os.environ, 'ROS2CC_NATIVE_BUILD': 'required'})
     for name in ('ros2cc_extract', 'generator'):
         shutil.rmtree(tree / name)
-    tests = [python, '-m', 'pytest', '-q', '-n', jobs, *TESTS]
-    done = subprocess.run(tests, cwd=tree, capture_output=True, text=True)
-    (folder / 'output').write_text(done.stdout + done.stderr, encoding='utf-8')
-    last = (done.stdout.strip().splitlines() or ['no output'])[-1]
-    print(f'{end} on CPython {interpreter.version}: {last}; see {folder / "output"}', flush=True)
-    return done.returncode == 0
+    tests = [python, '-u', '-m', 'pytest', '-q', '-n', jobs, *TESTS]
+    passed, told = watched(tests, folder / 'output', tree)
+    print(f'{end} on CPython {interpreter.version}: {told}', flush=True)
+    return passed
 
 
 if __name__ == '__main__':

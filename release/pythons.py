@@ -22,7 +22,7 @@ from pathlib import Path
 from release.debian import SUITES, own_python
 from release.demonstration import EXAMPLE, differing
 from release.dependencies import requirements
-from release.environments import QUIET, made
+from release.environments import QUIET, made, watched
 from release.sources import ROOT, copied_tree
 from release.targets import UNPACKED, interpreters
 
@@ -51,18 +51,28 @@ class Place:
     def tree(self) -> Path:
         return self.folder / 'the sources'
 
-    def run(self, *command: str | Path, offline: bool = True) -> subprocess.CompletedProcess[str]:
-        before: list[str] = []
-        if os.geteuid() == 0:
-            other = f'--reuid={NOBODY} --regid={NOBODY} --clear-groups'
-            before = [*(['unshare', '-n'] if offline else []), 'setpriv', *other.split()]
-        environment = {
+    @property
+    def environment(self) -> dict[str, str]:
+        return {
             'PATH': f'{self.python.parent}:/usr/bin:/bin',
             'HOME': str(self.folder / 'home'),
             'LANG': 'C.UTF-8',
         }
+
+    def as_other(self, *command: str | Path, offline: bool = True) -> list[str | Path]:
+        """Give the command that lets the other user run this one, where root may do that."""
+        if os.geteuid() != 0:
+            return [*command]
+        other = f'--reuid={NOBODY} --regid={NOBODY} --clear-groups'
+        return [*(['unshare', '-n'] if offline else []), 'setpriv', *other.split(), *command]
+
+    def run(self, *command: str | Path) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [*before, *command], cwd=self.tree, env=environment, capture_output=True, text=True
+            self.as_other(*command),
+            cwd=self.tree,
+            env=self.environment,
+            capture_output=True,
+            text=True,
         )
 
 
@@ -174,11 +184,8 @@ def suite(place: Place, more: Sequence[str]) -> tuple[bool, str]:
     built = subprocess.run(command, env=environment, capture_output=True, text=True)
     if built.returncode:
         return False, built.stderr
-    done = place.run(place.python, '-m', 'pytest', *SUITE, *more, offline=False)
-    output = place.folder / 'output'
-    output.write_text(done.stdout + done.stderr, encoding='utf-8')
-    last = (done.stdout.strip().splitlines() or [done.stderr.strip()])[-1]
-    return done.returncode == 0, f'{last}; see {output}'
+    tests = place.as_other(place.python, '-u', '-m', 'pytest', *SUITE, *more, offline=False)
+    return watched(tests, place.folder / 'output', place.tree, place.environment)
 
 
 if __name__ == '__main__':

@@ -173,6 +173,8 @@ def test_of_the_readme_on_a_terminal(name: str, more: dict[str, str]) -> None:
     assert set(links) == {(ROOT / path).as_uri()}
     told = re.sub(r'\x1b\]8;[^\x1b]*\x1b\\', '', said)
     told = re.sub(r'\(\d+\.\d s\)', '(0.0 s)', told)
+    # The oldest rich that is allowed gives the end of a line the colour of the line.
+    told = told.replace('\x1b[1m\n\x1b[0m', '\n')
     assert ('\x1b[1;31m' in told or '\x1b[31m' in told) is (name == 'colour')
     compared(f'terminal_{name}', told.replace('\x1b', '\\e'))
 
@@ -182,4 +184,5 @@ def test_a_log_that_asks_for_colours_gets_them() -> None:
     said = in_a_log(ROOT, path, 80, FORCE_COLOR='1', TERM='xterm-256color')
     shown = (SCREENS / 'terminal_colour.txt').read_text(encoding='utf-8').replace('\\e', '\x1b')
     told = re.sub(r'\x1b\]8;[^\x1b]*\x1b\\', '', said)
+    told = told.replace('\x1b[1m\n\x1b[0m', '\n')
     assert told == shown.replace(' (0.0 s)', '')

@@ -31,10 +31,20 @@ _COLOURS = {
 def console_for(stream: TextIO) -> Console:
     """Make a console; where the stream is no terminal the width does not depend on the machine."""
     width = None if stream.isatty() or 'COLUMNS' in os.environ else LOG_WIDTH
-    is_styled = Console(file=stream).is_terminal  # also where FORCE_COLOR asks for it
+    # The oldest rich that is allowed does not know FORCE_COLOR.
+    is_forced = bool(os.environ.get('FORCE_COLOR')) and os.environ.get('TTY_COMPATIBLE') != '0'
+    forced = True if is_forced else None
+    is_styled = Console(file=stream, force_terminal=forced).is_terminal
     shown = cast(TextIO, Shown(stream, styled=is_styled, in_log=True))
     target = cast(TextIO, Unpadded(shown))
-    return _Telling(file=target, width=width, highlight=False, markup=False, emoji=False)
+    return _Telling(
+        file=target,
+        force_terminal=forced,
+        width=width,
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
 
 
 class _Telling(Console):
