@@ -6,9 +6,9 @@ from ros2cc_extract.generator.executor_kinds import executor_kind
 from ros2cc_extract.generator.nested_spins import is_spin
 from ros2cc_extract.generator.resources import is_foreign, may_pass_unseen
 from ros2cc_extract.generator.template_files import Profile
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
-from ros2cc_extract.spec.releases.late_spins import late_spins
 from ros2cc_extract.spec.releases.table import (
     FUTURE_YIELDS_ITSELF,
     NODE_STAYS,

@@ -12,9 +12,9 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
 from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
-from ros2cc_extract.spec.releases.late_spins import late_spins
 from ros2cc_extract.spec.releases.table import (
     CALL_TAKES_TIMEOUT,
     CALL_TIMEOUT_RAISES,

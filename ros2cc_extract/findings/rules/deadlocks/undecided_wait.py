@@ -35,8 +35,8 @@ from ros2cc_extract.spec.effects import (
     WORKING_LOOP,
     Blocking,
 )
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
-from ros2cc_extract.spec.releases.late_spins import late_spins
 from ros2cc_extract.spec.releases.table import UNTIL_ASKS_FUTURE
 from ros2cc_extract.verify.results.caveats import OpenEnd, open_ends
 from ros2cc_extract.verify.results.results import Verdict
@@ -416,7 +416,8 @@ UNDECIDED = Rule(
     what='A callback, `main` or a thread waits for something, and the code that ends the wait '
     'could not be followed: the object was passed to code that is not in sight, or nothing in '
     'sight ends the wait. The same holds for an await of something that a thread completes: that '
-    'wakes no executor, and it is unknown when something else does. Whether the wait ends is '
+    'wakes no executor, and it is unknown when something else does; on Humble, of a spin until '
+    'a future that a thread completes. Whether the wait ends is '
     'open, and so is every claim that depends on it. There is one line for each wait, not for '
     'each callback that it may block. With `--strict` the exit status is 3.',
     why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '
