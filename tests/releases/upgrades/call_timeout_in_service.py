@@ -1,10 +1,8 @@
 """A service asks another one that nobody offers, and answers 'no' if that takes too long."""
 
-import threading
-
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
-from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -37,11 +35,9 @@ class Visitor(Node):
 
 def main():
     rclpy.init()
-    visitors = SingleThreadedExecutor()
-    visitors.add_node(Visitor())
-    threading.Thread(target=visitors.spin, daemon=True).start()
     executor = MultiThreadedExecutor(num_threads=3)
     executor.add_node(Gate())
+    executor.add_node(Visitor())
     executor.spin()
 
 
