@@ -69,10 +69,12 @@ conformance: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
 # On releases that are no wheel, RELEASES="7.1.11 11.0.0" some of them: random programs, every row of
 # the table of behaviours, every blocking pattern. ROS2CC_RELEASES is a folder with a program that
 # builds them, and without it they are skipped. Each day one of them has its turn in `make test`.
+# Of CORES only the executor core is there.
 RELEASES ?= 3.3.21 7.1.11 9.1.5 10.0.10 11.0.0
+CORES ?= 3.3.10 7.1.9
 releases: $(VENV)/developed $(JAZZY)/installed $(KILTED)/installed
-	$(BIN)/python -m tests.conformance.releases $(RELEASES)
-	for release in $(RELEASES); do ROS2CC_RELEASE=$$release \
+	$(BIN)/python -m tests.conformance.releases $(RELEASES) $(CORES)
+	for release in $(RELEASES) $(CORES); do ROS2CC_RELEASE=$$release \
 	    $(call pytest_with,$(JAZZY)) tests/releases tests/live/test_live_blocking.py \
 	    -k 'of_the_day or table_of_releases' || exit 1; done
 

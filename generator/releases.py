@@ -6,18 +6,20 @@ from ros2cc_extract.generator.executor_kinds import executor_kind
 from ros2cc_extract.generator.nested_spins import is_spin
 from ros2cc_extract.generator.resources import is_foreign, may_pass_unseen
 from ros2cc_extract.generator.template_files import Profile
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (
     FUTURE_YIELDS_ITSELF,
     NODE_STAYS,
     SPIN_REFUSED_TWICE,
+    UNTIL_ASKS_FUTURE,
 )
 
 
 def felt(spec: Spec) -> tuple[Behaviour, ...]:
     """
-    Give the rows of the table that change the model of a unit.
+    Give the rows of the table that change the model of a unit, or what is said of its waits.
 
     The order of tasks is not among them: where no release is named, the model has either order.
     """
@@ -27,7 +29,8 @@ def felt(spec: Spec) -> tuple[Behaviour, ...]:
         is_foreign(block, spec) or may_pass_unseen(block, callback, spec)
         for block, callback in waits
     )
-    return (*spins, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
+    asks = (UNTIL_ASKS_FUTURE,) if any(late_spins(spec)) else ()
+    return (*spins, *asks, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
 
 
 def differing(spec: Spec, profile: Profile) -> tuple[Behaviour, ...]:

@@ -19,6 +19,7 @@ class Extraction:
     :param files_seen: every file that was read, as shown to the user.
     :param joined: units of one program that wait for each other, as one.
     :param wholes: all units of one program in one, where it has several.
+    :param idle: units without any callback, of which there is no model.
     :param nodes: what the nodes of each entry have in the graph.
     :param cut: why not all was followed to its end; empty where it was.
     :param interrupted: somebody has ended it.
@@ -29,6 +30,7 @@ class Extraction:
     files_seen: tuple[str, ...]
     joined: tuple[Joined, ...] = ()
     wholes: tuple[Spec, ...] = ()
+    idle: tuple[Spec, ...] = ()
     nodes: tuple[NodeGraph, ...] = ()
     cut: str = ''
     interrupted: bool = False

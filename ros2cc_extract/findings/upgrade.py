@@ -12,6 +12,7 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.assumptions import DEFAULT_COUNT
 from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 from ros2cc_extract.spec.releases.behaviour import Behaviour
 from ros2cc_extract.spec.releases.table import (
@@ -29,6 +30,7 @@ from ros2cc_extract.spec.releases.table import (
     THREADS_BY_AFFINITY,
     TIMEOUT_KEEPS_HARVEST,
     TIMER_INFO,
+    UNTIL_ASKS_FUTURE,
 )
 
 
@@ -121,6 +123,11 @@ def _woken_by_threads(unit: Spec) -> Iterator[Felt]:
                 yield Felt(block.source, 'if a thread completes it')
 
 
+def _spun_until(unit: Spec) -> Iterator[Felt]:
+    for block in late_spins(unit):
+        yield Felt(block.source, 'if a thread completes it')
+
+
 def _several_tasks(unit: Spec) -> Iterator[Felt]:
     """A callback that makes more than one task has them run in an order."""
     if unit.executor.kind not in (SINGLE, MULTI):
@@ -145,6 +152,7 @@ def _pool(unit: Spec) -> Iterator[Felt]:
 _FEELS: tuple[tuple[Behaviour, Feels], ...] = (
     (TASKS_OLDEST_FIRST, _several_tasks),
     (FUTURE_YIELDS_ITSELF, _woken_by_threads),
+    (UNTIL_ASKS_FUTURE, _spun_until),
     (EVENTS_EXECUTOR, _events),
     (CALL_TAKES_TIMEOUT, _calls_in_time),
     (CALL_TIMEOUT_RAISES, _calls_that_raise),
@@ -153,6 +161,7 @@ _FEELS: tuple[tuple[Behaviour, Feels], ...] = (
     (SPIN_YIELDS, _pool),
 )
 """Rows that no verdict rests on, and who feels them."""
+_OF_IDLE = ((UNTIL_ASKS_FUTURE, _spun_until),)
 _ONCE = frozenset({SPIN_YIELDS})
 """Rows that are listed at one place of a program, since all its pools feel them alike."""
 _NEEDS = {CALL_TIMEOUT_RAISES: CALL_TAKES_TIMEOUT, COROUTINES_IN_EVENTS: EVENTS_EXECUTOR}
@@ -172,9 +181,17 @@ class Side:
     undecided: frozenset[str] = frozenset()
 
 
-def changes(units: Iterable[Spec], old: Side, new: Side) -> tuple[Change, ...]:
-    """List what changes from one release to another; by place."""
-    found = [*_of_findings(old, new), *_of_behaviour(units, old.release, new.release)]
+def changes(
+    units: Iterable[Spec], old: Side, new: Side, idle: Iterable[Spec] = ()
+) -> tuple[Change, ...]:
+    """
+    List what changes from one release to another; by place.
+
+    :param idle: units without any callback: it is only looked at how long they are spun.
+    """
+    releases = old.release, new.release
+    of_idle = _of_behaviour(idle, _OF_IDLE, *releases)
+    found = [*_of_findings(old, new), *_of_behaviour(units, _FEELS, *releases), *of_idle]
     return tuple(
         sorted(dict.fromkeys(found), key=lambda each: (each.place, each.code, each.message))
     )
@@ -246,8 +263,10 @@ def _rows_of(code: str) -> tuple[Behaviour, ...]:
     return (of_diagnostics,) if of_diagnostics else _OF_RULES.get(code, _OF_MODELS)
 
 
-def _of_behaviour(units: Iterable[Spec], old: str, new: str) -> Iterator[Change]:
-    rows = [(row, feels) for row, feels in _FEELS if _changes(row, old, new)]
+def _of_behaviour(
+    units: Iterable[Spec], felt_by: Sequence[tuple[Behaviour, Feels]], old: str, new: str
+) -> Iterator[Change]:
+    rows = [(row, feels) for row, feels in felt_by if _changes(row, old, new)]
     listed = set()
     for unit in units:
         for row, feels in rows:

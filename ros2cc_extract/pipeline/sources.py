@@ -83,6 +83,7 @@ def scan_sources(
     return replace(
         extraction,
         units=tuple(unit for unit in extraction.units if unit.callbacks),
+        idle=tuple(left_out),
         diagnostics=(*extraction.diagnostics, *(d for unit in left_out for d in _missing(unit))),
     )
 

@@ -3,7 +3,8 @@ Conformance on releases of rclpy that are no wheel, which a checkout builds.
 
 ``ROS2CC_RELEASES=FOLDER python -m tests.conformance.releases`` expects in FOLDER a program
 ``build PYTHON RELEASE TARGET``, which puts a release, native part included, over the wheel of
-PYTHON into TARGET. Without a folder everything is skipped, and said to be.
+PYTHON into TARGET, and ``overlay``, which does so with its executor core alone. Without a folder
+everything is skipped, and said to be.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from tests.conformance.suite import Release, run_suite
 ROOT = Path(__file__).parents[2]
 VARIABLE = 'ROS2CC_RELEASES'
 RELEASES = ('3.3.21', '7.1.11', '9.1.5', '10.0.10', '11.0.0')
+CORES = ('3.3.10', '7.1.9')
+"""Those of which only the executor core is there; the rest stays that of the wheel."""
 WHEELS = {'humble': 'jazzy', 'jazzy': 'jazzy'}
 """Whose wheel a release is built over; that of Kilted where none is named."""
 
@@ -37,7 +40,8 @@ def built(release: str, checkout: Path, folder: Path) -> tuple[str, Release]:
     python, target = str(ROOT / f'.venv-{wheel}/bin/python'), folder / release
     record = record_of(release, folder)
     if not record.is_dir():
-        command = [str(checkout / 'build'), python, release, str(target)]
+        program = 'overlay' if release in CORES else 'build'
+        command = [str(checkout / program), python, release, str(target)]
         subprocess.run(command, check=True, stdout=sys.stderr)
         record.mkdir()
         # Otherwise the hook finds the version of the wheel.
@@ -48,7 +52,7 @@ def built(release: str, checkout: Path, folder: Path) -> tuple[str, Release]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[1] if __doc__ else '')
-    parser.add_argument('releases', nargs='*', default=RELEASES, help='(default: all)')
+    parser.add_argument('releases', nargs='*', default=(*RELEASES, *CORES), help='(default: all)')
     parser.add_argument('--first', type=int, default=700_100, help='first seed')
     parser.add_argument('--programs', type=int, default=50)
     parser.add_argument('--folder', type=Path, default=Path('build/releases'))

@@ -16,8 +16,19 @@ from pathlib import Path
 import yaml
 
 from ros2cc_extract.spec.releases.behaviour import Behaviour
-from ros2cc_extract.spec.releases.table import ROWS
-from tests.conformance.releases import RELEASES, VARIABLE, built
+from ros2cc_extract.spec.releases.table import (
+    EXCEPTION_AFTER_AWAIT_LOST,
+    FUTURE_YIELDS_ITSELF,
+    ROWS,
+    SHUTDOWN_WAITS_NOT,
+    SPIN_REFUSED_TWICE,
+    SPIN_YIELDS,
+    TASKS_OLDEST_FIRST,
+    THREADS_BY_AFFINITY,
+    TIMEOUT_KEEPS_HARVEST,
+    UNTIL_ASKS_FUTURE,
+)
+from tests.conformance.releases import CORES, RELEASES, VARIABLE, built
 from tests.conformance.suite import Release, own_environment
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
@@ -27,6 +38,18 @@ WHEELS = {
     '7.1.6': str(ROOT / '.venv-jazzy/bin/python'),
     '9.1.2': str(ROOT / '.venv-kilted/bin/python'),
 }
+OF_CORES = (
+    TASKS_OLDEST_FIRST,
+    FUTURE_YIELDS_ITSELF,
+    UNTIL_ASKS_FUTURE,
+    EXCEPTION_AFTER_AWAIT_LOST,
+    SPIN_REFUSED_TWICE,
+    TIMEOUT_KEEPS_HARVEST,
+    SHUTDOWN_WAITS_NOT,
+    THREADS_BY_AFFINITY,
+    SPIN_YIELDS,
+)
+"""Rows that `executors.py` and `task.py` alone decide."""
 WATCHDOG_S = 120
 HOLDS = {'yes': True, 'no': False}
 
@@ -44,7 +67,7 @@ def read_observed() -> dict[str, dict[str, bool]]:
 
 def observe(python: str, release: Release | None) -> Iterator[tuple[str, bool]]:
     """Run the programs on one release."""
-    for row in ROWS:
+    for row in OF_CORES if release is not None and release.version in CORES else ROWS:
         if program_of(row).exists():
             with own_environment() as environment:
                 given = environment if release is None else release.over(environment)
@@ -70,7 +93,7 @@ def said(python: str, program: Path, environment: dict[str, str]) -> str:
 
 def main() -> None:
     observed = read_observed() if OBSERVED.exists() else {}
-    for version in sys.argv[1:] or (*WHEELS, *RELEASES):
+    for version in sys.argv[1:] or (*WHEELS, *RELEASES, *CORES):
         if version in WHEELS:
             python, release = WHEELS[version], None
         else:

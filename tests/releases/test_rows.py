@@ -26,12 +26,11 @@ from tests.releases.turns import release_of_the_day
 OBSERVED = read_observed()
 #: Which rows no single run shows, and why.
 UNOBSERVED = {
-    'spin-yields': 'it shows only in how often something happens',
     'pool-order-varies': 'of Python, and only now and then',
     'no-global-lock': 'of a build of Python that has no global lock',
 }
-#: No release that is supported lacks them, and no other runs here.
-NEVER_LACKED = {'node-stays', 'timeout-keeps-harvest'}
+#: No release that is supported lacks it, and of others only the executor core runs here.
+NEVER_LACKED = {'node-stays'}
 #: Of rows that a model reads. The model of one that yields to a thread is woken by whatever is
 #: served next, and that of a node that goes away leaves the spin out: no trace contradicts those.
 TRACES = sorted((HERE / 'traces').glob('*.jsonl'))

@@ -27,9 +27,6 @@ PAIRS = [*FIRST, *pairwise(RELEASES[2:]), ('3.3.21', '10.0.10'), ('9.1.5', '7.1.
 BY_NAME = {row.name: row for row in ROWS}
 MARK = re.compile(r'# differs: (.+)')
 LISTED_ONCE = 'spin-yields'
-#: On Humble nothing wakes a spin until a future that a thread completes; no unit has such a spin
-#: alone, since it has no callback.
-MISSED = {('future_done_by_thread', '3.3.21')}
 #: That another executor takes its place where it cannot be imported is not looked at.
 KNOWN_FALSE = {'events_executor_if_there': 'events-executor'}
 
@@ -69,8 +66,7 @@ def test_marks_are_what_was_observed(node: Path) -> None:
     """Two releases show the same of a node unless a marked line differs."""
     seen = OBSERVED[node.stem]
     for old, new in PAIRS:
-        is_marked = bool(differing(node, old, new)) or (node.stem, old) in MISSED
-        assert (seen[old] != seen[new]) == is_marked, (old, new)
+        assert (seen[old] != seen[new]) == bool(differing(node, old, new)), (old, new)
 
 
 @each_node

@@ -49,7 +49,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if nothing_read(args.paths, after.extraction):
         return EXIT_ERROR
     sides = _side(before, old), _side(after, new)
-    found = changes(after.units, *sides)
+    found = changes(after.units, *sides, after.extraction.idle)
     for change in found:
         print(_line(change), file=stdout)
         for row in change.because:

@@ -31,6 +31,17 @@ FUTURE_YIELDS_ITSELF = Behaviour(
     observed='a thread makes the future done while nothing else happens: the callback goes on '
     'after 0.1 s on 9.1.5, and never on 7.1.6 and 9.1.2',
 )
+UNTIL_ASKS_FUTURE = Behaviour(
+    name='until-asks-future',
+    concerns='when a spin until a future ends that another thread completes',
+    without='once a callback was served after that, or its time is over',
+    having='at once',
+    since={5: (5, 0, 1)},
+    source='ros2/rclpy pull request 1143, `executors.py` (`spin_once_until_future_complete`, '
+    '`wait_for_ready_callbacks`)',
+    observed='a thread makes the future done while nothing else happens: the spin never ends on '
+    '3.3.21, and ends on 7.1.6 and 9.1.2',
+)
 EXCEPTION_AFTER_AWAIT_LOST = Behaviour(
     name='exception-after-await-lost',
     concerns='where an exception goes that a coroutine raises behind an `await`',
@@ -69,7 +80,8 @@ TIMEOUT_KEEPS_HARVEST = Behaviour(
     having='all that are ready, one after the other',
     since={3: (3, 3, 11), 7: (7, 0, 0)},
     source='ros2/rclpy pull request 1165, `executors.py` (`wait_for_ready_callbacks`)',
-    observed='a timer beside a callback that awaits runs on 7.1.6 and 9.1.2; source of 3.3.9',
+    observed='a timer beside a callback that awaits runs on 7.1.6 and 9.1.2, and not '
+    'with the executor core of 3.3.10',
 )
 SHUTDOWN_WAITS_NOT = Behaviour(
     name='shutdown-waits-not',
@@ -163,7 +175,8 @@ SPIN_YIELDS = Behaviour(
     since={10: (10, 0, 4)},
     source='ros2/rclpy pull request 1547, `executors.py` '
     '(`MultiThreadedExecutor._spin_once_impl`)',
-    observed='source of 7.1.11, 9.1.5 and 10.0.10',
+    observed='`sched_yield` of the thread that spins a pool: called on 10.0.10 and 11.0.0, not on '
+    '3.3.21, 7.1.6, 7.1.11, 9.1.2 and 9.1.5',
 )
 POOL_ORDER_VARIES = Behaviour(
     name='pool-order-varies',
@@ -191,6 +204,7 @@ NO_GLOBAL_LOCK = Behaviour(
 RCLPY = (
     TASKS_OLDEST_FIRST,
     FUTURE_YIELDS_ITSELF,
+    UNTIL_ASKS_FUTURE,
     EXCEPTION_AFTER_AWAIT_LOST,
     SPIN_REFUSED_TWICE,
     NODE_STAYS,

@@ -18,6 +18,7 @@ def main():
     node = Node('loader', start_parameter_services=False)
     done = Future()
     threading.Thread(target=load, args=(done,), daemon=True).start()
+    # differs: until-asks-future
     rclpy.spin_until_future_complete(node, done)
     print('loaded', flush=True)
 

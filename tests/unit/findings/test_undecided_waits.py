@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
+import pytest
 from finding_units import (
     ONE_THREAD,
     at,
@@ -19,7 +21,7 @@ from finding_units import (
 
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import ANSWER_LOOP, OUTSIDE, TIME, Act, Blocking, Needs, Waker
-from ros2cc_extract.spec.model import Activity, ActivityKind
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Spec
 
 
 def test_a_wait_whose_end_nobody_knows_is_told() -> None:
@@ -175,3 +177,33 @@ def test_a_loop_for_an_answer_rests_on_who_gives_it() -> None:
     loop = Blocking(call=ANSWER_LOOP, source=at(40), wakers=(Waker(by=OUTSIDE),))
     finding = only(unit(threads(2), timer('feed', blocking=(loop,))), 'CC121')
     assert finding.message.startswith('feed waits in a loop for an answer without a time-out')
+
+
+def spun_until(*callbacks: Callback, **facts: Any) -> Spec:
+    """A node whose `main` spins until a thread has completed a future."""
+    spin = Blocking(
+        call='rclpy.spin_until_future_complete',
+        source=at(40),
+        resource='done',
+        foreign=True,
+        wakers=(Waker(by='load', after=1),),
+        **facts,
+    )
+    return replace(unit(ONE_THREAD, *callbacks), set_up=(spin,))
+
+
+@pytest.mark.parametrize('release', [None, '3.3.22', 'humble'])
+def test_a_spin_until_a_thread_is_done_may_last_on_humble(release: str | None) -> None:
+    finding = only(replace(spun_until(subscription('feed')), rclpy=release), 'CC120')
+    assert finding.place == at(40)
+    assert finding.message.endswith(
+        'before rclpy 5.0.1 (Humble) the spin ends only once a callback is served after that'
+    )
+
+
+def test_it_ends_where_the_future_is_asked_or_a_timer_is_served_or_its_time_is_over() -> None:
+    assert found(replace(spun_until(subscription('feed')), rclpy='7.1.6')) == []
+    assert found(replace(spun_until(timer('feed')), rclpy='3.3.22')) == []
+    once = replace(timer('feed'), one_shot=True)
+    assert found(replace(spun_until(once), rclpy='3.3.22')) == ['CC120:40 note']
+    assert found(replace(spun_until(once, seconds=1.0), rclpy='3.3.22')) == []

@@ -10,6 +10,7 @@ call; 7.1.6 passes nothing).
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
@@ -19,6 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
     Function,
+    Partial,
     Value,
 )
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
@@ -37,18 +39,29 @@ _PASSED = {
 def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> bool:
     """Whether an entity can never call that function; this is told."""
     numbers = _PASSED.get(entity.kind)
-    function = callback.function if isinstance(callback, Bound) else callback
+    function, bound = _called(callback, entity.place)
     if numbers is None or entity.library is not None or not isinstance(function, Function):
         return False
-    first = [callback.receiver] if isinstance(callback, Bound) else []
-    fitting = [
-        each for each in numbers if fits(function, Call(entity.place, [*first, *[NONE] * each]))
-    ]
+    calls = {each: replace(bound, args=[*bound.args, *[NONE] * each]) for each in numbers}
+    fitting = [each for each, call in calls.items() if fits(function, call)]
     if not fitting or (entity.kind is EntityKind.TIMER and fitting == [1] and not _asks(function)):
         _tell(machine, function, numbers[0])
         return True
     entity.takes_info = entity.takes_info or numbers[0] not in fitting
     return False
+
+
+def _called(callback: Value, at: Place) -> tuple[Value, Call]:
+    """What is called in the end, and what it gets before that which rclpy passes."""
+    if isinstance(callback, Partial):
+        function, bound = _called(callback.function, at)
+        bound.args.extend(callback.args)
+        bound.keywords.update(callback.keywords)
+        bound.more = bound.more or callback.more
+        return function, bound
+    if isinstance(callback, Bound):
+        return callback.function, Call(at, [callback.receiver])
+    return callback, Call(at)
 
 
 def _asks(function: Function) -> bool:

@@ -35,7 +35,9 @@ from ros2cc_extract.spec.effects import (
     WORKING_LOOP,
     Blocking,
 )
+from ros2cc_extract.spec.late_spins import late_spins
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
+from ros2cc_extract.spec.releases.table import UNTIL_ASKS_FUTURE
 from ros2cc_extract.verify.results.caveats import OpenEnd, open_ends
 from ros2cc_extract.verify.results.results import Verdict
 
@@ -48,6 +50,11 @@ _UNKNOWN_END = 'it is not known what ends it'
 _WAKES_NOBODY = (
     'a thread may be the one that ends it, which wakes no executor: it goes on once something '
     'else does so'
+)
+
+_ENDS_LATE = (
+    'a thread may be the one that completes the future: before rclpy 5.0.1 (Humble) the spin ends '
+    'only once a callback is served after that'
 )
 
 
@@ -86,6 +93,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _of_set_up(context):
             waits.append(wait)
             reasons[id(wait)] = _reason(wait.block)
+        for wait in _late(context):
+            waits.append(wait)
+            reasons[id(wait)] = _ENDS_LATE
     else:
         for wait in _for_messages(context):
             waits.append(wait)
@@ -304,14 +314,25 @@ def _of_set_up(context: Context) -> Iterator[AnyWait]:
 
     An await of a library's coroutine holds up nobody but its own coroutine, whatever it is called.
     """
-    name = 'main' if context.unit.entry is not None else 'the set-up'
-    caller = Activity(name=name, kind=ActivityKind.MAIN)
+    caller = _set_up(context)
     foreign = [block for block in context.unit.set_up if _is_foreign(block)]
     awaits = {_line_of(block) for block in foreign if block.call == 'await'}
     for block in context.unit.set_up:
         is_awaited = _is_foreign(block) and _line_of(block) in awaits
         if block.escapes is not None and block.seconds is None and not is_awaited:
             yield AnyWait(caller, block, kind_of(block))
+
+
+def _set_up(context: Context) -> Activity:
+    name = 'main' if context.unit.entry is not None else 'the set-up'
+    return Activity(name=name, kind=ActivityKind.MAIN)
+
+
+def _late(context: Context) -> Iterator[AnyWait]:
+    """Spins until a future that do not end when it is done."""
+    if UNTIL_ASKS_FUTURE.holds(context.unit.rclpy) is not True:
+        for block in late_spins(context.unit):
+            yield AnyWait(_set_up(context), block, kind_of(block))
 
 
 def _line_of(block: Blocking) -> object:
@@ -395,7 +416,8 @@ UNDECIDED = Rule(
     what='A callback, `main` or a thread waits for something, and the code that ends the wait '
     'could not be followed: the object was passed to code that is not in sight, or nothing in '
     'sight ends the wait. The same holds for an await of something that a thread completes: that '
-    'wakes no executor, and it is unknown when something else does. Whether the wait ends is '
+    'wakes no executor, and it is unknown when something else does; on Humble, of a spin until '
+    'a future that a thread completes. Whether the wait ends is '
     'open, and so is every claim that depends on it. There is one line for each wait, not for '
     'each callback that it may block. With `--strict` the exit status is 3.',
     why='A callback keeps its thread while it waits, and its mutually exclusive group. A clean '

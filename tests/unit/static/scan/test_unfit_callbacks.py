@@ -64,6 +64,8 @@ def scanned(makes: str) -> tuple[list[str], list[str]]:
         SUBSCRIPTION.format('self.three'),
         TIMER.format('self.one'),  # only a parameter of type TimerInfo gets something
         TIMER.format('self.two'),
+        TIMER.format('partial(self.two, 1)'),
+        SUBSCRIPTION.format('partial(self.one, 1)'),
     ],
 )
 def test_what_cannot_be_called_is_told_and_not_followed(makes: str) -> None:
@@ -78,10 +80,29 @@ def test_what_cannot_be_called_is_told_and_not_followed(makes: str) -> None:
         SERVICE.format('partial(self.three, 1)'),
         SUBSCRIPTION.format('self.one'),
         SUBSCRIPTION.format('self.two'),  # the second gets the info of the message
+        SUBSCRIPTION.format('partial(self.two, 1)'),
+        SUBSCRIPTION.format('partial(self.two, second=1)'),
+        SUBSCRIPTION.format('partial(self.three, *rclpy.bound())'),  # nobody knows how many
         TIMER.format('self.none'),
+        TIMER.format('partial(self.two, 1, 2)'),
         TIMER.format('self.timed'),  # it gets the times of the call, from Kilted on
         SUBSCRIPTION.format('lambda msg, more=2: self.line.recv(1)'),
     ],
 )
 def test_what_can_be_called_is_followed(makes: str) -> None:
     assert scanned(makes) == (['socket.recv'], [])
+
+
+@pytest.mark.parametrize(
+    ('callback', 'takes'),
+    [
+        ('self.two', True),
+        ('partial(self.three, 1)', True),
+        ('partial(partial(self.three, 1), third=2)', False),
+        ('partial(self.two, 1)', False),
+        ('partial(self.three, *rclpy.bound())', False),
+    ],
+)
+def test_what_needs_the_information_of_a_message_is_noted(callback: str, takes: bool) -> None:
+    (unit,) = scan_text(PROGRAM.format(SUBSCRIPTION.format(callback))).units
+    assert [each.takes_info for each in unit.callbacks] == [takes]

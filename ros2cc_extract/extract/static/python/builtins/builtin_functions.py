@@ -325,7 +325,7 @@ def _exit(machine: Machine, receiver: Value, call: Call) -> Value:
 def _partial(machine: Machine, receiver: Value, call: Call) -> Value:
     if not call.args:
         return machine.mystery('partial without a function', call.place, 'partial()')
-    return Partial(call.args[0], tuple(call.args[1:]), dict(call.keywords))
+    return Partial(call.args[0], tuple(call.args[1:]), dict(call.keywords), call.more)
 
 
 def _wraps(machine: Machine, receiver: Value, call: Call) -> Value:

@@ -343,16 +343,25 @@ class Super(Value):
 
 
 class Partial(Value):
-    """``functools.partial`` of something callable."""
+    """
+    ``functools.partial`` of something callable.
 
-    __slots__ = ('args', 'function', 'keywords')
+    :param more: why more may be bound than what is in sight.
+    """
+
+    __slots__ = ('args', 'function', 'keywords', 'more')
 
     def __init__(
-        self, function: Value, args: tuple[Value, ...], keywords: dict[str, Value]
+        self,
+        function: Value,
+        args: tuple[Value, ...],
+        keywords: dict[str, Value],
+        more: Unknown | None = None,
     ) -> None:
         self.function = function
         self.args = args
         self.keywords = keywords
+        self.more = more
 
 
 class Coroutine(Value):

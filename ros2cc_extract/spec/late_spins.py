@@ -1,0 +1,25 @@
+"""Spins until a future, before callbacks begin, that some releases do not end when it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.model import EntityKind, Spec
+
+_SPINS_UNTIL = 'spin_until_future_complete'
+
+
+def late_spins(spec: Spec) -> Iterator[Blocking]:
+    """
+    Give spins without a time-out until a future that a thread may complete.
+
+    Where no timer has the executor serve something again and again, nothing but that thread ends
+    them; of releases that ask for the future only after a callback they may then last for ever.
+    """
+    if any(each.entity is EntityKind.TIMER and not each.one_shot for each in spec.callbacks):
+        return
+    for block in spec.set_up:
+        is_until = block.call.rpartition('.')[2] == _SPINS_UNTIL
+        if is_until and block.foreign and block.seconds is None:
+            yield block
