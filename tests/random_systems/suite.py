@@ -20,6 +20,7 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -57,11 +58,11 @@ _PROMISES = (Promise.DEADLOCK, Promise.WAITS)
 CHUNK = 56
 
 
-def judged(folder: Path, seed: int) -> dict[str, Any]:
+def judged(folder: Path, seed: int, release: str = RELEASE) -> dict[str, Any]:
     """What is said of a system by its parts, and by one network of all."""
     path = write(seed, folder)
     os.chdir(folder)
-    found = _by_parts_and_said(path.relative_to(folder), folder)
+    found = _by_parts_and_said(path.relative_to(folder), folder, release)
     return {'seed': seed, **found, 'whole': by_one_network(_system(path.relative_to(folder)))}
 
 
@@ -75,8 +76,8 @@ def compared(folder: Path, seed: int) -> dict[str, Any]:
     return {'seed': seed, **found, 'whole': whole}
 
 
-def _by_parts_and_said(path: Path, folder: Path) -> dict[str, Any]:
-    outcome = check_paths(_job(path, folder), io.StringIO())
+def _by_parts_and_said(path: Path, folder: Path, release: str = RELEASE) -> dict[str, Any]:
+    outcome = check_paths(_job(path, folder, release), io.StringIO())
     return {'said': said_of(outcome), 'parts': by_parts(outcome)}
 
 
@@ -84,13 +85,13 @@ def _system(path: Path) -> System:
     return scan_launch_files([path], {}, io.StringIO(), cached=False).system
 
 
-def _job(path: Path, folder: Path) -> Job:
+def _job(path: Path, folder: Path, release: str) -> Job:
     return Job(
         paths=[path],
         config=Config(root=folder),
         policy=Policy(),
         options=OPTIONS,
-        assumptions=Assumptions(rclpy=RELEASE),
+        assumptions=Assumptions(rclpy=release),
         root=folder,
         cached=False,
         pool=Processes(1),
@@ -169,10 +170,10 @@ def run(record: Path, python: str, seeds: Sequence[int], first_domain: int) -> N
         print(f'{min(start + CHUNK, len(left))} of {len(left)} run', flush=True)
 
 
-def judge_all(record: Path, seeds: Sequence[int], jobs: int) -> None:
+def judge_all(record: Path, seeds: Sequence[int], jobs: int, release: str = RELEASE) -> None:
     """Judge what a record has, and write it beside."""
     run_ones = [row['seed'] for row in load(record) if row['seed'] in seeds]
-    _judge_left(_judge, run_ones, _judgements(record), jobs)
+    _judge_left(partial(_judge, release=release), run_ones, _judgements(record), jobs)
 
 
 def compare_all(record: Path, seeds: Sequence[int], jobs: int) -> None:
@@ -190,9 +191,9 @@ def _judge_left(
             add(record, [row])
 
 
-def _judge(seed: int) -> dict[str, Any]:
+def _judge(seed: int, release: str) -> dict[str, Any]:
     with tempfile.TemporaryDirectory(prefix='ros2cc-judged-') as folder:
-        return judged(Path(folder), seed)
+        return judged(Path(folder), seed, release)
 
 
 def _compare(seed: int) -> dict[str, Any]:
@@ -259,6 +260,7 @@ def main() -> int:
     parser.add_argument('--record', type=Path, required=True, help='what was run')
     parser.add_argument('--domain', type=int, default=1, help='the first ROS domain of these')
     parser.add_argument('--jobs', type=int, default=os.cpu_count() or 1, help='who judge at once')
+    parser.add_argument('--release', default=RELEASE, help='the rclpy of that interpreter')
     parser.add_argument('--unrun', action='store_true', help='compare only, without running any')
     args = parser.parse_args()
     seeds = range(args.first, args.first + args.systems)
@@ -270,7 +272,7 @@ def main() -> int:
         return 1 if wrong(rows, {}) else 0
     if args.python is not None:
         run(record, str(Path(args.python).absolute()), seeds, args.domain)
-    judge_all(record, seeds, args.jobs)
+    judge_all(record, seeds, args.jobs, args.release)
     print('\n'.join(told(record, seeds)))
     stuck = {row['seed']: row['stuck'] for row in load(record) if row['seed'] in seeds}
     rows = [row for row in load(_judgements(record)) if row['seed'] in stuck]

@@ -43,10 +43,11 @@ def main() -> None:
 def _start(folder: str, domain: int, kept: str) -> dict[int, float]:
     os.environ['ROS_DOMAIN_ID'] = str(domain)
     children: dict[int, float] = {}
-    for file in sorted(Path(folder).glob('*.py')):
+    files = sorted(Path(folder).glob('*.py'))
+    for file in files:
         child = os.fork()
         if child == 0:
-            run(str(file), f'{kept}/{Path(folder).parent.name}')
+            run(str(file), f'{kept}/{Path(folder).parent.name}', together=len(files))
             os._exit(0)
         children[child] = time.monotonic()
     return children

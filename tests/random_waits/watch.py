@@ -61,8 +61,13 @@ def wait_for_spin(latest: float) -> None:
         time.sleep(0.05)
 
 
-def watch(file: str, out: str) -> None:
-    """Look again and again; end the process when the time is up."""
+def watch(file: str, out: str, together: int = 1) -> None:
+    """
+    Look again and again; end the process when the time is up.
+
+    :param together: so many processes ask each other, and write to ``out``: none ends before the
+        last has looked, for what waits for one that has ended would stand still.
+    """
     since: dict[int, tuple[tuple[object, int, str], float]] = {}
     wait_for_spin(time.monotonic() + LONGEST_START_S)
     begun = time.monotonic()
@@ -78,6 +83,11 @@ def watch(file: str, out: str) -> None:
     stuck = sorted({one[2] for one, start in since.values() if now - start >= STILL_S})
     with Path(out).open('a', encoding='utf-8') as stream:
         stream.write(json.dumps({'file': file, 'stuck': stuck}) + '\n')
+    latest = time.monotonic() + LONGEST_START_S + LONGEST_S
+    while time.monotonic() < latest:
+        if len(Path(out).read_text(encoding='utf-8').splitlines()) >= together:
+            break
+        time.sleep(LOOKS_S)
     os._exit(0)
 
 
@@ -96,15 +106,17 @@ def disturb(file: str) -> None:
     sys.settrace(at_line)
 
 
-def run(file: str, out: str) -> None:
+def run(file: str, out: str, together: int = 1) -> None:
     """Be the child: the program in the main thread, the watch in another."""
-    threading.Thread(target=watch, args=(file, out), daemon=True).start()
+    threading.Thread(target=watch, args=(file, out, together), daemon=True).start()
     if os.environ.get('WATCH_DISTURBS'):
         disturb(file)
     with contextlib.suppress(BaseException), Path(os.devnull).open('w') as nothing:
         os.dup2(nothing.fileno(), 2)
         runpy.run_path(file, run_name='__main__')
-    time.sleep(LONGEST_START_S + LONGEST_S)  # the program has ended, with an exception or without
+    time.sleep(
+        2 * (LONGEST_START_S + LONGEST_S)
+    )  # the program has ended, with an exception or without
 
 
 def main() -> None:

@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from ros2cc_extract.extract.launch.language.actions import (
+    LIST_OF,
     Constant,
     FromFile,
+    Given,
+    Listed,
     ParameterSource,
     StartNode,
     StartProcess,
@@ -18,6 +21,7 @@ from ros2cc_extract.extract.launch.language.context import Context, Value
 from ros2cc_extract.extract.launch.language.evaluation import Evaluator
 from ros2cc_extract.extract.launch.language.substitutions import Expression
 from ros2cc_extract.extract.launch.parameter_files import parameters_in, read_value
+from ros2cc_extract.extract.launch.typed_values import typed
 from ros2cc_extract.extract.launch.workspace.packages import Packages
 from ros2cc_extract.source_locations import Place, Unknown, shown_name
 from ros2cc_extract.spec.system.launched import Launched, SetParameter
@@ -121,14 +125,23 @@ class ProcessFacts:
             if isinstance(name, Unknown):
                 open_facts.append(('parameters', name))
                 continue
-            value: object
-            if isinstance(source.value, Constant):
-                value = source.value.value
-            else:
-                text = self._evaluator.value(source.value)
-                is_done = isinstance(text, Unknown) or source.is_text
-                value = text if is_done else read_value(str(text))
-            yield SetParameter(name=name, value=value, source=source.place)
+            yield SetParameter(name=name, value=self._given(source), source=source.place)
+
+    def _given(self, source: Given) -> object:
+        if isinstance(source.value, Constant):
+            return source.value.value
+        if not isinstance(source.value, Listed):
+            text = self._evaluator.value(source.value)
+            return text if isinstance(text, Unknown) else typed(text, source.kind)
+        of_one = source.kind.removeprefix(LIST_OF)
+        values: list[object] = []
+        for item in source.value.items:
+            text = self._evaluator.value(item)
+            value = text if isinstance(text, Unknown) else typed(text, of_one)
+            if isinstance(value, Unknown):
+                return value
+            values.append(value)
+        return tuple(values)
 
     def _from_file(self, path: Value, open_facts: Open) -> Iterator[SetParameter]:
         if isinstance(path, Unknown):

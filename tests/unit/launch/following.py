@@ -20,7 +20,9 @@ from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import *
 from launch_ros.actions import *
 from launch_ros.descriptions import ComposableNode
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 def generate_launch_description():
 """

@@ -73,6 +73,36 @@ from tests.unit.launch.following import followed, lines, package
             ['node p e name=bot_0', 'node p e name=bot_1'],
         ),
         (
+            'def more(context, ld):\n'
+            "        who = LaunchConfiguration('who').perform(context)\n"
+            "        ld.add_action(Node(package='p', executable=who))\n"
+            '        ld.add_action(OpaqueFunction(function=lambda context: ld.add_action(\n'
+            "            Node(package='p', executable='last'))))\n"
+            "    ld = LaunchDescription([DeclareLaunchArgument('who', default_value='bot')])\n"
+            '    ld.add_action(OpaqueFunction(function=more, args=[ld]))\n'
+            "    ld.add_action(Node(package='p', executable='first'))\n"
+            '    return ld',
+            ['node p first', 'node p bot', 'node p last'],
+        ),
+        (
+            'def more(context):\n'
+            "        if os.environ.get('SIM'):\n"
+            "            ld.add_action(Node(package='p', executable='sim'))\n"
+            '    ld = LaunchDescription([OpaqueFunction(function=more)])\n'
+            '    return ld',
+            ['node p sim perhaps'],
+        ),
+        (
+            'def more(context):\n'
+            '        who = perform_substitutions(context,\n'
+            "            normalize_to_list_of_substitutions(LaunchConfiguration('who')))\n"
+            "        both = perform_substitutions(context, ['/', LaunchConfiguration('who')])\n"
+            "        return [Node(package='p', executable=who, remappings=[('a', both + '/b')])]\n"
+            "    return LaunchDescription([DeclareLaunchArgument('who', default_value='left'),\n"
+            '        OpaqueFunction(function=more)])',
+            ['node p left a:=/left/b'],
+        ),
+        (
             "first = Node(package='p', executable='e')\n"
             '    return LaunchDescription([first, TimerAction(period=2.0, actions=[\n'
             "            Node(package='p', executable='late')]),\n"
@@ -146,7 +176,7 @@ def test_what_cannot_be_followed_is_named(tmp_path: Path) -> None:
     assert [each.message for each in found.noticed] == [
         "not followed: launch argument 'needed' has no default: give needed:=VALUE",
         'not followed: included launch file: package elsewhere is not in sight '
-        '(robot/launch/a.launch.py:16:13)',
+        '(robot/launch/a.launch.py:18:13)',
     ]
 
 

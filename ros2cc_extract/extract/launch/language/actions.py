@@ -13,6 +13,9 @@ from ros2cc_extract.extract.launch.language.substitutions import Expression
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
+LIST_OF = 'list_of_'
+"""Before the type of its items, the type of a list."""
+
 
 @dataclass(frozen=True)
 class Condition:
@@ -34,17 +37,25 @@ class Constant:
 
 
 @dataclass(frozen=True)
+class Listed:
+    """A value of a parameter that is a list of texts, each with its own substitutions."""
+
+    items: tuple[Expression, ...]
+
+
+@dataclass(frozen=True)
 class Given:
     """
     One parameter; ``value`` as it is written, or as a text that YAML reads.
 
-    :param is_text: it stays a text, whatever it looks like.
+    :param kind: the type that the launch file gives it, as XML names it: ``int``, ``float``,
+        ``bool``, ``str``, and these after ``list_of_``. Without one, YAML tells.
     """
 
     name: Expression
-    value: Constant | Expression
+    value: Constant | Listed | Expression
     place: Place
-    is_text: bool = False
+    kind: str = ''
 
 
 @dataclass(frozen=True)

@@ -16,15 +16,23 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.yaml.bounds import UnboundedYamlError, composed_alone
 
 _DEEPEST = 60
+_TEXT = 'tag:yaml.org,2002:str'
 
 
 @dataclass
 class Element:
-    """One element: its name, its attributes as texts, and what stands below it."""
+    """
+    One element: its name, its attributes as texts, and what stands below it.
+
+    :param lists: of a YAML file: the attributes that are lists, item by item.
+    :param texts: of a YAML file: the attributes that YAML takes for texts, as all in quotes.
+    """
 
     name: str
     place: Place
     attributes: dict[str, str] = field(default_factory=dict)
+    lists: dict[str, list[str]] = field(default_factory=dict)
+    texts: set[str] = field(default_factory=set)
     children: list[Element] = field(default_factory=list)
 
     def all(self, *names: str) -> list[Element]:
@@ -101,12 +109,17 @@ def _add(
     """One key of a mapping: an attribute, children, or several children of one name."""
     if isinstance(value, yaml.ScalarNode):
         element.attributes[name] = str(value.value)
+        if value.tag == _TEXT:
+            element.texts.add(name)
     elif name == 'children' and isinstance(value, yaml.SequenceNode):
         element.children += _listed(value, shown, depth)
     elif isinstance(value, yaml.SequenceNode) and all(
         isinstance(each, yaml.ScalarNode) for each in value.value
     ):
-        element.attributes[name] = ' '.join(str(each.value) for each in value.value)
+        element.lists[name] = [str(each.value) for each in value.value]
+        element.attributes[name] = ' '.join(element.lists[name])
+        if all(each.tag == _TEXT for each in value.value):
+            element.texts.add(name)
     elif isinstance(value, yaml.SequenceNode):
         for each in value.value:
             element.children.append(_element(name, each, each, shown, depth + 1))

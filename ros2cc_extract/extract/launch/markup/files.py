@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ros2cc_extract.extract.launch.language.actions import (
+    LIST_OF,
     Action,
     ChangeState,
     Condition,
@@ -20,6 +21,7 @@ from ros2cc_extract.extract.launch.language.actions import (
     Given,
     Group,
     Include,
+    Listed,
     ParameterSource,
     PushNamespace,
     PushParameters,
@@ -38,6 +40,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.launched import TIMER
 
 _MOST_BYTES = 1_000_000
+_SUBSTITUTION = '$('
 _HARMLESS = frozenset(
     """
     log log_info set_env unset_env append_env reset_env shutdown reset
@@ -131,9 +134,28 @@ def _parameters(elements: Iterable[Element], prefix: Expression) -> list[Paramet
         if nested:
             found += _parameters(nested, (*name, Text('.')))
         else:
-            is_text = element.attributes.get('type') == 'str'
-            found.append(Given(name, _required(element, 'value'), element.place, is_text))
+            found.append(Given(name, _value(element), element.place, _kind(element)))
     return found
+
+
+def _value(element: Element) -> Listed | Expression:
+    """A value, or a list: one of YAML, or a text that ``value-sep`` divides."""
+    separator = element.attributes.get('value-sep')
+    items = element.lists.get('value')
+    if items is None and separator:
+        items = element.attributes.get('value', '').split(separator)
+    if items is None:
+        return _required(element, 'value')
+    return Listed(tuple(parsed(item, element.place) for item in items))
+
+
+def _kind(element: Element) -> str:
+    """The type that is written, or that of a text in quotes; what substitutions give is read."""
+    items = element.lists.get('value')
+    written = [element.attributes.get('value', '')] if items is None else items
+    is_text = 'value' in element.texts and not any(_SUBSTITUTION in each for each in written)
+    of_yaml = ('str' if items is None else f'{LIST_OF}str') if is_text else ''
+    return element.attributes.get('type', of_yaml)
 
 
 def _declare(element: Element) -> Action:

@@ -60,6 +60,7 @@ _AT_THE_END = 'OnShutdown'
 _ROS_ARGUMENTS = Const('--ros-args')
 Maker = Callable[[Call], Action]
 Follow = Callable[[Value, Call], Callable[[object], Sequence[Action]]]
+Bounded = Callable[[Callable[[], None], Place], list[Action]]
 
 
 class Actions:
@@ -67,11 +68,13 @@ class Actions:
     Reads the actions of one followed file.
 
     :param follow: makes what follows the function of an ``OpaqueFunction``.
+    :param bounded: does what the file asks for, and gives what it could not do.
     """
 
-    def __init__(self, machine: Machine, follow: Follow) -> None:
+    def __init__(self, machine: Machine, follow: Follow, bounded: Bounded) -> None:
         self._values = Values(machine)
         self._follow = follow
+        self._bounded = bounded
         self._makers: dict[str, Maker] = {
             **{name: self._node_of(kind) for name, kind in _NODES.items()},
             'ExecuteProcess': self._process,
@@ -103,9 +106,39 @@ class Actions:
         state = made(value)
         if state is not None and state.kind == DESCRIPTION and isinstance(value, Instance):
             first = self.of_list(state.call.argument(0, 'initial_entities'), place)  # type: ignore[union-attr]
-            added = value.slots.get(ADDED)
-            return [*first, *self.of_list(added if isinstance(added, Value) else None, place)]
+            return [*first, *self._added(value, 0, place)]
         return self.of_list(value, place)
+
+    def _added(self, description: Instance, known: int, place: Place) -> list[Action]:
+        """
+        What was added behind the first ``known``, and then what is added on the way.
+
+        launch goes through the list of the description itself: what a function of its actions adds
+        to it still has its turn.
+        """
+        items, rest = self._items_added(description, place)
+        found = [action for item in items[known:] for action in self._of_item(item, place)]
+        if rest is not None:
+            return [*found, Unfollowed(place=rest.at or place, why=rest)]
+        begin = len(items)
+
+        def follow(_context: object) -> Sequence[Action]:
+            more: list[Action] = []
+
+            def look() -> None:
+                items, rest = self._items_added(description, place)
+                if len(items) > begin or rest is not None:
+                    more.extend(self._added(description, begin, place))
+
+            return self._bounded(look, place) or more
+
+        return [*found, Computed(place=place, function=follow)]
+
+    def _items_added(
+        self, description: Instance, place: Place
+    ) -> tuple[list[Value], Unknown | None]:
+        added = description.slots.get(ADDED)
+        return self._values.items(added if isinstance(added, Value) else None, place)
 
     def _doubtful(self, value: Value, place: Place) -> list[Action]:
         why = Unknown('it depends on a branch that is open', place)

@@ -82,7 +82,7 @@ class PythonFile:
         self._machine = _LaunchInterpreter(project, model, World())
         self._machine.world.is_program = True
         self._values = Values(self._machine)
-        self._actions = Actions(self._machine, self._follow)
+        self._actions = Actions(self._machine, self._follow, self._bounded)
 
     def actions(self) -> Sequence[Action]:
         """What the file does."""
@@ -125,9 +125,8 @@ class PythonFile:
             machine.store.reset()
         return []
 
-    def _performed(self, substitution: Instance) -> Value:
+    def _performed(self, substitution: Value, place: Place) -> Value:
         """``perform(context)``: known where the function of an ``OpaqueFunction`` is followed."""
-        place = substitution.place
         value = self._evaluator.value(self._values.expression(substitution, place))
         if isinstance(value, Unknown):
             return Mystery(Unknown(value.reason, value.at or place), 'perform(context)')

@@ -62,7 +62,8 @@ CLASSES = frozenset(
     """.split()  # noqa: SIM905
 )
 CONTEXT = 'LaunchContext'
-Perform = Callable[[Instance], Value]
+Perform = Callable[[Value, Place], Value]
+Configurations = Callable[[Instance], Value]
 ShareOf = Callable[[str], Path | None]
 
 
@@ -113,9 +114,28 @@ def _performer(perform: Perform) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         """``substitution.perform(context)``, where the configurations are known."""
         assert isinstance(receiver, Instance)
-        return perform(receiver)
+        return perform(receiver, call.place)
 
     return handler
+
+
+def _perform_all(perform: Perform) -> Handler:
+    def handler(machine: Machine, receiver: Value, call: Call) -> Value:
+        """``perform_substitutions(context, substitutions)``: what they give, one after another."""
+        given = call.argument(1, 'subs', 'substitutions')
+        if given is None:
+            return machine.mystery('substitutions that could not be followed', call.place)
+        return perform(given, call.place)
+
+    return handler
+
+
+def _normalized(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``normalize_to_list_of_substitutions``: the same, in a list."""
+    given = call.argument(0, 'subst')
+    if isinstance(given, Sequence):
+        return given
+    return NONE if given is None else Sequence((given,), 'list')
 
 
 def _entities(machine: Machine, receiver: Instance, place: Place) -> Value:
@@ -145,7 +165,9 @@ class _LaunchModel(LibraryModel):
         return f'{PREFIX}{last}' if is_known else name
 
 
-def launch_model(share_of: ShareOf, perform: Perform, configurations: Perform) -> LibraryModel:
+def launch_model(
+    share_of: ShareOf, perform: Perform, configurations: Configurations
+) -> LibraryModel:
     """
     What is known of launch, beside Python itself.
 
@@ -170,7 +192,7 @@ def launch_model(share_of: ShareOf, perform: Perform, configurations: Perform) -
         properties={'launch_configurations': lambda machine, owner, place: configurations(owner)},
         methods={
             'perform_substitution': lambda machine, receiver, call: (
-                perform(call.args[0])
+                perform(call.args[0], call.place)
                 if call.args and isinstance(call.args[0], Instance)
                 else machine.mystery('a substitution that could not be followed', call.place)
             )
@@ -185,6 +207,11 @@ def launch_model(share_of: ShareOf, perform: Perform, configurations: Perform) -
         'ament_index_python.get_package_share_directory': share,
         'ament_index_python.packages.get_package_share_path': share,
         'ament_index_python.get_package_share_path': share,
+        **{
+            f'launch.utilities.{module}perform_substitutions': _perform_all(perform)
+            for module in ('', 'perform_substitutions_impl.')
+        },
+        'launch.utilities.normalize_to_list_of_substitutions': _normalized,
         'os.path.join': paths.join,
         'pathlib.Path': paths.join,
         'os.path.dirname': paths.changed(os.path.dirname),

@@ -9,6 +9,7 @@ from ros2cc_extract.extract.launch.language.actions import (
     Constant,
     FromFile,
     Given,
+    Listed,
     ParameterSource,
 )
 from ros2cc_extract.extract.launch.language.substitutions import (
@@ -58,6 +59,7 @@ _CONDITIONS = {
     'LaunchConfigurationNotEquals': 'differs',
 }
 _STEPS_OF_ONE = 2
+_BUILTINS = 'builtins.'
 _SCALARS = (str, int, float, bool)
 
 
@@ -74,13 +76,20 @@ def why_open(value: Value, place: Place) -> Unknown:
     return Unknown('it depends on a branch or is computed at run time', place)
 
 
-def _is_text(value: Value) -> bool:
-    """Whether ``ParameterValue(…, value_type=str)`` keeps what is evaluated from being read."""
+def _kind(value: Value) -> str:
+    """The type that ``ParameterValue(…, value_type=…)`` gives to what is evaluated."""
     state = made(value)
     if state is None or state.call is None or state.kind != 'ParameterValue':
-        return False
+        return ''
     kind = state.call.argument(1, 'value_type')
-    return isinstance(kind, Native) and kind.name == 'builtins.str'
+    return kind.name.removeprefix(_BUILTINS) if isinstance(kind, Native) else ''
+
+
+def _of_one_type(values: list[object]) -> tuple[object, ...]:
+    """launch_ros makes doubles of whole numbers beside doubles."""
+    if {type(value) for value in values} == {int, float}:
+        return tuple(map(float, values))  # type: ignore[arg-type]
+    return tuple(values)
 
 
 class Values:
@@ -237,14 +246,20 @@ class Values:
                 yield from self._entries(entry, (*name, Text('.')), place)
             else:
                 given = self.constant_or_text(entry, place)
-                yield Given(name, given, place, _is_text(entry))
+                yield Given(name, given, place, _kind(entry))
 
-    def constant_or_text(self, value: Value, place: Place) -> Constant | Expression:
+    def constant_or_text(self, value: Value, place: Place) -> Constant | Listed | Expression:
         """A constant with its type; a substitution is a text that YAML reads."""
+        state = made(value)
+        if state is not None and state.call is not None and state.kind == 'ParameterValue':
+            inner = state.call.argument(0, 'value')
+            return self.constant_or_text(inner or NONE, place)
         if isinstance(value, Const):
             return Constant(value.value)
         if isinstance(value, Sequence) and value.rest is None:
             plain = [item.value for item in value.items if isinstance(item, Const)]
             if len(plain) == len(value.items):
-                return Constant(tuple(plain))
+                return Constant(_of_one_type(plain))
+            if plain == [] and all(isinstance(item, Sequence) for item in value.items):
+                return Listed(tuple(self.expression(item, place) for item in value.items))
         return self.expression(value, place)

@@ -13,8 +13,6 @@ from ros2cc_extract.spec.system.model import Process, System, SystemNode
 from ros2cc_extract.spec.system.parameter_types import type_set
 from ros2cc_extract.spec.system.parameters import are_all_known, set_for
 
-_YAML = ('.yaml', '.yml')
-
 
 def find(system: System) -> Iterator[Hit]:
     for process in system.processes:
@@ -24,15 +22,8 @@ def find(system: System) -> Iterator[Hit]:
             values = set_for(process.launched, node)
             for declared in node.declared:
                 given = values.get(declared.name)
-                if given is not None and not _may_be_text(given, process):
+                if given is not None:
                     yield from _hit(declared, given, node, process)
-
-
-def _may_be_text(given: SetParameter, process: Process) -> bool:
-    """Whether quotes that are not in sight, in a YAML launch file, may make it a text."""
-    file = process.launched.source.file
-    is_written_there = given.source is not None and given.source.file == file
-    return is_written_there and file.endswith(_YAML) and not isinstance(given.value, str)
 
 
 def _hit(
