@@ -127,7 +127,6 @@ REPRODUCED = [
         ('ends __on_change_state', 'begins report'),
     ),
     Bug('c1_timer_starves_timer', {'watch': 'read_camera'}, ('begins report',) * 3),
-    Bug('c2_slower_than_its_period', {'watch': ''}, ('.*alive',) * 3),
     Bug(
         'd1_await_in_own_group',
         {'watch': 'on_open', 'serve': 'lock', 'call': 'open'},
