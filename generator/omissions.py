@@ -14,7 +14,7 @@ from ros2cc_extract.spec.model import Callback, Spec
 
 def left_out_of_models(callback: Callback, spec: Spec) -> tuple[str, ...]:
     """
-    Say what may hold a callback for ever, or let others run inside it, and is in no model.
+    Say what may hold a callback forever, or let others run inside it, and is in no model.
 
     A service that nobody in the unit offers may be absent; so may whoever sets an event, or
     makes a future done, that could not be followed. And a run that had not ended when it was

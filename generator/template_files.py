@@ -60,7 +60,7 @@ _COMPACT = Sources(
     automata=(_GROUP, 'paper/compact/thread.xml.j2', 'paper/compact/executor.xml.j2'),
 )
 
-# Without a bound a callback may change its readiness for ever while nothing else moves.
+# Without a bound a callback may change its readiness forever while nothing else moves.
 _COMPACT_FOR_EVER = replace(
     _COMPACT, automata=('paper/compact/callback.xml.j2', *_COMPACT.automata)
 )

@@ -39,7 +39,7 @@ class UnitCallback:
     :param waits: what it waits for while it runs, in order.
     :param server: place of the service that answers a client of the unit.
     :param is_groupless: it is in no group; the model has a reentrant one for it.
-    :param left_out: what may hold it for ever and is not in the model, in words.
+    :param left_out: what may hold it forever and is not in the model, in words.
     :param unexplained: that of ``left_out`` which a run has shown, and no published model has.
     :param is_entered: others may run inside it where the model does not show it.
     :param is_one_shot: it arrives no more than once.

@@ -246,7 +246,7 @@ def actors_of(spec: Spec) -> Iterator[Actor]:
 
 
 def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
-    """What may hold a callback for ever, or let others run inside it, and is in no model."""
+    """What may hold a callback forever, or let others run inside it, and is in no model."""
     yield from (block for block, spin in nested_spins(callback, spec) if is_open(spin))
     others = {other.name: other for other in spec.callbacks if other.name != callback.name}
     for block in callback.blocking:

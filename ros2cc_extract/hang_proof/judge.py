@@ -1,5 +1,5 @@
 """
-Asks the model whether anything can end what waits for ever by the wait-for graph.
+Asks the model whether anything can end what waits forever by the wait-for graph.
 
 The snapshot is a set of states of the unit's model: each callback that waits has begun, has asked
 or waits for its signal, and neither answer nor signal is there. A watcher in the model marks what

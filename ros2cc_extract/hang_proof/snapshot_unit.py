@@ -1,9 +1,9 @@
 """
 From a look at a hanging process to a unit of the model: one executor and what waits there.
 
-The unit has the callbacks that wait for ever by the wait-for graph, each with the wait in which it
+The unit has the callbacks that wait forever by the wait-for graph, each with the wait in which it
 stands, and all callbacks that may end one of these waits. Others are left out: a callback that
-neither waits nor ends a wait holds nobody up for ever, so a run with it is one without it. What
+neither waits nor ends a wait holds nobody up forever, so a run with it is one without it. What
 may end a wait is taken too wide, as in the graph.
 """
 
@@ -48,7 +48,7 @@ class UnprovableError(Exception):
 @dataclass(frozen=True)
 class StandingRun:
     """
-    What waits for ever: runs of one callback in one wait.
+    What waits forever: runs of one callback in one wait.
 
     :param callback: place of the callback in the unit.
     :param client: place of the client whose answer is awaited; ``None`` where a signal is.
@@ -65,7 +65,7 @@ class StandingRun:
 @dataclass(frozen=True)
 class SnapshotUnit:
     """
-    :param standing: all that waits for ever, as the snapshot has it.
+    :param standing: all that waits forever, as the snapshot has it.
     :param arrivals: how often data arrives for a callback, where that is more than once: for each
         run that stands, and for one more that may end a wait of the others.
     """
@@ -77,7 +77,7 @@ class SnapshotUnit:
 
 def unit_of(explanation: Explanation) -> SnapshotUnit:
     """
-    Make the unit of what waits for ever.
+    Make the unit of what waits forever.
 
     :raises UnprovableError: where no unit can say it.
     """

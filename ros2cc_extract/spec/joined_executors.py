@@ -183,7 +183,7 @@ def _kept_by(doer: Callback | Activity) -> set[object]:
 
 
 def without_idle(spec: Spec) -> Spec:
-    """Whoever neither waits nor is waited for comes to its end, and takes nothing for ever."""
+    """Whoever neither waits nor is waited for comes to its end, and takes nothing forever."""
     needed = {
         name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
     }

@@ -15,7 +15,7 @@ def late_spins(spec: Spec) -> Iterator[Blocking]:
     Give spins without a time-out until a future that a thread may complete.
 
     Where no timer has the executor serve something again and again, nothing but that thread ends
-    them; of releases that ask for the future only after a callback they may then last for ever.
+    them; of releases that ask for the future only after a callback they may then last forever.
     """
     if any(each.entity is EntityKind.TIMER and not each.one_shot for each in spec.callbacks):
         return

@@ -57,12 +57,12 @@ class Sweep:
 
     @property
     def asks_for_progress(self) -> bool:
-        """Whether any callback waits, and the profile asks whether it may wait for ever."""
+        """Whether any callback waits, and the profile asks whether it may wait forever."""
         return any(r.family == PROGRESS for v in self.verifications for r in v.results)
 
     def least_threads(self) -> int | None:
         """
-        Give the smallest thread count from which on nobody waits for ever.
+        Give the smallest thread count from which on nobody waits forever.
 
         Of the counts that were asked, with every arrival bound; ``None`` if none of them will
         do, or if the profile does not ask.

@@ -1,4 +1,4 @@
-"""B1: waits for ever when the button is pressed; the wait stands two helpers away. Mended."""
+"""B1: waits forever when the button is pressed; the wait stands two helpers away. Mended."""
 
 import rclpy
 from rclpy.node import Node

@@ -4,7 +4,7 @@ Run many small programs with rclpy at once, each in a fork of one process that h
 Used as ``python forked.py DOMAIN,DOMAIN…`` with a JSON list of programs, see ``Run``, on stdin;
 writes one JSON object, name to lines of output, to stdout. A program says ``asks`` before it does
 what is to be seen. Programs do not meet: at any time each is alone in its domain, and it is alone
-in its name space for ever.
+in its name space forever.
 """
 
 from __future__ import annotations

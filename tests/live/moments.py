@@ -3,7 +3,7 @@ What ``why`` says at random moments of random programs that do not hang: never a
 
 ``python -m tests.live.moments PYTHON COUNT`` looks at the programs of ``tests/conformance``, which
 run one after the other in one process. Each first look is put to the model too, as if all that
-waits for an answer or a rate did so for ever. Some coroutines do; what the model proves still
+waits for an answer or a rate did so forever. Some coroutines do; what the model proves still
 stands in the second look.
 """
 

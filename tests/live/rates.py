@@ -27,7 +27,7 @@ Member = tuple[str, str, float, float]
 
 
 def run(members: Sequence[Member], threads: int = 4) -> None:
-    """Serve ``members``, created in this order, for ever."""
+    """Serve ``members``, created in this order, forever."""
     rclpy.init()
     node = rclpy.create_node('rated')
     group = MutuallyExclusiveCallbackGroup()

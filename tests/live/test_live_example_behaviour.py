@@ -9,7 +9,7 @@ from child import Child
 from conftest import EXAMPLES
 
 Start = Callable[..., Child]
-# An answer takes milliseconds; what has none by then is taken to have none for ever.
+# An answer takes milliseconds; what has none by then is taken to have none forever.
 BLOCKED_S = 1.0
 
 

@@ -23,7 +23,7 @@ SEEDS = [*range(10_000, 10_020), *(pytest.param(n, marks=LONG) for n in range(10
 
 @dataclass(frozen=True)
 class Graph:
-    """States by number, their successors, and where a path may stay or end for ever."""
+    """States by number, their successors, and where a path may stay or end forever."""
 
     semantics: Semantics
     states: list[State]

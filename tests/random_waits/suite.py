@@ -50,7 +50,7 @@ _OF_VERDICT = {
 
 
 def judge(text: str) -> dict[str, str]:
-    """For each function of a program whether the model lets it wait for ever."""
+    """For each function of a program whether the model lets it wait forever."""
     judged: dict[str, str] = {}
     options = replace(OPTIONS, limits=_limits())
     for unit in (alone(unit, text) for unit in scan_text(text).units):

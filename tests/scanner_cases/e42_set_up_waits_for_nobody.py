@@ -1,5 +1,5 @@
 """E42: the set-up waits for what nobody ends, or callbacks that nobody serves meanwhile."""
-# live: no, it waits for ever
+# live: no, it waits forever
 
 import queue
 import signal

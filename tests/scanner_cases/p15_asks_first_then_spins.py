@@ -1,4 +1,4 @@
-"""P15: an answer first, then for ever: one unit, the spin that lasts."""
+"""P15: an answer first, then forever: one unit, the spin that lasts."""
 
 import rclpy
 from rclpy.executors import MultiThreadedExecutor

@@ -12,7 +12,7 @@ import yaml
 
 HERE = Path(__file__).parent
 TABLE = HERE / 'table.yaml'
-# Where something stands for ever, and where it is broken off.
+# Where something stands forever, and where it is broken off.
 WAITS, BREAKS = 'waits here', 'breaks here'
 DISTRIBUTIONS = ('jazzy', 'kilted')
 # Between what is observed on one run and on another.

@@ -1,4 +1,4 @@
-"""Main ends after the shutdown, but a thread that is no daemon waits for ever."""
+"""Main ends after the shutdown, but a thread that is no daemon waits forever."""
 
 import threading
 

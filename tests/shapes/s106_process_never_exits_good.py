@@ -1,4 +1,4 @@
-"""Main ends after the shutdown, but a thread that is no daemon waits for ever. Mended."""
+"""Main ends after the shutdown, but a thread that is no daemon waits forever. Mended."""
 
 import threading
 

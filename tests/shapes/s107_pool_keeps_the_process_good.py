@@ -1,4 +1,4 @@
-"""Main ends after the shutdown, but a pool's task takes from a queue for ever. Mended."""
+"""Main ends after the shutdown, but a pool's task takes from a queue forever. Mended."""
 
 import queue
 from concurrent.futures import ThreadPoolExecutor

@@ -2,7 +2,7 @@
 Maximal paths that stay inside a predicate: lassos, dead ends, and states where time diverges.
 
 Works on state numbers alone. A path counts when it runs round a cycle, ends in a deadlock, or
-stays for ever where time may diverge (UPPAAL documentation, page "Semantics of the requirement
+stays forever where time may diverge (UPPAAL documentation, page "Semantics of the requirement
 specification language"). Under weak fairness a cycle counts only if every process is disabled
 or moves somewhere on it, and idling never counts while a move is enabled.
 """

@@ -103,9 +103,9 @@ class Run:
     """
     A replayed path from the initial state.
 
-    :param cycle_start: index of the step from which the rest is repeated for ever; the last step
+    :param cycle_start: index of the step from which the rest is repeated forever; the last step
         leads back to the state before that step.
-    :param ends: ``deadlock`` or ``idle`` (time passes for ever) on maximal paths without cycle.
+    :param ends: ``deadlock`` or ``idle`` (time passes forever) on maximal paths without cycle.
     """
 
     initial: StateView

@@ -1,5 +1,5 @@
 """
-Structural starvation: can others keep a callback from running for ever, however fair threads are?
+Structural starvation: can others keep a callback from running forever, however fair threads are?
 
 Asked callback by callback, of a slice of the unit. Whoever starves in a slice starves in the
 unit: there the others may just get no data. And the slice holds the rivals that matter

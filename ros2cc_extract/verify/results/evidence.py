@@ -64,12 +64,12 @@ class Evidence:
     A run that shows why a verdict is as it is.
 
     :param start: location of every process before the first moment.
-    :param cycle_from: number of the moment from which the run repeats for ever.
+    :param cycle_from: number of the moment from which the run repeats forever.
     :param ends: how a run without a cycle ends for good (``deadlock``, ``idle``), if it does.
     :param left_out: how many moments are not among ``moments``, since they have no part in it.
     :param closing: what the run ends in, in a sentence.
     :param steps: every step that was taken, also those without words, in the same form.
-    :param cycle_step: number of the step from which the run repeats for ever.
+    :param cycle_step: number of the step from which the run repeats forever.
     :param origin: the run that was told, step by step; it stays behind when evidence is pickled,
         as it holds the whole model.
     """

@@ -1,7 +1,7 @@
 """
 How busy those are that a callback has to wait for: starvation told by periods and durations.
 
-The models know no times: they say whether somebody *may* be kept from running for ever. Here the
+The models know no times: they say whether somebody *may* be kept from running forever. Here the
 rates decide. Source of the rules: measured on rclpy 7.1.6 and 9.1.2 (docs/profile-rclpy.md,
 *Times*): on several threads an exclusive group starts over from its first member after each
 end, so a member gets what those served before it leave; one thread serves all in turns.

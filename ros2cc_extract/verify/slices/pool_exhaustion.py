@@ -2,7 +2,7 @@
 Refutes claims of a unit whose callbacks may take all threads while they wait.
 
 Then nothing shows that a free thread comes, so no claim about ends is proven by slices. But a run
-in which some of them take all threads for ever is a run of the unit. It is looked for over
+in which some of them take all threads forever is a run of the unit. It is looked for over
 waypoints: one after the other gets data, runs and waits.
 """
 
@@ -145,7 +145,7 @@ def _starving(
     """
     What the run of a crowd means for the unit.
 
-    All threads are taken for ever: whatever arrives afterwards for anybody else starves.
+    All threads are taken forever: whatever arrives afterwards for anybody else starves.
     """
     taken = next((r for (family, *_), r in part.results.items() if family is _POOL), None)
     if taken is None or taken.verdict is not Verdict.NOT_SATISFIED:

@@ -87,7 +87,7 @@ class Slicer:
 
     def _with_all_that_wait(self, query: Query) -> Names | None:
         """
-        Add whoever waits: nothing else keeps a thread, a group or the executor for ever.
+        Add whoever waits: nothing else keeps a thread, a group or the executor forever.
 
         Not where a callback that waits for nobody may end a wait: any that runs ends a
         ``spin_once``, and wakes a coroutine whose future a thread of the user has made done.
@@ -126,7 +126,7 @@ class Slicer:
 
     def holders_from(self, name: str) -> Names:
         """
-        Name who may hold the group of ``name`` for ever before it starts.
+        Name who may hold the group of ``name`` forever before it starts.
 
         A run of its own that waits keeps it from being started again: not where it runs once.
         """

@@ -1,4 +1,4 @@
-"""Says tick for ever; once it has ticked, none of its files may grow any more."""
+"""Says tick forever; once it has ticked, none of its files may grow any more."""
 
 import resource
 

@@ -1,4 +1,4 @@
-"""A callback shuts rclpy down; threads of the program live on, one of them for ever."""
+"""A callback shuts rclpy down; threads of the program live on, one of them forever."""
 
 import contextlib
 import threading

@@ -1,4 +1,4 @@
-"""A callback awaits what nobody sets, but not for ever."""
+"""A callback awaits what nobody sets, but not forever."""
 
 import asyncio
 

@@ -1,4 +1,4 @@
-"""``A<>``, ``E[]`` and leads-to: cycles, dead ends, and time that passes for ever."""
+"""``A<>``, ``E[]`` and leads-to: cycles, dead ends, and time that passes forever."""
 
 from __future__ import annotations
 

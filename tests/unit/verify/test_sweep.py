@@ -1,4 +1,4 @@
-"""From how many threads on nobody waits for ever."""
+"""From how many threads on nobody waits forever."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@ Lets one callback at a time go on, from one point of control to the next.
 
 Points are the begin of a callback, and the instructions that the plan names: waits, locks, and
 accesses of shared data. Who comes to one is held until it is chosen. Who is on its way and
-stands still, because it really waits, is no longer waited for; so nobody is held for ever, and
+stands still, because it really waits, is no longer waited for; so nobody is held forever, and
 what only the schedule keeps back is never taken for a hang.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its

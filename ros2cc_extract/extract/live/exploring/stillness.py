@@ -1,5 +1,5 @@
 """
-Which threads stand still: they really wait, and whoever waits for them would wait for ever.
+Which threads stand still: they really wait, and whoever waits for them would wait forever.
 
 Runs inside the user's process: the standard library only.
 """

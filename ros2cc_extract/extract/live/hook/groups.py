@@ -9,7 +9,7 @@ The clock is read after a group was asked whether a callback may begin, and befo
 an end: so runs in one exclusive group never overlap by the clock, as they do not in the group.
 
 A callback that a Ctrl-C or the end of rclpy has taken off has not come to its end: it stood
-where it was, for all that is known for ever, and no end is told of it.
+where it was, for all that is known forever, and no end is told of it.
 """
 
 from __future__ import annotations

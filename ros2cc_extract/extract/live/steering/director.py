@@ -27,7 +27,7 @@ class Director:
     """
     Knows which points are reached.
 
-    Nothing is held for ever: after the time of the plan everything is let go, and it is written
+    Nothing is held forever: after the time of the plan everything is let go, and it is written
     which point was not reached.
     """
 

@@ -220,7 +220,7 @@ def _at_once(world: RosWorld, one: Spin, other: Spin) -> bool:
 
 
 def _is_final(spin: Spin, node: Instance, spins: list[Spin]) -> bool:
-    """Whether ``spin`` serves ``node`` in the end: a spin for ever, later ones first."""
+    """Whether ``spin`` serves ``node`` in the end: a spin forever, later ones first."""
     rivals = [
         other
         for other in spins

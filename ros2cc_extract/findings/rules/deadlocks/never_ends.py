@@ -1,4 +1,4 @@
-"""CC109: the model knows a run in which somebody waits for ever, and no other rule says why."""
+"""CC109: the model knows a run in which somebody waits forever, and no other rule says why."""
 
 from __future__ import annotations
 

@@ -285,7 +285,7 @@ def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
 
 def _unwoken(context: Context) -> Iterator[AnyWait]:
     """
-    Awaits that a thread ends, and that last for ever in the model, which knows no other wake-up.
+    Awaits that a thread ends, and that last forever in the model, which knows no other wake-up.
 
     Whether somebody calls ``wake``, or else something comes, the specification does not say.
     """
@@ -303,7 +303,7 @@ def _is_by_thread(block: Blocking) -> bool:
 
 
 def _not_proven(context: Context) -> Iterator[AnyWait]:
-    """Waits that last for ever in the model of a unit of which not all facts are known."""
+    """Waits that last forever in the model of a unit of which not all facts are known."""
     if open_facts(context):
         yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
 

@@ -44,7 +44,7 @@ class ActivityState(Doer):
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
     :param ends_first: the set-up waits for its end before it spins again.
-    :param serves: it spins an executor; for ever where it ``is_executor``.
+    :param serves: it spins an executor; forever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param turns: equal for those that have one thread between them.
     :param pool: whose threads run it.
@@ -123,7 +123,7 @@ class Over:
 
 @dataclass(frozen=True, eq=False)
 class TimedJoin:
-    """The program has waited for a thread, but not for ever; ``over`` is what had ended then."""
+    """The program has waited for a thread, but not forever; ``over`` is what had ended then."""
 
     thread: Instance
     path: Path

@@ -159,7 +159,7 @@ def note_over(world: ConcurrentWorld, what: Value | None) -> None:
 
 
 def note_timed_join(world: ConcurrentWorld, thread: Value) -> None:
-    """The program has waited for the end of ``thread``, but not for ever."""
+    """The program has waited for the end of ``thread``, but not forever."""
     if isinstance(thread, Instance):
         over = tuple(one for one in world.over if is_behind(one.path, world.path))
         world.timed_joins.append(TimedJoin(thread, world.path, over))

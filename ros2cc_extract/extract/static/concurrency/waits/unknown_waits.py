@@ -78,7 +78,7 @@ def _alone(tree: ast.Module) -> frozenset[int]:
 
 
 def _has_no_end(call: Call) -> bool:
-    """``socket.poll(-1)`` waits for ever (pyzmq, ``Socket.poll``); other ``poll`` may not wait."""
+    """``socket.poll(-1)`` waits forever (pyzmq, ``Socket.poll``); other ``poll`` may not wait."""
     limit = call.keywords.get('timeout', call.args[0] if call.args else None)
     is_number = isinstance(limit, Const) and isinstance(limit.value, int)
     return is_number and limit.value < 0  # type: ignore[union-attr]

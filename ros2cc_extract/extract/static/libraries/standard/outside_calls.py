@@ -3,7 +3,7 @@ Calls that wait for what is outside of the program: processes, sockets, ports, p
 
 Sources: CPython 3.12, ``subprocess.py``, ``socket``, ``select``, ``urllib/request.py``; pyserial
 3.5, ``serial/serialutil.py``; requests 2.32, ``api.py``; OpenCV 4, ``waitKey`` (a delay of zero or
-less means for ever) and ``videoio`` (a read takes as long as a frame, and gives up after 10 s by
+less means forever) and ``videoio`` (a read takes as long as a frame, and gives up after 10 s by
 ``cap_v4l.cpp``, after 30 s by ``cap_ffmpeg_impl.hpp``); librealsense 2, ``pyrealsense2``
 (``wait_for_frames`` gives up after 5 s).
 """
@@ -92,7 +92,7 @@ def _is_told_so(call: Call) -> bool:
 
 
 def _socket(machine: ConcurrentMachine, call: Call, limit: Value | None) -> Value:
-    """A new socket waits for ever; one that is connected so keeps the time-out of that."""
+    """A new socket waits forever; one that is connected so keeps the time-out of that."""
     made = Instance(Name(_SOCKET), call.place)
     if limit is not None:
         machine.store.write(made, _LIMIT, limit)

@@ -1,4 +1,4 @@
-"""Events that nobody sets: their ``is_set`` gives ``False`` for ever."""
+"""Events that nobody sets: their ``is_set`` gives ``False`` forever."""
 
 from __future__ import annotations
 

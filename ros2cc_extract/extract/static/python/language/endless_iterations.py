@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import Library
 
 _ENDLESS = {'itertools.count': 2, 'itertools.repeat': 1}
-"""What gives items for ever, with at most so many arguments."""
+"""What gives items forever, with at most so many arguments."""
 
 
 def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> ast.While | None:

@@ -103,7 +103,7 @@ def _waits_for_itself(end: End, doer: EntityState, world: RosWorld) -> bool:
 
 
 def _leaves_nothing(end: End, doer: EntityState, world: RosWorld) -> bool:
-    """Whether the node ends in its own callback, and its executor, spun for ever, had no other."""
+    """Whether the node ends in its own callback, and its executor, spun forever, had no other."""
     executor = executor_of(doer.node)
     spins = _spins_of(executor, world)
     if executor is None or end.what is not doer.node or not spins:

@@ -33,7 +33,7 @@ Serving = Callable[[OutsideWait], Sequence[Instance]]
 
 def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
     """
-    Tell of each thread that waits for ever when the program has spun, once.
+    Tell of each thread that waits forever when the program has spun, once.
 
     :param spun_beside: gives the nodes that threads still spin at a wait of ``main``.
     """
@@ -81,7 +81,7 @@ def _is_waited_for(state: ActivityState, world: RosWorld) -> bool:
 
 def _is_chain(state: ActivityState, world: RosWorld) -> bool:
     """
-    Whether it is a timer thread that arms itself for ever, rclpy or no rclpy.
+    Whether it is a timer thread that arms itself forever, rclpy or no rclpy.
 
     ``Timer.cancel`` sets an event that is asked for once, before the function (CPython 3.12,
     ``threading.py``); and a publisher raises when rclpy is shut down, which ends the chain.

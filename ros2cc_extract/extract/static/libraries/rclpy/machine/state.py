@@ -293,7 +293,7 @@ class End:
     :param behind: the last wait of ``doer`` before it, see ``EffectLog.behind``.
     :param locks: held at that place.
     :param over: what the program has ended by then.
-    :param is_limited: it waits for the callbacks that run, but not for ever.
+    :param is_limited: it waits for the callbacks that run, but not forever.
     """
 
     kind: str

@@ -57,7 +57,7 @@ def _blocking(name: str, position: int | None) -> Handler:
 
 def note_presence(machine: RosMachine, name: str, receiver: Value, call: Call) -> None:
     """
-    A service or a server is waited for, which may be absent for ever.
+    A service or a server is waited for, which may be absent forever.
 
     In a callback a loop that asks again after each time-out has none.
     """
