@@ -12,6 +12,12 @@ from ros2cc_extract.confirm import processes
 from ros2cc_extract.errors import InputError
 
 
+@pytest.fixture(autouse=True)
+def _alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No live test on this machine holds the domains of these tests."""
+    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path))
+
+
 def test_only_the_domains_that_are_named_are_used(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(processes.DOMAINS_VARIABLE, '61-62')
     with processes._domain() as first, processes._domain() as second:
@@ -31,7 +37,6 @@ def test_what_names_no_domains_is_refused(text: str, monkeypatch: pytest.MonkeyP
 def lock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The file of the only domain."""
     monkeypatch.setenv(processes.DOMAINS_VARIABLE, '61-61')
-    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path))
     return tmp_path / f'ros2cc-confirm-{os.getuid()}-61.lock'
 
 
