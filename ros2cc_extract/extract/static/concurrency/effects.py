@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits
 from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Looked
 from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind, note_once
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import (
@@ -39,6 +40,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     Library,
     Module,
+    Mystery,
     Native,
     Scope,
     Value,
@@ -66,7 +68,11 @@ class Effects(Waits):
         """
         if self.world.effects is None and kind is AccessKind.WRITE:
             self._note_other_write(owner, name, place)
-        if self.world.effects is None or not isinstance(owner, (Instance, Class)):
+        if self.world.effects is None:
+            return
+        if self.world.effects.looked is not None:
+            self._note_look(self.world.effects.looked, owner, name, place)
+        if not isinstance(owner, (Instance, Class)):
             return
         if self.world.activity is not None and isinstance(owner, Instance):
             touch(self.world.activity, owner)
@@ -83,6 +89,17 @@ class Effects(Waits):
             self.world.effects.own.append(shown)
         elif not is_own:
             self._note_access(shown, kind, place, attribute)
+
+    def _note_look(self, looked: Looked, owner: Value, name: str, place: Place) -> None:
+        """A test of a loop asks for an attribute, perhaps of what others may change."""
+        if isinstance(owner, Mystery) and owner.unknown in self.world.outside_objects:
+            looked.outside.append(owner.unknown)
+        elif isinstance(owner, Instance) and isinstance(owner.cls, Class):
+            looked.holders.append((owner, name))
+        elif isinstance(owner, Instance) and isinstance(owner.cls, Library):
+            found = self.attribute(owner, name, place)
+            if isinstance(found, Mystery):
+                looked.outside.append(found.unknown)
 
     def _seen_at(self, home: collection_aliases.Home) -> str:
         """Who touches a collection touches what held it first."""

@@ -67,6 +67,27 @@ _HARMLESS = (
 """Helpers of the ROS libraries that take a node and add nothing its executor would serve."""
 
 
+_DATA = (
+    'builtins.',
+    'collections.',
+    'copy.',
+    'datetime.',
+    'json.',
+    'math.',
+    'numpy.',
+    'pathlib.',
+    're.',
+    'rclpy.duration.',
+    'rclpy.qos.',
+    'rclpy.time.',
+    'types.',
+    'yaml.',
+)
+"""What makes nothing but data; nobody else has a hand in that."""
+
+_INTERFACES = frozenset({'msg', 'srv', 'action'})
+
+
 _CALLS = frozenset({'call', 'call_async', 'wait_for_service', 'publish', 'declare_parameter'})
 
 
@@ -79,6 +100,10 @@ class _RosModel(LibraryModel):
         if not name.startswith('rclpy.') or last not in _BY_LAST_NAME:
             return name
         return self._by_last_name.get(last, name)
+
+    def makes_data(self, name: str) -> bool:
+        """Messages, requests and goals are data, as rosidl generates their classes."""
+        return super().makes_data(name) or not _INTERFACES.isdisjoint(name.split('.'))
 
     @cached_property
     def _by_last_name(self) -> dict[str, str]:
@@ -119,4 +144,5 @@ def model() -> LibraryModel:
         making=MAKING,
         acting=MAKING_NAMES | _CALLS,
         waits=WAITS,
+        data=_DATA,
     )

@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
 from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
+    is_handed_over,
     uncalled_wakers,
 )
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
@@ -271,8 +272,9 @@ class UnitWaits(DataWriters):
             writers = _unsure(writers)
         elif signals <= 0:
             writers = (Waker(by=TIME, source=raw.source),)
-        why = data_is_written_elsewhere(self._world, on.names)
         by = [writer for writer, _ in self._writes(on)]
+        why = data_is_written_elsewhere(self._world, on.names)
+        why = why or (None if by else is_handed_over(self._world, on.holders))
         unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
         unsure = unsure or why_unspun(self._world, by, doer, self._name)
         if unsure is not None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency.machine.counters import Rise
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
-from ros2cc_extract.extract.static.python.values.values import Value
+from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
@@ -125,7 +125,7 @@ class DataRef(EntityRef):
     """
     Stands for plain data that a loop waits for somebody else to write.
 
-    :param names: what the test reads.
+    :param names: what the test reads; ``holders`` the objects and attributes where that is.
     :param before: what the loop's own callback has written before the loop, and where.
     :param sent: topics of messages that come before the loop; ``sent_by_now`` of all, with those
         of its rounds.
@@ -137,6 +137,7 @@ class DataRef(EntityRef):
     sent: frozenset[str] = frozenset()
     sent_by_now: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
+    holders: frozenset[tuple[Instance, str]] = frozenset()
     before: frozenset[tuple[str, Place | None]] = frozenset()
 
 

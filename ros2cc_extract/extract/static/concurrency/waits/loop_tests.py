@@ -16,8 +16,40 @@ LEAVES = (ast.Break, ast.Return, ast.Raise)
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 _NEUTRAL = frozenset(
-    ['ok', 'len', 'bool', 'any', 'all', 'isinstance', 'hasattr', 'getattr', 'set']
+    [
+        'ok',
+        'len',
+        'bool',
+        'any',
+        'all',
+        'isinstance',
+        'hasattr',
+        'getattr',
+        'set',
+        'frozenset',
+        'abs',
+        'min',
+        'max',
+        'sum',
+        'round',
+        'int',
+        'float',
+        'str',
+        'list',
+        'tuple',
+        'sorted',
+        'sqrt',
+        'hypot',
+        'fabs',
+        'dist',
+        'norm',
+        'isclose',
+        'isnan',
+        'isfinite',
+        'atan2',
+    ]
 )
+"""What says no more than its arguments: of Python, ``math`` and ``numpy``."""
 
 _CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
 
@@ -126,12 +158,16 @@ def only_sleeps(loop: ast.While, tests: list[ast.expr]) -> bool:
     return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
 
 
+def tells_time(node: ast.AST) -> bool:
+    """Whether a clock is asked."""
+    return any(isinstance(part, ast.Call) and name_of(part) in _CLOCKS for part in walk(node))
+
+
 def runs_out(test: ast.expr, loop: ast.While) -> bool:
     """Whether a clock is asked, or what each round of the loop changes."""
-    called = {name_of(part) for part in walk(test) if isinstance(part, ast.Call)}
     stored = {name for each in loop.body for part in walk(each) for name in names_assigned(part)}
     names = {part.id for part in walk(test) if isinstance(part, ast.Name)}
-    return not called.isdisjoint(_CLOCKS) or not names.isdisjoint(stored)
+    return tells_time(test) or not names.isdisjoint(stored)
 
 
 def asks_for_cancel(test: ast.expr) -> bool:

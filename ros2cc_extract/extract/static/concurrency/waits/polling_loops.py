@@ -16,18 +16,22 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Da
 from ros2cc_extract.extract.static.concurrency.waits import retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.counted_tests import rise_of
+from ros2cc_extract.extract.static.concurrency.waits.loop_ends import (
+    End,
+    Seen,
+    end_of,
+    only_passes_time,
+    seen_by,
+    tests_of_data,
+)
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
     asks_for_cancel,
     asks_for_service,
     asks_object,
     exit_tests,
-    is_neutral,
     leaves,
     name_of,
-    names_assigned,
-    names_grown,
     only_sleeps,
-    owners,
     runs_out,
 )
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
@@ -43,17 +47,14 @@ from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
+from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, Word, told_by
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
-    Bound,
-    Function,
     Heaped,
     Mystery,
     Value,
     choice,
-    options_of,
 )
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
@@ -67,6 +68,7 @@ from ros2cc_extract.spec.effects import (
 )
 
 POLL = POLLING_LOOP
+_FIRST_OF = 'it waits for the first of several'
 _OF_ROUNDS = retry_loops.RAISE_WHEN_OVER | {POLL, WORKING_LOOP, ANSWER_LOOP, 'busy wait'}
 
 
@@ -131,6 +133,8 @@ def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> 
             is_known, waited = True, _ASKED[part.func.attr]
             if part.func.attr in ('done', 'is_set'):
                 owner = machine.evaluate(part.func.value, frame)
+                if _others(machine, list(exit_tests(loop)), loop, frame):
+                    owner = machine.mystery(_FIRST_OF, frame.place(loop))
                 _note_busy(machine, loop, owner, None, frame)
             elif waited and machine.world.in_callback and _is_retried(part, frame):
                 owner = machine.evaluate(part.func.value, frame)
@@ -164,10 +168,19 @@ _ASKED = {
 """What tests ask by name, and what waits as a loop does that asks so until the answer is yes."""
 
 
+_WAITS_FOR = {Word.PUT: 'Queue.get', Word.GET: 'Queue.put'}
+"""Which wait lasts as long as a loop that asks again and again whether this was done."""
+
+
 def _note_busy(
-    machine: ConcurrentMachine, loop: ast.While, on: Value, seconds: Value | None, frame: Frame
+    machine: ConcurrentMachine,
+    loop: ast.While,
+    on: Value,
+    seconds: Value | None,
+    frame: Frame,
+    word: Word = Word.SET,
 ) -> None:
-    own = call_of_loop(loop, 'busy wait', machine.world.activity)
+    own = call_of_loop(loop, _WAITS_FOR.get(word, 'busy wait'), machine.world.activity)
     call = 'await' if _gives_back(machine, loop) else own
     machine.note_blocking(call, on, seconds, frame.place(loop))
 
@@ -187,20 +200,42 @@ def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told
     seconds = Mystery(why) if is_timed else None
     needed, any_of_them = _things(told.fails), _things(told.breaks)
     if told.is_either and any_of_them:
-        _note_busy(machine, loop, choice(any_of_them), seconds, frame)
-    elif needed or len(any_of_them) == 1:
-        for thing in needed or any_of_them:
-            _note_busy(machine, loop, thing, seconds, frame)
+        things = choice([thing for thing, _ in any_of_them])
+        _note_busy(machine, loop, things, seconds, frame)
+    elif needed or (len(any_of_them) == 1 and not _others(machine, tests, loop, frame)):
+        for thing, word in needed or any_of_them:
+            _note_busy(machine, loop, thing, seconds, frame, word)
     elif any_of_them:
-        first = machine.mystery('it waits for the first of several', place)
+        first = machine.mystery(_FIRST_OF, place)
         _note_busy(machine, loop, first, seconds, frame)
     return bool(any_of_them)
 
 
-def _things(facts: Facts) -> list[Value]:
+def _others(
+    machine: ConcurrentMachine, tests: list[ast.expr], loop: ast.While, frame: Frame
+) -> bool:
+    """Whether data or code that is not followed may end the loop too, beside an object."""
+    parts = [part for test in tests for part in _operands(test)]
+    plain = [part for part in parts if not _tells(machine, part, frame)]
+    shown = tests_of_data(machine, plain, loop, frame)
+    seen = seen_by(machine, shown, frame)
+    is_open = bool(seen.names) or seen.outside is not None
+    return is_open or end_of(machine, shown, loop, frame) is not End.DATA
+
+
+def _operands(test: ast.expr) -> list[ast.expr]:
+    """What is joined by ``and``, ``or`` and ``not``."""
+    if isinstance(test, ast.BoolOp):
+        return [part for each in test.values for part in _operands(each)]
+    return _operands(test.operand) if isinstance(test, ast.UnaryOp) else [test]
+
+
+def _things(facts: Facts) -> list[tuple[Value, Word]]:
     """In the order in which they were made."""
-    found = dict.fromkeys(thing for thing, _ in facts)
-    return sorted(found, key=lambda thing: thing.serial if isinstance(thing, Heaped) else 0)
+    found = dict(facts)
+    return sorted(
+        found.items(), key=lambda fact: fact[0].serial if isinstance(fact[0], Heaped) else 0
+    )
 
 
 def _ends_otherwise(
@@ -264,11 +299,12 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
             unknown = Unknown('nothing but the end of the program ends the loop', place)
             machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
         return
-    names = _read(machine, [test for test in tests if not asks_object(test)], frame)
+    asked_of_data = [test for test in tests if not asks_object(test)]
+    seen = seen_by(machine, tests_of_data(machine, asked_of_data, loop, frame), frame)
     written = {access.name for access in effects.writes[before.writes :]}
-    if names & (written | set(effects.own[before.own :])):
+    if seen.names & (written | set(effects.own[before.own :])):
         return
-    _note(machine, loop, frame, tests, names, sent_up_to(effects, before.order))
+    _note(machine, loop, frame, tests, seen, sent_up_to(effects, before.order))
 
 
 def mark_recursive(
@@ -305,12 +341,15 @@ def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> N
     if asks_object(loop.test) and not leaves(loop):
         calls = (part for part in ast.walk(loop.test) if isinstance(part, ast.Call))
         machine.world.asked_until.update(frame.place(call) for call in calls)
-    is_plain = is_idle(loop) and not asks_object(loop.test) and not leaves(loop)
-    if not is_plain or is_endless(loop) or _is_foreign(machine, loop.test, loop, frame):
+    is_plain = not asks_object(loop.test) and not leaves(loop)
+    if not is_plain or is_endless(loop) or not only_passes_time(loop, [loop.test]):
         return
-    names = _read(machine, [loop.test], frame)
-    if names and _holds(machine, loop.test, frame):
-        note_loop(machine.world, names, frame.place(loop.test))
+    tests = tests_of_data(machine, [loop.test], loop, frame)
+    if end_of(machine, tests, loop, frame) is not End.DATA:
+        return
+    seen = seen_by(machine, tests, frame)
+    if seen.names and seen.outside is None and _holds(machine, tests[0], frame):
+        note_loop(machine.world, set(seen.names), frame.place(loop.test))
 
 
 def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
@@ -326,20 +365,20 @@ def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) ->
     if things:
         is_timed = _ends_otherwise(machine, loop.test, loop, frame)
         why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None
-        for thing in things if spun else ():
+        for thing, _ in things if spun else ():
             machine.note_outside_wait('busy wait', thing, why, place, spun)
         return
-    is_foreign = _is_foreign(machine, loop.test, loop, frame)
-    names = _read(machine, [loop.test], frame)
-    if names:
-        is_foreign = is_foreign or not (only_waits(loop) or _leaves_to_others(world, loop, names))
+    tests = tests_of_data(machine, [loop.test], loop, frame)
+    seen = seen_by(machine, tests, frame)
+    if seen.names:
+        is_data = end_of(machine, tests, loop, frame) is End.DATA and seen.outside is None
+        is_data = is_data and (only_waits(loop) or _leaves_to_others(world, loop, seen.names))
         reason = Unknown('the loop also ends otherwise', place)
-        reference = DataRef(sorted(names)[0])
-        reference.names = frozenset(names)
-        machine.note_loop_on_data(POLL, reference, reason if is_foreign else None, place, spun)
+        reference = _reference(seen)
+        machine.note_loop_on_data(POLL, reference, None if is_data else reason, place, spun)
 
 
-def _leaves_to_others(world: ConcurrentWorld, loop: ast.While, names: set[str]) -> bool:
+def _leaves_to_others(world: ConcurrentWorld, loop: ast.While, names: frozenset[str]) -> bool:
     """Whether neither the loop nor what it calls by name stores what its test looks at."""
     attributes = {name.rpartition('.')[2] for name in names}
     stores = (
@@ -370,7 +409,7 @@ def _note_asked(
     """A condition is waited on only where the test of the loop has come out so."""
     for number in range(before.waits, len(effects.blocking)):
         block = effects.blocking[number]
-        if block.call == 'Condition.wait' and _read(machine, [loop.test], frame):
+        if block.call == 'Condition.wait' and seen_by(machine, [loop.test], frame).names:
             effects.blocking[number] = replace(block, conditional=True)
 
 
@@ -379,31 +418,39 @@ def _note(
     loop: ast.While,
     frame: Frame,
     tests: list[ast.expr],
-    names: set[str],
+    seen: Seen,
     sent: frozenset[str],
 ) -> None:
     place = frame.place(tests[0])
     call = call_of_loop(loop, POLL, machine.world.activity)
     call = 'await' if _gives_back(machine, loop) else call
-    ends_otherwise = any(_is_foreign(machine, test, loop, frame) for test in tests)
-    if names:
-        own = frozenset(
-            (access.name, access.source)
-            for access in (machine.world.effects or EffectLog()).writes
-        )
-        reference = DataRef(sorted(names)[0])
-        reference.names, reference.before = frozenset(names), own
-        reference.rise = rise_of(machine, tests, frame)
+    shown = tests_of_data(machine, tests, loop, frame)
+    end = end_of(machine, shown, loop, frame)
+    is_waiting = only_passes_time(loop, tests)
+    is_open = end is not End.ITSELF and (
+        seen.outside is not None or (end is End.UNKNOWN and is_waiting)
+    )
+    if seen.names and not is_open:
+        reference = _reference(seen)
+        effects = machine.world.effects or EffectLog()
+        reference.before = frozenset((access.name, access.source) for access in effects.writes)
+        reference.rise = rise_of(machine, shown, frame)
         reference.sent = sent
-        reference.sent_by_now = sent_by_now(machine.world.effects or EffectLog())
-        reason = Unknown('the loop also ends otherwise', place)
-        machine.note_loop_on_data(call, reference, reason if ends_otherwise else None, place)
-    elif (not ends_otherwise or only_sleeps(loop, tests)) and not any(
+        reference.sent_by_now = sent_by_now(effects)
+        reason = None if end is End.DATA else Unknown('the loop also ends otherwise', place)
+        machine.note_loop_on_data(call, reference, reason, place)
+    elif (is_open or end is End.DATA or only_sleeps(loop, tests)) and not any(
         asks_for_service(test) for test in tests
     ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
         machine.note_loop_on_data(call, unknown, None, place)
+
+
+def _reference(seen: Seen) -> DataRef:
+    reference = DataRef(min(seen.names))
+    reference.names, reference.holders = seen.names, seen.holders
+    return reference
 
 
 def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
@@ -426,52 +473,3 @@ def _is_told(
 def _is_pause(machine: ConcurrentMachine, call: str) -> bool:
     row = machine.model.waits.get(call)
     return call == 'Rate.sleep' or (row is not None and row.always == (TIME,))
-
-
-def _read(machine: ConcurrentMachine, tests: list[ast.expr], frame: Frame) -> set[str]:
-    """Names of the shared data that the tests read."""
-    world = machine.world
-    noted, world.effects = world.effects, EffectLog()
-    try:
-        for test in tests:
-            machine.evaluate(test, frame)
-        return {access.name for access in world.effects.reads}
-    finally:
-        world.effects = noted
-
-
-def _is_foreign(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> bool:
-    """Whether something else than shared data may turn out otherwise: a clock, a counter."""
-    parts = [part for each in loop.body for part in walk(each)]
-    assigned = {name for part in parts for name in names_assigned(part)}
-    grown = {name for part in parts for name in names_grown(part)} - owners(test)
-    for part in walk(test):
-        if isinstance(part, ast.Name) and part.id in assigned | grown:
-            return True
-        if isinstance(part, (ast.Call, ast.Await, ast.NamedExpr)) and not (
-            is_neutral(part) or _only_looks(machine, part, frame)
-        ):
-            return True
-    return False
-
-
-def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> bool:
-    """A call of functions of the program that ask nothing else than what they read."""
-    if not isinstance(part, ast.Call):
-        return False
-    world = machine.world
-    noted, world.effects = world.effects, EffectLog()
-    try:
-        called = options_of(machine.evaluate(part.func, frame))
-    finally:
-        world.effects = noted
-    functions = [each.function if isinstance(each, Bound) else each for each in called]
-    return bool(functions) and all(map(_asks_nobody, functions))
-
-
-def _asks_nobody(function: Value) -> bool:
-    if not isinstance(function, Function) or function.is_coroutine:
-        return False
-    asking = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
-    parts = walk(function.node)
-    return all(is_neutral(part) for part in parts if isinstance(part, asking))

@@ -11,6 +11,8 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.values.containers import Collection
+from ros2cc_extract.extract.static.python.values.values import Instance, Value, options_of
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
@@ -143,6 +145,16 @@ def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> 
         uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE}), None)
         for name in names
     )
+    return next((why for why in found if why is not None), None)
+
+
+def is_handed_over(
+    world: ConcurrentWorld, holders: frozenset[tuple[Instance, str]]
+) -> Unknown | None:
+    """Why code that is not followed may change a collection that attributes hold."""
+    held = (owner.slots.get(name) for owner, name in holders)
+    options = [option for each in held if isinstance(each, Value) for option in options_of(each)]
+    found = (world.handed_over.get(each) for each in options if isinstance(each, Collection))
     return next((why for why in found if why is not None), None)
 
 

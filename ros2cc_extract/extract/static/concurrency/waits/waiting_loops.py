@@ -55,11 +55,16 @@ def is_idle(loop: ast.While) -> bool:
 def passes_time(body: Sequence[ast.stmt]) -> bool:
     """True for statements that only sleep and log."""
     return all(
-        _called_name(part) in _PASTIMES
+        is_pastime(part)
         for statement in body
         for part in ast.walk(statement)
         if isinstance(part, (ast.Call, ast.Await))
     )
+
+
+def is_pastime(part: ast.expr) -> bool:
+    """True for a call that only sleeps or logs."""
+    return _called_name(part) in _PASTIMES
 
 
 def only_waits(loop: ast.While) -> bool:

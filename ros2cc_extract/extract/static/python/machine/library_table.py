@@ -90,6 +90,7 @@ class LibraryModel:
         cannot be followed, something is missing.
     :param acting: names in whose text more is done than to compute something.
     :param waits: what ends each wait, by its name, see ``wait_table.py``.
+    :param data: how names begin of what makes objects that change only as the program says.
     """
 
     def __init__(
@@ -100,10 +101,11 @@ class LibraryModel:
         making: tuple[str, ...] = (),
         acting: frozenset[str] = frozenset(),
         waits: Mapping[str, Any] = MappingProxyType({}),
+        data: tuple[str, ...] = (),
     ) -> None:
         self.table = merged(list(tables))
         self.harmless, self.making, self.acting = harmless, making, acting
-        self.waits = waits
+        self.waits, self._data = waits, data
         self.canonical: Callable[[str], str] = lru_cache(_KEPT)(self._canonical)
         """The one name under which a name stands in the tables."""
         self.with_bases: Callable[[str], tuple[str, ...]] = lru_cache(_KEPT)(self._with_bases)
@@ -118,6 +120,10 @@ class LibraryModel:
     def other_name(self, name: str) -> str:
         """The name in the tables of what stands in none under ``name``."""
         return name
+
+    def makes_data(self, name: str) -> bool:
+        """Whether what a function or class gives changes only as the program changes it."""
+        return name.startswith(self._data)
 
     def _with_bases(self, name: str) -> tuple[str, ...]:
         classes, found, waiting = self.table.classes, list[str](), [self.canonical(name)]

@@ -7,7 +7,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.values.values import Instance, Path
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Place
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Access, Act, Blocking
 
 Hold = tuple[str, int]
@@ -30,6 +30,19 @@ class Piece:
 
 
 @dataclass
+class Looked:
+    """
+    What a test of a loop looks at.
+
+    :param holders: objects of the program, and the attributes that were read.
+    :param outside: what belongs to code that is not followed, and may change by itself.
+    """
+
+    holders: list[tuple[Instance, str]] = field(default_factory=list)
+    outside: list[Unknown] = field(default_factory=list)
+
+
+@dataclass
 class EffectLog:
     """
     What one callback or activity does, in the order of its text.
@@ -49,6 +62,7 @@ class EffectLog:
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
+    :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
     blocking: list[Blocking] = field(default_factory=list)
@@ -70,6 +84,7 @@ class EffectLog:
     order: list[tuple[str, object]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
     woken: dict[int, int] = field(default_factory=dict)
+    looked: Looked | None = None
 
 
 def way_of(block: Blocking) -> object:

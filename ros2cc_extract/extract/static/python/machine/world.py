@@ -130,6 +130,9 @@ class World:
     :param plain: whether a function works on plain data alone, by the identity of its statement.
     :param plain_of: how many modules that was asked of.
     :param spent: the steps that such calls have taken, by the same, and under 0 of all.
+    :param outside_objects: the results of code that is not followed, but for plain data; these
+        objects may change by themselves.
+    :param handed_over: collections that such code was given.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.
     """
@@ -198,6 +201,8 @@ class World:
     plain: dict[int, bool] = field(default_factory=dict)
     plain_of: int = 0
     spent: Counter[int] = field(default_factory=Counter)
+    outside_objects: set[Unknown] = field(default_factory=set)
+    handed_over: dict[Value, Unknown] = field(default_factory=dict)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
     activity: Doer | None = None

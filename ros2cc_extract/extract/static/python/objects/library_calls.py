@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.python.machine.library_table import LibraryCl
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import reanalysis
 from ros2cc_extract.extract.static.python.objects.allocation_sites import made_before, remember
+from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
@@ -83,6 +84,8 @@ class LibraryCalls(Machine):
         why = Unknown(f'result of {name}, which is not scanned', call.place)
         result = Mystery(why, f'{name}(…)')
         result.is_plain = name in self.model.table.plain
+        if not result.is_plain and not self.model.makes_data(name):
+            self.world.outside_objects.add(why)
         return result
 
     def library_call(self, function: Value, call: Call) -> None:
@@ -95,10 +98,13 @@ class LibraryCalls(Machine):
         self._keep_escaped(call)
         if not name or is_standard(name):
             return
+        why = Unknown(f'it is handed to {name}, which is not scanned', call.place)
         for argument in (*call.args, *call.keywords.values()):
             for option in options_of(argument):
                 if isinstance(option, Instance) and isinstance(option.state, LibraryState):
                     option.state.note_passed(name, call.place)
+                elif isinstance(option, Collection) and not self.model.makes_data(name):
+                    self.world.handed_over.setdefault(option, why)
 
     def _keep_escaped(self, call: Call) -> None:
         """Functions that are handed to unknown code may be called by it, later."""

@@ -54,7 +54,7 @@ def settle(cls: Class, slots: dict[str, Value]) -> None:
         return
     if not any(base.startswith('enum.') for base in bases):
         return
-    number, owner = 0, f'{cls.module.name}.{cls.qualname}'
+    number, owner = 0, _name_of(cls)
     known: dict[Value, Value] = {}
     for name, text in _assigned(cls.node):
         value = slots.get(name, Const(None))
@@ -68,10 +68,13 @@ def settle(cls: Class, slots: dict[str, Value]) -> None:
 
 def made(cls: Class, call: Call) -> Value | None:
     """``State(1)``: the member that has this value, if that is known; ``None`` elsewhere."""
+    owner = _name_of(cls)
     members = [
         value
         for value in cls.slots.values()
-        if isinstance(value, Const) and isinstance(value.value, Member)
+        if isinstance(value, Const)
+        and isinstance(value.value, Member)
+        and value.value.owner == owner
     ]
     if not members:
         return None
@@ -79,6 +82,10 @@ def made(cls: Class, call: Call) -> Value | None:
     same = (each for each in members if given in (each, each.value.value))
     reason = f'a member of {cls.name}'
     return next(same, None) or Mystery(Unknown(reason, call.place), cls.name)
+
+
+def _name_of(cls: Class) -> str:
+    return f'{cls.module.name}.{cls.qualname}'
 
 
 def _libraries(cls: Class) -> frozenset[str]:

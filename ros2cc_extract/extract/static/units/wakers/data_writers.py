@@ -63,7 +63,9 @@ class DataWriters:
     def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
         """Who writes what a loop waits for, but for what its own callback did before."""
         for doer in self._doers:
-            for access in (doer.effects or EffectLog()).writes:
+            effects = doer.effects or EffectLog()
+            parts = (piece.access for piece in effects.pieces if piece.part)
+            for access in (*effects.writes, *parts):
                 if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 

@@ -1,0 +1,197 @@
+"""How a loop ends that waits: by data of the program, by itself, or nobody knows."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Sequence
+from enum import Enum, auto
+
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits.local_copies import copies_in, without_copies
+from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
+    is_neutral,
+    name_of,
+    names_assigned,
+    names_grown,
+    own_parts,
+    owners,
+    tells_time,
+)
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_pastime
+from ros2cc_extract.extract.static.program.text_queries import walk
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
+from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
+from ros2cc_extract.extract.static.python.values.containers import Collection
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Const,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Unknown
+
+_OF_TEXTS = frozenset(['strip', 'lower', 'upper', 'startswith', 'endswith', 'split'])
+_OF_COLLECTIONS = frozenset(
+    ['get', 'values', 'items', 'keys', 'count', 'index', 'copy', 'isdisjoint', 'issubset']
+)
+_ASKING = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
+
+
+class End(Enum):
+    """What makes a test come out otherwise."""
+
+    DATA = auto()
+    """Somebody writes what it reads, and nothing else does."""
+    ITSELF = auto()
+    """Time passes, or a round of the loop changes it."""
+    UNKNOWN = auto()
+    """It asks code that is not followed."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """
+    What tests look at.
+
+    :param names: of shared data.
+    :param holders: the objects and attributes where that is.
+    :param outside: why something of that may change though nobody in sight writes it.
+    """
+
+    names: frozenset[str]
+    holders: frozenset[tuple[Instance, str]]
+    outside: Unknown | None
+
+
+def seen_by(machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame) -> Seen:
+    """What the tests of a loop look at when they are asked now; nothing is noted."""
+    world = machine.world
+    noted, world.effects = world.effects, EffectLog(looked=Looked())
+    try:
+        for test in tests:
+            machine.evaluate(test, frame)
+        looked = world.effects.looked
+        assert looked is not None
+        names = frozenset(access.name for access in world.effects.reads)
+        return Seen(names, frozenset(looked.holders), next(iter(looked.outside), None))
+    finally:
+        world.effects = noted
+
+
+def tests_of_data(
+    machine: ConcurrentMachine, tests: Iterable[ast.expr], loop: ast.While, frame: Frame
+) -> list[ast.expr]:
+    """The tests of a loop, with the data itself for local copies that each round takes of it."""
+    copies = copies_in(loop)
+    return [without_copies(test, copies, lambda v: _looks(machine, v, frame)) for test in tests]
+
+
+def end_of(
+    machine: ConcurrentMachine, tests: Sequence[ast.expr], loop: ast.While, frame: Frame
+) -> End:
+    """What ends a loop that one of ``tests`` ends; what ends it by itself counts first."""
+    ends = [_end_of(machine, test, loop, frame) for test in tests]
+    if End.ITSELF in ends:
+        return End.ITSELF
+    return End.UNKNOWN if End.UNKNOWN in ends else End.DATA
+
+
+def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> End:
+    asked = [part for part in walk(test) if isinstance(part, _ASKING)]
+    asked = [part for part in asked if not (is_neutral(part) or _only_looks(machine, part, frame))]
+    changed = _changed_in(loop) - owners(test)
+    stored = [part.id for part in walk(test) if isinstance(part, ast.Name) and part.id in changed]
+    answers = [_answer(name, loop) for name in stored]
+    if any(answer is None for answer in answers):
+        return End.ITSELF
+    asked += [answer for answer in answers if answer is not None]
+    if any(_tells_time(machine, part, frame) for part in asked):
+        return End.ITSELF
+    return End.UNKNOWN if asked else End.DATA
+
+
+def _changed_in(loop: ast.While) -> set[str]:
+    parts = [part for each in loop.body for part in walk(each)]
+    assigned = {name for part in parts for name in names_assigned(part)}
+    return assigned | {name for part in parts for name in names_grown(part)}
+
+
+def _answer(name: str, loop: ast.While) -> ast.expr | None:
+    """What each round asks somebody for, if that is all that it stores under ``name``."""
+    value = copies_in(loop).get(name)
+    is_asked = any(isinstance(part, ast.Call) for part in walk(value)) if value else False
+    return value if is_asked else None
+
+
+def _tells_time(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> bool:
+    """Whether it asks a clock, perhaps in a function of the program."""
+    called = [each.func for each in walk(part) if isinstance(each, ast.Call)]
+    if tells_time(part):
+        return True
+    functions = [each for function in called for each in _functions(machine, function, frame)]
+    return any(
+        tells_time(text) for each in functions for text in reachable(machine.world, each.node)
+    )
+
+
+def _functions(machine: ConcurrentMachine, called: ast.expr, frame: Frame) -> list[Function]:
+    functions = (
+        each.function if isinstance(each, Bound) else each
+        for each in _evaluated(machine, called, frame)
+    )
+    return [each for each in functions if isinstance(each, Function)]
+
+
+def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple[Value, ...]:
+    world = machine.world
+    noted, world.effects = world.effects, EffectLog()
+    try:
+        return options_of(machine.evaluate(node, frame))
+    finally:
+        world.effects = noted
+
+
+def _looks(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> bool:
+    """Whether an expression may be computed once more, as nothing changes by it."""
+    asked = (part for part in walk(value) if isinstance(part, _ASKING))
+    return all(is_neutral(part) or _only_looks(machine, part, frame) for part in asked)
+
+
+def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> bool:
+    """A call that asks nothing else than data of the program."""
+    if not isinstance(part, ast.Call):
+        return False
+    if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_TEXTS:
+        return True
+    if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_COLLECTIONS:
+        return all(map(_is_data, _evaluated(machine, part.func.value, frame)))
+    called = _evaluated(machine, part.func, frame)
+    functions = [each.function if isinstance(each, Bound) else each for each in called]
+    return bool(functions) and all(map(_asks_nobody, functions))
+
+
+def _is_data(value: Value) -> bool:
+    return isinstance(value, (Collection, Const))
+
+
+def _asks_nobody(function: Value) -> bool:
+    if not isinstance(function, Function) or function.is_coroutine:
+        return False
+    return all(is_neutral(part) for part in walk(function.node) if isinstance(part, _ASKING))
+
+
+def only_passes_time(loop: ast.While, tests: Iterable[ast.expr]) -> bool:
+    """
+    Whether a loop does nothing but ask its tests and let time pass.
+
+    :param tests: those that end it, as they stand in the source.
+    """
+    asked = {id(part) for test in tests for part in walk(test)}
+    asked |= {id(part) for value in copies_in(loop).values() for part in walk(value)}
+    calls = [part for part in own_parts(loop.body) if isinstance(part, (ast.Call, ast.Await))]
+    others = [part for part in calls if id(part) not in asked]
+    return all(map(is_pastime, others)) and (bool(others) or not copies_in(loop))
