@@ -101,7 +101,7 @@ class UnitBuilder:
         ]
         self._note_open_ends()
         executor_name = self._taken.take(self._unit.executor_label)
-        executor = executor_of(self._unit, executor_name, threads, entry)
+        executor = executor_of(self._unit, executor_name, threads, entry, self._world)
         with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
         return Spec(
             name=name,

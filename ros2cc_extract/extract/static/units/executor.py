@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import field
 
 from ros2cc_extract.extract.static.concurrency.machine.state import SetUpWait
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     LOOP_KIND,
     ExecutorState,
+    RosWorld,
     Spin,
 )
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
 from ros2cc_extract.extract.static.python.values.values import Class, Instance
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
 
 ASSUMED_THREADS = 2
@@ -62,11 +65,14 @@ class Unit:
         return (self.executor.hint if self.executor and self.state else None) or 'executor'
 
 
-def executor_of(unit: Unit, name: str, threads: tuple[str, ...], entry: str | None) -> Executor:
+def executor_of(
+    unit: Unit, name: str, threads: tuple[str, ...], entry: str | None, world: RosWorld
+) -> Executor:
     """The executor of ``unit``, which ``entry`` starts if any does."""
     state, spin = unit.state, unit.spin
     if state is None or unit.executor is None:
-        why = _nested_spin(unit) or Unknown(NO_EXECUTOR, unit.nodes[0].place)
+        why = _nested_spin(unit) or _own_wait_set(world)
+        why = why or Unknown(NO_EXECUTOR, unit.nodes[0].place)
         return Executor(name=name, threads=threads, kind=why)
     unresolved = state.unknown or state.unresolved or state.threads_unresolved
     elsewhere = _spun_elsewhere(unit) if entry is None else None
@@ -95,6 +101,25 @@ def _nested_spin(unit: Unit) -> Unknown | None:
             how, place = node.state.nested
             return Unknown(f'only {how} inside a callback serves this node', place)
     return None
+
+
+def _own_wait_set(world: RosWorld) -> Unknown | None:
+    """
+    Why nobody knows what serves a node where the program waits for entities itself.
+
+    Source: rclpy 9.1.2, ``executors.py``, where an executor makes a ``WaitSet`` for each wait.
+    """
+    for tree, file in world.files:
+        for line, column in noted_on(tree, 'wait_sets', _wait_sets):
+            reason = 'the program has a WaitSet of its own; what it serves is not followed'
+            return Unknown(reason, Place(file, line, column))
+    return None
+
+
+def _wait_sets(tree: ast.Module) -> tuple[tuple[int, int], ...]:
+    calls = (part for part in walk(tree) if isinstance(part, ast.Call))
+    made = (call for call in calls if getattr(call.func, 'attr', '') == 'WaitSet')
+    return tuple((call.lineno, call.col_offset + 1) for call in made)
 
 
 def _spun_elsewhere(unit: Unit) -> Unknown | None:

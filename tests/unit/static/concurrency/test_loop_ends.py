@@ -193,6 +193,15 @@ def test_what_time_or_a_count_ends_ends_by_itself(loop: str) -> None:
     assert wait.seconds is not None
 
 
+def test_what_a_round_makes_shorter_is_no_wait() -> None:
+    loop = """
+    value = self.pose
+    while len(value) > 1 and value.endswith('/'):
+        value = value[:-1]
+    """
+    assert all(wait.escapes is None for wait in _waits("self.pose = 'a/'", 'pass', loop))
+
+
 def test_a_queue_that_is_asked_whether_it_is_empty_is_waited_for_as_by_get() -> None:
     (wait,) = _waits(
         'self.news = queue.Queue()', 'self.news.put(msg)', _while('self.news.empty()')

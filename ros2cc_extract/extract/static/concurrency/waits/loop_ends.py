@@ -103,7 +103,7 @@ def end_of(
 def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> End:
     asked = [part for part in walk(test) if isinstance(part, _ASKING)]
     asked = [part for part in asked if not (is_neutral(part) or _only_looks(machine, part, frame))]
-    changed = _changed_in(loop) - owners(test)
+    changed = _changed_in(loop, owners(test))
     stored = [part.id for part in walk(test) if isinstance(part, ast.Name) and part.id in changed]
     answers = [_answer(name, loop) for name in stored]
     if any(answer is None for answer in answers):
@@ -114,10 +114,11 @@ def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: 
     return End.UNKNOWN if asked else End.DATA
 
 
-def _changed_in(loop: ast.While) -> set[str]:
+def _changed_in(loop: ast.While, shared: set[str]) -> set[str]:
+    """Names that a round stores to, or of which it may change the object, unless it is shared."""
     parts = [part for each in loop.body for part in walk(each)]
     assigned = {name for part in parts for name in names_assigned(part)}
-    return assigned | {name for part in parts for name in names_grown(part)}
+    return assigned | ({name for part in parts for name in names_grown(part)} - shared)
 
 
 def _answer(name: str, loop: ast.While) -> ast.expr | None:

@@ -227,7 +227,14 @@ def _leaves(state: ActivityState) -> bool:
     function = target.function if isinstance(target, Bound) else target
     if not isinstance(function, Function):
         return True
-    return any(isinstance(part, (ast.Break, ast.Return)) for part in ast.walk(function.node))
+    return any(map(_is_way_out, ast.walk(function.node)))
+
+
+def _is_way_out(part: ast.AST) -> bool:
+    """A loop is left, or goes over ``iter(function, sentinel)`` and ends at the sentinel."""
+    if isinstance(part, ast.For) and isinstance(part.iter, ast.Call):
+        return getattr(part.iter.func, 'id', '') == 'iter' and len(part.iter.args) == 2
+    return isinstance(part, (ast.Break, ast.Return))
 
 
 _NOT_SPUN = 'and nothing spins the node whose callback would end that'
