@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.units.set_up_waits import told
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
 from ros2cc_extract.extract.static.units.waits import UnitWaits
+from ros2cc_extract.extract.static.units.working_loops import without_loops_for_good
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.identifiers import mend
@@ -323,23 +324,22 @@ class UnitBuilder:
         names |= {id(state): self._taken.take(facts_of(state).label) for state in states}
         waits = UnitWaits(self._world, names, (*entities, *states))
         doers = {names[id(doer)]: doer for doer in (*entities, *states)}
-        return (
-            tuple(
-                replace(callback, blocking=waits.of(entity), publishes=waits.messages_of(entity))
-                for callback, entity in zip(callbacks, entities, strict=True)
-            ),
-            tuple(
-                activity(
-                    state,
-                    names,
-                    waits,
-                    pieces_of(state, self._world),
-                    own_spins(state, self._world, self._nodes),
-                )
-                for state in states
-            ),
-            told(self._unit.set_up, self._world, waits, doers),
+        with_waits = tuple(
+            replace(callback, blocking=waits.of(entity), publishes=waits.messages_of(entity))
+            for callback, entity in zip(callbacks, entities, strict=True)
         )
+        activities = [
+            activity(
+                state,
+                names,
+                waits,
+                pieces_of(state, self._world),
+                own_spins(state, self._world, self._nodes),
+            )
+            for state in states
+        ]
+        set_up = told(self._unit.set_up, self._world, waits, doers)
+        return with_waits, without_loops_for_good(activities, with_waits), set_up
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
         places = [entity.place.file for entity in entities]

@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
+from ros2cc_extract.extract.static.units.wakers.endless_threads import never_comes, why_no_end
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
     why_wiped_out,
@@ -329,10 +330,11 @@ class UnitWaits(DataWriters):
             if barriers.is_in_vain(reference, visits, mine):
                 return [], self._why_open(mine, reference)
             mine = barriers.of_its_round(raw, doer, visits, mine)
-        found = [waker for waking in mine for waker in self._wakers(waking, reference, doer, raw)]
+        able = [waking for waking in mine if not never_comes(waking, doer)]
+        found = [waker for waking in able for waker in self._wakers(waking, reference, doer, raw)]
         unsure = uneven or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
-        unsure = unsure or why_no_thread(mine, doer, self._name)
+        unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
             found = list(_unsure(found))
         if not mine and reference.number in self._world.interruptible:
@@ -395,12 +397,9 @@ class UnitWaits(DataWriters):
 
     def _why_others(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
         """Why somebody may end the wait who is not known."""
-        given = self._world.given.get(reference.number)
-        if given is not None:
-            return given
-        early = why_open(mine, reference, self._world)
-        if early is not None:
-            return early
+        known = self._world.given.get(reference.number) or why_open(mine, reference, self._world)
+        if known is not None:
+            return known
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(

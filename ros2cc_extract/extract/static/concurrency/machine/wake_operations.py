@@ -13,9 +13,14 @@ from ros2cc_extract.source_locations import Place
 
 
 class EntityRef(str):
-    """Stands for an entity in a ``Blocking`` until the unit has given it a name."""
+    """
+    Stands for an entity in a ``Blocking`` until the unit has given it a name.
+
+    :param minds_nothing: a loop waits that does nothing which may raise when rclpy is shut down.
+    """
 
     number: int
+    minds_nothing = False
 
     @staticmethod
     def to_object(thing: object, text: str) -> EntityRef:

@@ -40,6 +40,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     call_of_loop,
     is_endless,
     is_idle,
+    minds_nothing,
     only_waits,
     spins,
 )
@@ -48,7 +49,7 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, Word, told_by
-from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
     Heaped,
@@ -57,7 +58,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
 )
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import (
     ANSWER_LOOP,
     ENDLESS_LOOP,
@@ -182,7 +183,11 @@ def _note_busy(
 ) -> None:
     own = call_of_loop(loop, _WAITS_FOR.get(word, 'busy wait'), machine.world.activity)
     call = 'await' if _gives_back(machine, loop) else own
+    effects = machine.world.effects
+    behind = effects.behind if effects is not None else None
     machine.note_blocking(call, on, seconds, frame.place(loop))
+    if effects is not None and call == WORKING_LOOP:
+        effects.behind = behind  # what its rounds do comes before its end
 
 
 def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
@@ -281,6 +286,7 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         _note_set_up(machine, loop, frame)
         _note_spinning(machine, loop, frame)
         return
+    _put_last(effects, before, frame.place(loop))
     _note_asked(machine, loop, effects, before, frame)
     _note_own_end(machine.world, loop, effects, before, frame)
     tests = list(exit_tests(loop))
@@ -319,6 +325,15 @@ def mark_recursive(
         is_here = place is not None and place.file == file and place.line in lines
         if is_here and block.seconds is None and block.call in _OF_ROUNDS:
             effects.blocking[number] = replace(block, recursive=True)
+
+
+def _put_last(effects: EffectLog, before: Mark, place: Place) -> None:
+    """The end of a loop in which a thread works comes behind what its rounds wait for."""
+    rounds = effects.blocking[before.waits :]
+    own = [each for each in rounds if each.call == WORKING_LOOP and each.source == place]
+    if own:
+        effects.blocking[before.waits :] = [each for each in rounds if each not in own] + own
+        effects.behind = way_of(own[-1])
 
 
 def _note_own_end(
@@ -437,6 +452,7 @@ def _note(
         reference.rise = rise_of(machine, shown, frame)
         reference.sent = sent
         reference.sent_by_now = sent_by_now(effects)
+        reference.minds_nothing = minds_nothing(loop)
         reason = None if end is End.DATA else Unknown('the loop also ends otherwise', place)
         machine.note_loop_on_data(call, reference, reason, place)
     elif (is_open or end is End.DATA or only_sleeps(loop, tests)) and not any(

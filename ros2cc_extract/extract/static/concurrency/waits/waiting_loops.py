@@ -76,10 +76,10 @@ def only_waits(loop: ast.While) -> bool:
 
 
 def minds_nothing(loop: ast.While) -> bool:
-    """Whether it is ``while True``, and does nothing that may raise when rclpy is shut down."""
+    """Whether it does nothing that may raise, or end it, when rclpy is shut down."""
     called = (_called_name(part) for part in ast.walk(loop) if isinstance(part, ast.Call))
     is_plain = not any(isinstance(part, (ast.Raise, ast.Await)) for part in ast.walk(loop))
-    return isinstance(loop.test, ast.Constant) and is_plain and _HARMLESS.issuperset(called)
+    return _called_name(loop.test) != 'ok' and is_plain and _HARMLESS.issuperset(called)
 
 
 def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> str:

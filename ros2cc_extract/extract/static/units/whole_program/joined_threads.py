@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     Over,
 )
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    DataRef,
     EntityRef,
     ResourceRef,
     Waking,
@@ -27,10 +28,13 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
     RATE,
     in_words,
 )
-from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import uncalled_wakers
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
+    data_is_written_elsewhere,
+    uncalled_wakers,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld, Spin
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -151,6 +155,9 @@ def why_for_ever(
     if asked is not None and wait.is_late:  # before the spin see ``unserved_threads``
         return None if any(asked.node is each for each in spun) else _NOT_SPUN
     resource = block.resource
+    if isinstance(resource, DataRef) and wait.is_late:
+        is_for_good = block.call == WORKING_LOOP and resource.minds_nothing
+        return _NEVER_CLEARED if is_for_good and not _is_written(resource, world) else None
     if not isinstance(resource, ResourceRef) or resource.asked:
         return None
     mine = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
@@ -164,6 +171,16 @@ def why_for_ever(
     if others and not _have_given(others, state, wait):
         return None
     return _NOT_SPUN if served else 'and the thread that would end that has ended'
+
+
+def _is_written(data: DataRef, world: RosWorld) -> bool:
+    """Whether anybody writes what the loop looks at, but for the set-up before."""
+    if data_is_written_elsewhere(world, data.names) is not None:
+        return True
+    if any(name in world.writes_beside for name in data.names):
+        return True
+    logs = [each.effects or EffectLog() for each in (*world.entities, *world.activities)]
+    return any(write.name in data.names for log in logs for write in log.writes)
 
 
 def _asked(block: Blocking, world: RosWorld) -> EntityState | None:
@@ -237,6 +254,7 @@ def _is_way_out(part: ast.AST) -> bool:
     return isinstance(part, (ast.Break, ast.Return))
 
 
+_NEVER_CLEARED = 'and nobody ever writes that'
 _NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
 

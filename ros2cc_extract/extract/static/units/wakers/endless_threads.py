@@ -1,0 +1,40 @@
+"""Threads in a loop that nothing ends, for whose end a callback or another thread waits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.model import ActivityKind
+
+
+def never_comes(waking: Waking, waiting: object) -> bool:
+    """Whether it is the end of a thread that never ends, whatever happens to rclpy."""
+    thread = _endless(waking, waiting)
+    return thread is not None and thread.endless is not None
+
+
+def why_no_end(wakings: Iterable[Waking], waiting: object) -> Unknown | None:
+    """Why a thread may not end for whoever waits for its end while the program runs."""
+    threads = (_endless(waking, waiting) for waking in wakings)
+    thread = next((each for each in threads if each is not None), None)
+    if thread is None:
+        return None
+    return Unknown(
+        'the loop of the thread ends only by an error or with the program', thread.place
+    )
+
+
+def _endless(waking: Waking, waiting: object) -> ActivityState | None:
+    """
+    The thread whose end it is, if that loops and others wait for it.
+
+    ``main`` waits so that the program goes on, and is told of where the program ends.
+    """
+    is_main = isinstance(waiting, ActivityState) and waiting.kind is ActivityKind.MAIN
+    by = waking.by
+    is_end = waking.word is Word.END and isinstance(by, ActivityState) and by is not waiting
+    return by if is_end and by.loops and not is_main else None  # type: ignore[union-attr, return-value]
