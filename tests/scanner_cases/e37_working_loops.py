@@ -49,12 +49,10 @@ if __name__ == '__main__':
 # unit press: SingleThreadedExecutor x1 rclpy.spin, main
 #   group press_default EXCLUSIVE default
 #   timer tick in press_default every 1
-#   activity thread work (Press.work) daemon
+#   activity thread work (Press.work) daemon loops
 #     blocks time.sleep 0.1 s @27
-#     blocks working loop on Press.running @25
 #     reads Press.running @25
-#   activity thread watch (Press.watch) daemon
-#     blocks working loop on stop @30
+#   activity thread watch (Press.watch) daemon loops
 #     blocks time.sleep 0.1 s @32
 #   activity thread wait (Press.wait) daemon
 #     blocks time.sleep 0.1 s @36

@@ -37,5 +37,4 @@ class TestProbe:
 # unit probe: serving=SingleThreadedExecutor x1 spin_once in thread
 #   group probe_default EXCLUSIVE default
 #   timer tick in probe_default every 1 when=later
-#   activity thread serve (TestProbe.serve) conditional daemon
-#     blocks working loop on over @32
+#   activity thread serve (TestProbe.serve) conditional daemon loops

@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
-from ros2cc_extract.extract.static.concurrency.waits import counted_tests, polling_loops
+from ros2cc_extract.extract.static.concurrency.waits.loops import counted_tests, polling_loops
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame

@@ -19,7 +19,8 @@ def without_loops_for_good(
     activities: Sequence[Activity], callbacks: Iterable[Callback]
 ) -> tuple[Activity, ...]:
     """``activities``, of which those that nobody waits for to get behind such a loop ``loops``."""
-    behind = list(_behind(block for each in (*callbacks, *activities) for block in each.blocking))
+    actors: list[Callback | Activity] = [*callbacks, *activities]
+    behind = list(_behind(block for each in actors for block in each.blocking))
     return tuple(_without_loop(each, behind) for each in activities)
 
 

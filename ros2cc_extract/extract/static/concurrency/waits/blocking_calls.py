@@ -33,7 +33,10 @@ from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
     SPIN_UNTIL,
     WaitRow,
 )
-from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
+    is_endless,
+    minds_nothing,
+)
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word

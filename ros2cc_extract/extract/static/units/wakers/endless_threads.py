@@ -35,6 +35,6 @@ def _endless(waking: Waking, waiting: object) -> ActivityState | None:
     ``main`` waits so that the program goes on, and is told of where the program ends.
     """
     is_main = isinstance(waiting, ActivityState) and waiting.kind is ActivityKind.MAIN
-    by = waking.by
-    is_end = waking.word is Word.END and isinstance(by, ActivityState) and by is not waiting
-    return by if is_end and by.loops and not is_main else None  # type: ignore[union-attr, return-value]
+    if is_main or waking.word is not Word.END or not isinstance(waking.by, ActivityState):
+        return None
+    return waking.by if waking.by.loops and waking.by is not waiting else None

@@ -13,10 +13,10 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
-from ros2cc_extract.extract.static.concurrency.waits import retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
-from ros2cc_extract.extract.static.concurrency.waits.counted_tests import rise_of
-from ros2cc_extract.extract.static.concurrency.waits.loop_ends import (
+from ros2cc_extract.extract.static.concurrency.waits.loops import retry_loops
+from ros2cc_extract.extract.static.concurrency.waits.loops.counted_tests import rise_of
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
     Seen,
     end_of,
@@ -24,7 +24,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loop_ends import (
     seen_by,
     tests_of_data,
 )
-from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     asks_for_cancel,
     asks_for_service,
     asks_object,
@@ -332,7 +332,11 @@ def _put_last(effects: EffectLog, before: Mark, place: Place) -> None:
     rounds = effects.blocking[before.waits :]
     own = [each for each in rounds if each.call == WORKING_LOOP and each.source == place]
     if own:
-        effects.blocking[before.waits :] = [each for each in rounds if each not in own] + own
+        others = [each for each in rounds if each not in own]
+        known = {way_of(each) for each in effects.blocking[: before.waits]}
+        effects.blocking[before.waits :] = (
+            others if way_of(own[-1]) in known else [*others, own[-1]]
+        )
         effects.behind = way_of(own[-1])
 
 

@@ -7,8 +7,11 @@ from collections.abc import Iterable, Sequence
 from enum import Enum, auto
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.waits.local_copies import copies_in, without_copies
-from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (
+from ros2cc_extract.extract.static.concurrency.waits.loops.local_copies import (
+    copies_in,
+    without_copies,
+)
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     is_neutral,
     name_of,
     names_assigned,
@@ -101,7 +104,7 @@ def end_of(
 
 
 def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> End:
-    asked = [part for part in walk(test) if isinstance(part, _ASKING)]
+    asked: list[ast.expr] = [part for part in walk(test) if isinstance(part, _ASKING)]
     asked = [part for part in asked if not (is_neutral(part) or _only_looks(machine, part, frame))]
     changed = _changed_in(loop, owners(test))
     stored = [part.id for part in walk(test) if isinstance(part, ast.Name) and part.id in changed]

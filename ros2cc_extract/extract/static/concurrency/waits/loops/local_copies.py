@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ros2cc_extract.extract.static.concurrency.waits.loop_tests import own_parts
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import own_parts
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 
 Copies = dict[str, ast.expr]
