@@ -19,7 +19,11 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
-from ros2cc_extract.extract.static.concurrency.waits.loops import counted_tests, polling_loops
+from ros2cc_extract.extract.static.concurrency.waits.loops import (
+    counted_tests,
+    polling_loops,
+    set_up_loops,
+)
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -92,9 +96,12 @@ class Notes(Effects):
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
         """After one round it shows what the loop waits for."""
-        assert begun is None or isinstance(begun, polling_loops.Mark)
+        if begun is None:
+            set_up_loops.note(self, node, frame)
+            return
+        assert isinstance(begun, polling_loops.Mark)
         polling_loops.note(self, node, frame, begun)
-        if begun is not None and is_recursion(node):
+        if is_recursion(node):
             polling_loops.mark_recursive(self, node, frame, begun)
 
     def note_results(self, value: Value, place: Place) -> None:

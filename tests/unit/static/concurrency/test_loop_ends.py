@@ -217,3 +217,52 @@ def test_an_event_or_data_is_the_first_of_several() -> None:
     )
     assert wait.escapes is not None
     assert wait.escapes.reason == 'it waits for the first of several'
+
+
+SET_UP = """
+import threading
+import time
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+class Waiter(Node):
+    def __init__(self):
+        super().__init__('waiter')
+        self.pose = None
+        self.lock = threading.Lock()
+        self.create_subscription(String, 'pose', self.on_pose, 10)
+{loop}
+
+    def on_pose(self, msg):
+        self.pose = msg
+
+def main():
+    rclpy.init()
+    rclpy.spin(Waiter())
+"""
+
+
+@pytest.mark.parametrize(
+    ('loop', 'line'),
+    [
+        (COPIES[0], 13),
+        (COPIES[3], 15),
+        (
+            """
+            while True:
+                with self.lock:
+                    if self.pose is not None:
+                        break
+                time.sleep(0.1)
+            """,
+            15,
+        ),
+    ],
+)
+def test_a_constructor_that_waits_for_data_before_the_spin_waits_forever(
+    loop: str, line: int
+) -> None:
+    text = SET_UP.format(loop=textwrap.indent(textwrap.dedent(loop).strip(), ' ' * 8))
+    (found,) = scan_text(text).diagnostics
+    assert (found.slug, found.severity.value, found.place.line) == ('nobody-spins', 'error', line)

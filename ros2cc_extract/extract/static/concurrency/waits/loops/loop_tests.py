@@ -13,6 +13,9 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 
 LEAVES = (ast.Break, ast.Return, ast.Raise)
 
+_LETTING = (ast.Yield, ast.Await)
+"""What lets others run."""
+
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 _NEUTRAL = frozenset(
@@ -73,9 +76,23 @@ def exit_tests(loop: ast.While) -> Iterator[ast.expr]:
             yield part.test
 
 
+def only_exit(loop: ast.While) -> ast.expr | None:
+    """
+    The one test that ends a loop, if there is one: its own that fails, or one inside that holds.
+
+    ``while True: … if self.pose is not None: break`` has one inside.
+    """
+    if not is_endless(loop):
+        return None if leaves(loop) else loop.test
+    inside = [part for part in own_parts(loop.body) if isinstance(part, ast.If)]
+    left = [part for part in own_parts(loop.body) if isinstance(part, (*LEAVES, *_LETTING))]
+    ends = [part for part in inside if any(isinstance(each, LEAVES) for each in part.body)]
+    return ends[0].test if len(left) == len(ends) == 1 else None
+
+
 def leaves(loop: ast.While) -> bool:
     """Whether something in its body leaves it, or lets others run."""
-    return any(isinstance(part, (*LEAVES, ast.Yield, ast.Await)) for part in own_parts(loop.body))
+    return any(isinstance(part, (*LEAVES, *_LETTING)) for part in own_parts(loop.body))
 
 
 def own_parts(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:

@@ -30,27 +30,22 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     asks_object,
     exit_tests,
     leaves,
-    name_of,
     only_sleeps,
     runs_out,
 )
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
     call_of_loop,
     is_endless,
     is_idle,
     minds_nothing,
-    only_waits,
     spins,
 )
 from ros2cc_extract.extract.static.program.retried_calls import is_retried
-from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, Word, told_by
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
-from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
     Heaped,
     Mystery,
@@ -201,9 +196,9 @@ def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told
     tests = list(exit_tests(loop))
     place = frame.place(loop)
     why = Unknown('the loop also ends otherwise', place)
-    is_timed = any(_ends_otherwise(machine, test, loop, frame) for test in tests)
+    is_timed = any(ends_otherwise(machine, test, loop, frame) for test in tests)
     seconds = Mystery(why) if is_timed else None
-    needed, any_of_them = _things(told.fails), _things(told.breaks)
+    needed, any_of_them = objects_of(told.fails), objects_of(told.breaks)
     if told.is_either and any_of_them:
         things = choice([thing for thing, _ in any_of_them])
         _note_busy(machine, loop, things, seconds, frame)
@@ -235,7 +230,7 @@ def _operands(test: ast.expr) -> list[ast.expr]:
     return _operands(test.operand) if isinstance(test, ast.UnaryOp) else [test]
 
 
-def _things(facts: Facts) -> list[tuple[Value, Word]]:
+def objects_of(facts: Facts) -> list[tuple[Value, Word]]:
     """In the order in which they were made."""
     found = dict(facts)
     return sorted(
@@ -243,24 +238,24 @@ def _things(facts: Facts) -> list[tuple[Value, Word]]:
     )
 
 
-def _ends_otherwise(
+def ends_otherwise(
     machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame
 ) -> bool:
     """Whether something may end the loop as well, beside what is asked of objects."""
     if isinstance(test, ast.BoolOp):
-        return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
+        return any(ends_otherwise(machine, each, loop, frame) for each in test.values)
     if isinstance(test, ast.UnaryOp):
-        return _ends_otherwise(machine, test.operand, loop, frame)
+        return ends_otherwise(machine, test.operand, loop, frame)
     if _tells(machine, test, frame):
         return False
     return runs_out(test, loop) or asks_for_cancel(test)
 
 
 def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
-    return asks_object(test) or _told_now(machine, test, frame) is not None
+    return asks_object(test) or told_now(machine, test, frame) is not None
 
 
-def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
+def told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
     """What a test tells where it stands, without any note of what it reads."""
     world = machine.world
     noted, ready, world.effects = world.effects, world.ready, EffectLog()
@@ -273,19 +268,16 @@ def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told 
 def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
     """What makes a loop end whose test tells of it only after a round, or stands inside."""
     for test in exit_tests(loop):
-        told = _told_now(machine, test, frame)
+        told = told_now(machine, test, frame)
         if told is not None:
             return told if test is loop.test else told.negated()
     return None
 
 
-def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark | None) -> None:
+def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark) -> None:
     """After one round of ``loop``."""
     effects = machine.world.effects
-    if before is None or effects is None:
-        _note_set_up(machine, loop, frame)
-        _note_spinning(machine, loop, frame)
-        return
+    assert effects is not None
     _put_last(effects, before, frame.place(loop))
     _note_asked(machine, loop, effects, before, frame)
     _note_own_end(machine.world, loop, effects, before, frame)
@@ -355,69 +347,6 @@ def _note_own_end(
             effects.blocking[number] = replace(block, seconds=block.seconds or own)
 
 
-def _note_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
-    """Code that nobody serves looks at data again and again, and only sleeps meanwhile."""
-    if asks_object(loop.test) and not leaves(loop):
-        calls = (part for part in ast.walk(loop.test) if isinstance(part, ast.Call))
-        machine.world.asked_until.update(frame.place(call) for call in calls)
-    is_plain = not asks_object(loop.test) and not leaves(loop)
-    if not is_plain or is_endless(loop) or not only_passes_time(loop, [loop.test]):
-        return
-    tests = tests_of_data(machine, [loop.test], loop, frame)
-    if end_of(machine, tests, loop, frame) is not End.DATA:
-        return
-    seen = seen_by(machine, tests, frame)
-    if seen.names and seen.outside is None and _holds(machine, tests[0], frame):
-        note_loop(machine.world, set(seen.names), frame.place(loop.test))
-
-
-def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
-    """Code that no callback runs only spins or sleeps until something has changed."""
-    if is_endless(loop) or not (only_waits(loop) or spins(loop)):
-        return
-    world = machine.world
-    end = getattr(loop, 'end_lineno', None) or loop.lineno
-    place = frame.place(loop)
-    spun = world.served_within(place.file, loop.lineno, end)
-    told = _told_now(machine, loop.test, frame)
-    things = _things(told.fails | told.breaks) if told is not None else []
-    if things:
-        is_timed = _ends_otherwise(machine, loop.test, loop, frame)
-        why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None
-        for thing, _ in things if spun else ():
-            machine.note_outside_wait('busy wait', thing, why, place, spun)
-        return
-    tests = tests_of_data(machine, [loop.test], loop, frame)
-    seen = seen_by(machine, tests, frame)
-    if seen.names:
-        is_data = end_of(machine, tests, loop, frame) is End.DATA and seen.outside is None
-        is_data = is_data and (only_waits(loop) or _leaves_to_others(world, loop, seen.names))
-        reason = Unknown('the loop also ends otherwise', place)
-        reference = _reference(seen)
-        machine.note_loop_on_data(POLL, reference, None if is_data else reason, place, spun)
-
-
-def _leaves_to_others(world: ConcurrentWorld, loop: ast.While, names: frozenset[str]) -> bool:
-    """Whether neither the loop nor what it calls by name stores what its test looks at."""
-    attributes = {name.rpartition('.')[2] for name in names}
-    stores = (
-        isinstance(part, ast.Attribute)
-        and isinstance(part.ctx, ast.Store)
-        and part.attr in attributes
-        for node in reachable(world, loop)
-        for part in walk(node)
-    )
-    return not leaves(loop) and not any(stores)
-
-
-def _holds(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
-    """Whether it comes out so for certain, as long as nobody shuts rclpy down."""
-    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
-        return all(_holds(machine, each, frame) for each in test.values)
-    is_ok = isinstance(test, ast.Call) and name_of(test) == 'ok'
-    return is_ok or machine.truth(machine.evaluate(test, frame)) is True
-
-
 def _note_asked(
     machine: ConcurrentMachine,
     loop: ast.While,
@@ -450,7 +379,7 @@ def _note(
         seen.outside is not None or (end is End.UNKNOWN and is_waiting)
     )
     if seen.names and not is_open:
-        reference = _reference(seen)
+        reference = reference_to(seen)
         effects = machine.world.effects or EffectLog()
         reference.before = frozenset((access.name, access.source) for access in effects.writes)
         reference.rise = rise_of(machine, shown, frame)
@@ -467,7 +396,8 @@ def _note(
         machine.note_loop_on_data(call, unknown, None, place)
 
 
-def _reference(seen: Seen) -> DataRef:
+def reference_to(seen: Seen) -> DataRef:
+    """What stands for the data until a unit has given it a name."""
     reference = DataRef(min(seen.names))
     reference.names, reference.holders = seen.names, seen.holders
     return reference
