@@ -137,8 +137,10 @@ class UnitWaits(DataWriters):
         Nor does what nobody ever puts in: it is never found there.
         """
         reference = raw.resource
-        if not isinstance(reference, ResourceRef) or not reference.asked:
+        if not isinstance(reference, ResourceRef):
             return False
+        if not reference.asked:
+            return initial_permits.has_room(reference, wakings_of(self._world, reference))
         rival = WAITS[raw.call].rival
         if rival is None:
             return True

@@ -246,8 +246,8 @@ def main():
 @pytest.mark.parametrize(
     ('loop', 'line'),
     [
-        (COPIES[0], 13),
-        (COPIES[3], 15),
+        (COPIES[0], 14),
+        (COPIES[3], 16),
         (
             """
             while True:
@@ -256,7 +256,7 @@ def main():
                         break
                 time.sleep(0.1)
             """,
-            15,
+            16,
         ),
     ],
 )

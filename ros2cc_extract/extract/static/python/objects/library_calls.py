@@ -63,7 +63,7 @@ class LibraryCalls(Machine):
         if known is not None:
             self._begin_anew(known, rows)
             return known
-        instance.path = self.world.path
+        instance.path, instance.born = self.world.path, self.world.effects
         self.prepare(instance)
         remember(self, instance, call)
         init = next((row.init for row in rows if row.init is not None), None)

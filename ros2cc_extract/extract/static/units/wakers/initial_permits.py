@@ -14,8 +14,10 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Re
 from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
 # More is not counted: a model of so many runs could not use it up.
@@ -33,6 +35,23 @@ def counted(
 def few(initial: int | None) -> int:
     """So many waits end by themselves, where a model may use them up; 0 if there are too many."""
     return initial if initial is not None and 0 < initial <= _COUNTED else 0
+
+
+def has_room(reference: ResourceRef, wakings: Sequence[Waking]) -> bool:
+    """
+    Whether it is the room in a queue that each run makes anew, and enough for all that is put in.
+
+    It is put there by whoever makes the queue, or by what is done once for each of its runs.
+    """
+    puts = [waking for waking in wakings if waking.word is Word.PUT]
+    is_once = all(not (each.in_loop or each.repeats) and _is_of_one_run(each.by) for each in puts)
+    is_room = reference.is_own and reference.ended_by == {Word.GET}
+    return is_room and is_once and len(puts) <= (reference.initial or 0)
+
+
+def _is_of_one_run(doer: object) -> bool:
+    is_done = isinstance(doer, EntityState) and doer.kind is EntityKind.DONE_CALLBACK
+    return is_done and doer.count == 1  # type: ignore[attr-defined]
 
 
 def is_plain_lock(
