@@ -2,8 +2,8 @@
 Calls that a loop repeats until they succeed, whatever time-out each of them has.
 
 ``while not client.wait_for_service(timeout_sec=1.0): log()``, or the answer is kept in a name that
-the loop asks, or one test inside of an endless loop leaves it. A loop that something else may leave
-is none.
+the loop asks, or an ``if`` inside of an endless loop leaves it. A loop that something else may
+leave is none.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import s
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
-from ros2cc_extract.spec.model import EntityKind, When
+from ros2cc_extract.spec.model import ActivityKind, EntityKind, When
 
 _WHAT = {EntityKind.SERVICE: 'the service', EntityKind.ACTION_SERVER: 'the action server'}
 
@@ -56,7 +56,7 @@ class LateServers:
     def why_open(self) -> str:
         """Why nobody knows whether the wait ends."""
         first = self.servers[0]
-        if isinstance(first.maker, ActivityState):
+        if not _is_main(first.maker) and isinstance(first.maker, ActivityState):
             return f'whether another thread has made {_named(first)} is not known ({first.place})'
         return f'{_named(first)} may be made only behind the wait ({first.place})'
 
@@ -93,7 +93,7 @@ def late_servers(wait: SetUpWait, world: RosWorld) -> LateServers | None:
 def is_endless_for_main(wait: SetUpWait, world: RosWorld) -> bool:
     """Whether the thread of the set-up stands there until somebody is there."""
     block = wait.block
-    is_of_main = wait.by is None and not wait.outside.in_thread and wait.uncalled is None
+    is_of_main = _is_main(wait.by) and not wait.outside.in_thread and wait.uncalled is None
     is_endless = block.seconds is None or block.source in world.asked_until
     return is_of_main and is_endless and not wait.in_handler and not wait.is_late
 
@@ -133,10 +133,15 @@ def _order(server: EntityState, wait: SetUpWait, world: RosWorld) -> _Order:
         served = list(spun_beside(wait.outside, world))
         is_served = any(server.maker.node is each for each in (*wait.outside.spun, *served))
         return _Order.UNSURE if is_served or wait.outside.begun != 0 else _Order.BEHIND
-    if server.when is not When.START or server.maker is not None:
+    if server.when is not When.START or not _is_main(server.maker):
         return _Order.UNSURE
     place = list(world.set_up.values()).index(wait)
     return _Order.BEHIND if server.after > place else _Order.BEFORE
+
+
+def _is_main(doer: object) -> bool:
+    """Whether the thread of the set-up does it, be it beside an executor that another spins."""
+    return doer is None or (isinstance(doer, ActivityState) and doer.kind is ActivityKind.MAIN)
 
 
 def _has_branches(server: EntityState) -> bool:

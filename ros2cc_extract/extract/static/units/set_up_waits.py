@@ -42,11 +42,19 @@ def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
     homes = {id(node): unit for unit in units for node in unit.nodes}
     for wait in world.set_up.values():
         if wait.by is not None and not wait.by.is_executor:
+            _note_never_there(wait, world)
             continue  # it is told as a wait of that thread
         touched = (homes.get(id(node)) for node in _nodes_of(wait, world))
         home = next((unit for unit in touched if unit is not None), units[0] if units else None)
         if home is not None:
             home.set_up.append(wait)
+
+
+def _note_never_there(wait: SetUpWait, world: RosWorld) -> None:
+    """Tell of what ``main`` makes only when it has waited for it, beside a thread that spins."""
+    late = late_servers(wait, world)
+    if late is not None and late.is_sure:
+        world.diagnostics.append(late.diagnostic())
 
 
 def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:

@@ -66,6 +66,11 @@ main()
 """
 SPIN = ['rclpy.spin(Asker())']
 POLL = ['while not self.client.service_is_ready():', '    time.sleep(0.1)']
+BESIDE = [
+    'asker = Asker()',
+    'threading.Thread(target=rclpy.spin, args=(asker,), daemon=True).start()',
+    'asker.client.wait_for_service()',
+]
 WAIT, SERVE = 'self.client.wait_for_service()', 'self.serve()'
 
 _OPEN = r'the \w+ .* may be made only behind the wait|whether another thread has made'
@@ -133,6 +138,8 @@ def _reasons(found: Extraction) -> list[str]:
             ['asker = Asker()', 'asker.client.wait_for_service()', 'rclpy.spin(Server())'],
         ),
         ([WAIT, 'self.create_timer(1.0, self.serve)'], SPIN),
+        (['pass'], [*BESIDE, 'rclpy.spin(Server())']),
+        (['pass'], [*BESIDE, 'server = Server()', 'while rclpy.ok():', '    time.sleep(1.0)']),
         (
             [
                 'future = self.client.call_async(Trigger.Request())',
