@@ -35,6 +35,14 @@ BARRED = frozenset({'unreadable-file', 'unreadable-folder'})
 """Those that the system did not let us read."""
 
 
+@dataclass(frozen=True)
+class RelatedPlace:
+    """A place that belongs to a diagnostic, with what happens there."""
+
+    place: Place
+    text: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Diagnostic:
     """
@@ -43,6 +51,7 @@ class Diagnostic:
     :param slug: stable short name, by which docs and filters call it (``syntax-error``).
     :param message: one clause, no final stop.
     :param help: how to mend, empty where nothing can be said.
+    :param related: other places that the message speaks of.
     """
 
     severity: Severity
@@ -50,6 +59,7 @@ class Diagnostic:
     place: Place
     message: str
     help: str = ''
+    related: tuple[RelatedPlace, ...] = ()
 
 
 def unreadable_folder(error: OSError, shown: str | None = None) -> Diagnostic:

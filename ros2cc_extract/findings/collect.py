@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.findings.base.assumptions import with_assumptions
-from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
@@ -145,4 +145,5 @@ def _of_diagnostic(diagnostic: Diagnostic, matters: bool | None) -> Finding:
         place=diagnostic.place,
         message=diagnostic.message,
         help=diagnostic.help,
+        related=tuple(Remark(each.place, each.text) for each in diagnostic.related),
     )

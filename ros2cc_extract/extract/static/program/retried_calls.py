@@ -2,13 +2,14 @@
 Calls that a loop repeats until they succeed, whatever time-out each of them has.
 
 ``while not client.wait_for_service(timeout_sec=1.0): log()``, or the answer is kept in a name that
-the loop asks. A loop that something else may leave is none.
+the loop asks, or an ``if`` inside of an endless loop leaves it. A loop that something else may
+leave is none.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.source_locations import Place
@@ -28,7 +29,9 @@ def _retried_calls(function: ast.AST) -> frozenset[tuple[int, int]]:
 
 
 def _retried_by(loop: ast.While) -> Iterator[ast.Call]:
-    if any(isinstance(part, _LEAVING) for each in loop.body for part in walk(each)):
+    leaving = [part for each in loop.body for part in walk(each) if isinstance(part, _LEAVING)]
+    if leaving:
+        yield from _left_by_test(loop, leaving)
         return
     is_all = isinstance(loop.test, ast.BoolOp) and isinstance(loop.test.op, ast.And)
     tests = loop.test.values if is_all else [loop.test]  # type: ignore[attr-defined]
@@ -42,6 +45,16 @@ def _retried_by(loop: ast.While) -> Iterator[ast.Call]:
         stored = [value for each in loop.body for value in _stored_in(answer.id, each)]
         if len(stored) == 1 and isinstance(stored[0], ast.Call):
             yield stored[0]
+
+
+def _left_by_test(loop: ast.While, leaving: Sequence[ast.AST]) -> Iterator[ast.Call]:
+    """The call whose answer alone makes an endless loop end."""
+    is_endless = _is_ok(loop.test) or (isinstance(loop.test, ast.Constant) and loop.test.value)
+    for statement in loop.body if is_endless else ():
+        if isinstance(statement, ast.If) and isinstance(statement.test, ast.Call):
+            inside = [part for each in statement.body for part in walk(each)]
+            if all(any(part is each for each in inside) for part in leaving):
+                yield statement.test
 
 
 def _is_ok(test: ast.expr) -> bool:

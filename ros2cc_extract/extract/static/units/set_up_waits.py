@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.executor import Unit
+from ros2cc_extract.extract.static.units.late_servers import late_servers
 from ros2cc_extract.extract.static.units.unserved_threads import UnservedThreads, UnservedWait
 from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
@@ -41,11 +42,19 @@ def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
     homes = {id(node): unit for unit in units for node in unit.nodes}
     for wait in world.set_up.values():
         if wait.by is not None and not wait.by.is_executor:
+            _note_never_there(wait, world)
             continue  # it is told as a wait of that thread
         touched = (homes.get(id(node)) for node in _nodes_of(wait, world))
         home = next((unit for unit in touched if unit is not None), units[0] if units else None)
         if home is not None:
             home.set_up.append(wait)
+
+
+def _note_never_there(wait: SetUpWait, world: RosWorld) -> None:
+    """Tell of what ``main`` makes only when it has waited for it, beside a thread that spins."""
+    late = late_servers(wait, world)
+    if late is not None and late.is_sure:
+        world.diagnostics.append(late.diagnostic())
 
 
 def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:
@@ -94,6 +103,12 @@ class _SetUpWaits:
 
     def decided(self, block: Blocking, wait: SetUpWait) -> Blocking:
         """The wait with the reason why nobody knows whether it ends, where that is so."""
+        late = late_servers(wait, self.world)
+        if late is not None and late.is_sure:
+            self.world.diagnostics.append(late.diagnostic())
+            return block
+        if late is not None:
+            return replace(block, escapes=Unknown(late.why_open, block.source))
         is_open = block.seconds is None and block.escapes is None
         is_open = is_open and not block.initial  # of a semaphore: it is free
         if not is_open or any(waker.by in (OUTSIDE, TIME) for waker in block.wakers):

@@ -102,6 +102,8 @@ class Waits(ConcurrentMachine):
             values_during_waits.note_met(world, thing)
             self._note_in_set_up(block, thing, place)
             return
+        if _is_main(world.activity):
+            self._note_in_set_up(block, thing, place)
         touch(world.activity, thing)
         if thing is not None:
             self.store.show(thing)

@@ -19,7 +19,7 @@ _PRESENCE = ('wait_for_service', 'wait_for_server', 'service_is_ready', 'server_
 def awaits_of(node: Instance, world: RosWorld) -> Iterator[Awaited]:
     """Waits for the services and actions of the clients of a node, in their order."""
     for wait in world.set_up.values():
-        client = _client_of(wait)
+        client = client_of(wait)
         place = wait.block.source
         is_mine = client is not None and client.node is node and client.when is When.START
         if client is not None and place is not None and is_mine and _is_endless(wait, world):
@@ -44,7 +44,7 @@ def _is_endless(wait: SetUpWait, world: RosWorld) -> bool:
     return is_of_main and is_endless and not block.conditional and not wait.is_late
 
 
-def _client_of(wait: SetUpWait) -> EntityState | None:
+def client_of(wait: SetUpWait) -> EntityState | None:
     """The client that is asked, itself or by the future of its answer."""
     thing = wait.outside.client
     state = thing.state if isinstance(thing, Instance) else None

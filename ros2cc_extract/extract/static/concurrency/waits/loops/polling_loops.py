@@ -97,7 +97,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     :param told: what its test tells.
     """
     world = machine.world
-    if world.effects is None and not is_idle(loop):
+    if world.effects is None and not is_idle(loop) and not asks_for_service(loop.test):
         return
     place = frame.place(loop)
     retry_loops.begin(machine, loop, frame)
@@ -132,7 +132,7 @@ def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> 
                 if _others(machine, list(exit_tests(loop)), loop, frame):
                     owner = machine.mystery(_FIRST_OF, frame.place(loop))
                 _note_busy(machine, loop, owner, None, frame)
-            elif waited and machine.world.in_callback and _is_retried(part, frame):
+            elif waited and _is_retried(part, frame):
                 owner = machine.evaluate(part.func.value, frame)
                 machine.note_blocking(waited, owner, None, frame.place(part))
     return is_known

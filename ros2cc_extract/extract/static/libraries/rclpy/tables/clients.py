@@ -59,12 +59,13 @@ def note_presence(machine: RosMachine, name: str, receiver: Value, call: Call) -
     """
     A service or a server is waited for, which may be absent forever.
 
-    In a callback a loop that asks again after each time-out has none.
+    A loop that asks again after each time-out has none; so it is told in a callback.
     """
     timeout = call.argument(0, 'timeout_sec')
-    asking = machine.stack[-1].node if machine.stack and machine.world.in_callback else None
+    asking = machine.stack[-1].node if machine.stack else None
     if asking is not None and is_retried(asking, call.place):
-        timeout = None
+        machine.world.asked_until.add(call.place)
+        timeout = None if machine.world.in_callback else timeout
     machine.note_blocking(name, receiver, timeout, call.place)
 
 
