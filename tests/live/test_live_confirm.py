@@ -6,6 +6,8 @@ import json
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -14,17 +16,23 @@ from ros2cc_extract.confirm import confirming
 from ros2cc_extract.confirm.confirming import confirm
 from ros2cc_extract.confirm.outcomes import Outcome
 from ros2cc_extract.confirm.processes import DOMAINS_VARIABLE
-from ros2cc_extract.confirm.schedules import read_schedule
+from ros2cc_extract.confirm.schedules import Schedule, read_schedule
 from tests.confirm.table import onto, schedules
+from tests.support.domains import free_domains
 
 BUGS = Path(__file__).parents[1] / 'bugs'
+AT_ONCE = 2
 LIMIT_S = 120.0
+# Of one that waits where its wait might be ended: what hangs is confirmed within half of it.
+HANGS_WITHIN_S = 12.0
 
 
 @pytest.fixture(autouse=True)
-def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def own_domains(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nobody else's messages, and none for anybody else."""
-    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
+    with free_domains(AT_ONCE) as numbers:
+        monkeypatch.setenv(DOMAINS_VARIABLE, f'{numbers[0]}-{numbers[-1]}')
+        yield
 
 
 def test_locks_in_opposite_order_are_confirmed(rclpy_python: str, tmp_path: Path) -> None:
@@ -150,21 +158,28 @@ rclpy.spin(Car())
 """
 
 
-@pytest.mark.parametrize(
-    ('given', 'outcome'),
-    [("Motor('/dev/ttyACM0')", 'confirmed'), ('Motor(on_end=self.stopped.set)', 'not reached')],
-)
-def test_what_a_stand_in_was_given_might_end_the_wait(
-    rclpy_python: str, tmp_path: Path, given: str, outcome: str
-) -> None:
-    node = tmp_path / 'node.py'
+def of_a_stand_in(given: str, folder: Path) -> Schedule:
+    """Of one that is given a function, `check` says by itself that somebody may call it."""
+    folder.mkdir()
+    node = folder / 'node.py'
     node.write_text(GIVES_ITS_FUNCTION.format(given='Motor()'), encoding='utf-8')
-    # Of the other one, `check` says by itself that somebody may call it.
     (schedule,) = schedules(node, '7.1.6')
     node.write_text(GIVES_ITS_FUNCTION.format(given=given), encoding='utf-8')
-    found = confirm(schedule, rclpy_python, 20.0, stubs=True).judgement
-    assert found.outcome.value == outcome, found
-    assert ('given Event.set' in found.reason) == (outcome == 'not reached')
+    return schedule
+
+
+def test_what_a_stand_in_was_given_might_end_the_wait(rclpy_python: str, tmp_path: Path) -> None:
+    text = of_a_stand_in("Motor('/dev/ttyACM0')", tmp_path / 'text')
+    function = of_a_stand_in('Motor(on_end=self.stopped.set)', tmp_path / 'function')
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        shown = pool.submit(confirm, text, rclpy_python, LIMIT_S, stubs=True)
+        open_one = pool.submit(confirm, function, rclpy_python, HANGS_WITHIN_S, stubs=True)
+    found = shown.result().judgement
+    assert found.outcome is Outcome.CONFIRMED, found
+    assert 'given Event.set' not in found.reason
+    found = open_one.result().judgement
+    assert found.outcome is Outcome.NOT_REACHED, found
+    assert 'given Event.set' in found.reason
 
 
 # It stands neither the values of messages nor, as a life-cycle node, a transition it has not.

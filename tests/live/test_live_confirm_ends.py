@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -14,10 +16,12 @@ from ros2cc_extract.confirm.schedules import Schedule
 from tests.confirm import table
 from tests.confirm.table import is_confirmed_falsely, onto, schedules
 from tests.help.cases import cases
+from tests.support.domains import free_domains
 
 TESTS = Path(__file__).parents[1]
 JAZZY = '7.1.6'
 LIMIT_S, TWIN_S = 120.0, 8.0
+AT_ONCE = 4
 SHOWN = {
     'CC116 s96_node_destroyed_in_its_callback': 'no callback has begun for',
     'CC116 s85_shutdown_in_a_callback': 'line 16 raises RCLError',
@@ -29,8 +33,10 @@ SHOWN = {
 
 
 @pytest.fixture(autouse=True)
-def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
+def own_domains(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    with free_domains(AT_ONCE) as numbers:
+        monkeypatch.setenv(DOMAINS_VARIABLE, f'{numbers[0]}-{numbers[-1]}')
+        yield
 
 
 def pair_of(code: str, stem: str, folder: Path) -> tuple[Path, Path]:
@@ -48,18 +54,35 @@ def schedule(code: str, path: Path, release: str | None) -> Schedule | None:
     return next((each for each in schedules(path, release) if each.code == code), None)
 
 
-@pytest.mark.parametrize('name', SHOWN)
-def test_it_is_shown_and_its_twin_is_not(
-    name: str, rclpy_python: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_each_is_shown_and_no_twin_is(
+    rclpy_python: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, stem = name.split()
-    bad, good = pair_of(code, stem, tmp_path)
-    found = schedule(code, bad, JAZZY)
-    assert found is not None
-    shown = confirm(found, rclpy_python, LIMIT_S).judgement
-    assert (shown.outcome, SHOWN[name] in shown.reason) == (Outcome.CONFIRMED, True), shown
+    """All in one test, several at a time: they mostly wait."""
     monkeypatch.setattr(table, 'TWIN_S', TWIN_S)
-    assert not is_confirmed_falsely(onto(found, good), rclpy_python)
+    found: dict[str, Schedule] = {}
+    twins: dict[str, Schedule] = {}
+    for name in SHOWN:
+        code, stem = name.split()
+        bad, good = pair_of(code, stem, tmp_path)
+        of_bad = schedule(code, bad, JAZZY)
+        assert of_bad is not None, name
+        found[name], twins[name] = of_bad, onto(of_bad, good)
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        shown = {
+            name: pool.submit(confirm, each, rclpy_python, LIMIT_S) for name, each in found.items()
+        }
+        falsely = {
+            name: pool.submit(is_confirmed_falsely, each, rclpy_python)
+            for name, each in twins.items()
+        }
+        judged = {name: each.result().judgement for name, each in shown.items()}
+        assert {name: each.result() for name, each in falsely.items() if each.result()} == {}
+    unlike = {
+        name: judgement
+        for name, judgement in judged.items()
+        if judgement.outcome is not Outcome.CONFIRMED or SHOWN[name] not in judgement.reason
+    }
+    assert unlike == {}
 
 
 @pytest.mark.parametrize('variable', EVERY_RELEASE)

@@ -7,22 +7,28 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 from ros2cc_extract.confirm.processes import DOMAINS_VARIABLE
+from tests.support.domains import free_domains
 
 ROOT = Path(__file__).parents[2]
 BUGS = ROOT / 'tests/bugs'
 NODES = ROOT / 'tests/explore/nodes'
+AT_ONCE = 3
 MARKED = Path(__file__).parent / 'programs' / 'marked.py'
 
 
 @pytest.fixture(autouse=True)
-def own_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def own_domains(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nobody else's messages, and none for anybody else."""
-    monkeypatch.setenv(DOMAINS_VARIABLE, f'{domain}-{domain}')
+    with free_domains(AT_ONCE) as numbers:
+        monkeypatch.setenv(DOMAINS_VARIABLE, f'{numbers[0]}-{numbers[-1]}')
+        yield
 
 
 def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -32,7 +38,22 @@ def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
     return done
 
 
-def test_a_rare_deadlock_is_found_and_repeated(rclpy_python: str, tmp_path: Path) -> None:
+def test_what_is_rare_is_found_and_nothing_in_a_good_twin(
+    rclpy_python: str, tmp_path: Path
+) -> None:
+    """Three programs that mostly wait for their turns, side by side."""
+    folders = [tmp_path / name for name in ('deadlock', 'exception', 'twin')]
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        tried = [
+            pool.submit(a_rare_deadlock_is_found_and_repeated, rclpy_python, folders[0]),
+            pool.submit(an_exception_between_test_and_use_is_found, rclpy_python, folders[1]),
+            pool.submit(nothing_is_found_in, 'g4_lock_order_mended', rclpy_python, folders[2]),
+        ]
+        for each in tried:
+            each.result()
+
+
+def a_rare_deadlock_is_found_and_repeated(rclpy_python: str, tmp_path: Path) -> None:
     node = NODES / 'rare_lock_order.py'
     found = explore(
         *('--first', '--schedules', 60, '-o', tmp_path, '--output-format', 'json'),
@@ -48,7 +69,7 @@ def test_a_rare_deadlock_is_found_and_repeated(rclpy_python: str, tmp_path: Path
     assert re.match(rf'.*rare_lock_order\.py:{failure["line"]}: hang repeated in', again.stdout)
 
 
-def test_an_exception_between_test_and_use_is_found(rclpy_python: str, tmp_path: Path) -> None:
+def an_exception_between_test_and_use_is_found(rclpy_python: str, tmp_path: Path) -> None:
     node = NODES / 'goal_gone.py'
     found = explore('--first', '--schedules', 60, '-o', tmp_path, '--', rclpy_python, node)
     assert found.returncode == 1, found.stdout + found.stderr
@@ -71,14 +92,16 @@ def test_all_orders_of_two_callbacks_are_run(rclpy_python: str, tmp_path: Path) 
     }
 
 
-@pytest.mark.parametrize(
-    'name', ['g4_lock_order_mended', pytest.param('g2_lost_update_mended', marks=pytest.mark.slow)]
-)
-def test_nothing_is_found_in_a_good_twin(name: str, rclpy_python: str, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_nothing_is_found_in_another_good_twin(rclpy_python: str, tmp_path: Path) -> None:
+    nothing_is_found_in('g2_lost_update_mended', rclpy_python, tmp_path / 'twin')
+
+
+def nothing_is_found_in(name: str, rclpy_python: str, tmp_path: Path) -> None:
     done = explore('--schedules', 22, '-o', tmp_path, '--', rclpy_python, BUGS / f'{name}.py')
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.startswith('no failure in 22 schedules and a plain run')
-    assert not list(tmp_path.iterdir())
+    assert not tmp_path.exists() or not list(tmp_path.iterdir())
 
 
 def test_a_command_without_a_node_is_said_so(rclpy_python: str, tmp_path: Path) -> None:

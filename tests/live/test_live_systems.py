@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterator
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -53,6 +53,7 @@ GOOD = {
 }
 """How often the first process goes on, at least."""
 HANGS_FOR_S = 1.0
+Running = dict[str, dict[str, Child]]
 
 
 def arguments(launched: Launched, process: Process) -> Iterator[str]:
@@ -74,11 +75,23 @@ def system_of(name: str) -> System:
 
 
 @pytest.fixture(scope='module')
-def running(rclpy_python: str) -> Iterator[dict[str, dict[str, Child]]]:
-    """All systems at once, each in a domain of its own: its processes by name."""
+def bad_ones(rclpy_python: str) -> Iterator[Running]:
+    with side_by_side(rclpy_python, BAD) as running:
+        yield running
+
+
+@pytest.fixture(scope='module')
+def good_ones(rclpy_python: str) -> Iterator[Running]:
+    with side_by_side(rclpy_python, GOOD) as running:
+        yield running
+
+
+@contextmanager
+def side_by_side(rclpy_python: str, names: Iterable[str]) -> Iterator[Running]:
+    """Systems at once, each in a domain of its own: its processes by name."""
     with ExitStack() as stack:
-        started: dict[str, dict[str, Child]] = {}
-        for name in (*BAD, *GOOD):
+        started: Running = {}
+        for name in names:
             env = {
                 **os.environ,
                 'ROS_DOMAIN_ID': str(stack.enter_context(free_domain())),
@@ -96,14 +109,14 @@ def running(rclpy_python: str) -> Iterator[dict[str, dict[str, Child]]]:
 
 
 @pytest.mark.parametrize('name', GOOD)
-def test_a_mended_system_goes_on(name: str, running: dict[str, dict[str, Child]]) -> None:
-    first, *_ = running[name].values()
+def test_a_mended_system_goes_on(name: str, good_ones: Running) -> None:
+    first, *_ = good_ones[name].values()
     first.read_until(lambda lines: lines.count(GOES_ON) >= GOOD[name])
 
 
 @pytest.mark.parametrize('name', BAD)
-def test_a_system_with_a_circle_hangs(name: str, running: dict[str, dict[str, Child]]) -> None:
-    first, *_, last = [next(iter(running[name].values())), *running[name].values()]
+def test_a_system_with_a_circle_hangs(name: str, bad_ones: Running) -> None:
+    first, *_, last = [next(iter(bad_ones[name].values())), *bad_ones[name].values()]
     last.read_until(lambda lines: BAD[name] in lines)
     first.sleep(HANGS_FOR_S)
     first.process.kill()

@@ -15,7 +15,8 @@ from tests.random_waits.programs import program
 from tests.random_waits.recorded import Ran, add, load, unfinished
 from tests.random_waits.suite import ENDS, FOUND, Tally, judge, judge_all, watch
 
-SEEDS = range(30030, 30032)
+#: They hang in different ways, and are judged within a second.
+SEEDS = (30030, 30032, 30034)
 
 
 def test_a_seed_gives_one_program() -> None:

@@ -11,6 +11,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import yaml
@@ -51,6 +52,7 @@ OF_CORES = (
 )
 """Rows that `executors.py` and `task.py` alone decide."""
 WATCHDOG_S = 120
+AT_ONCE = 3
 HOLDS = {'yes': True, 'no': False}
 
 
@@ -66,12 +68,17 @@ def read_observed() -> dict[str, dict[str, bool]]:
 
 
 def observe(python: str, release: Release | None) -> Iterator[tuple[str, bool]]:
-    """Run the programs on one release."""
-    for row in OF_CORES if release is not None and release.version in CORES else ROWS:
-        if program_of(row).exists():
-            with own_environment() as environment:
-                given = environment if release is None else release.over(environment)
-                told = said(python, program_of(row), given)
+    """Run the programs on one release, several at a time: they mostly wait."""
+    is_core = release is not None and release.version in CORES
+    rows = [row for row in (OF_CORES if is_core else ROWS) if program_of(row).exists()]
+
+    def told_of(row: Behaviour) -> str:
+        with own_environment() as environment:
+            given = environment if release is None else release.over(environment)
+            return said(python, program_of(row), given)
+
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        for row, told in zip(rows, pool.map(told_of, rows), strict=True):
             if told in HOLDS:
                 yield row.name, HOLDS[told]
 
