@@ -362,7 +362,9 @@ def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _defaultdict(machine: Machine, receiver: Value, call: Call) -> Value:
-    return Mapping({}, Unknown('defaultdict', call.place) if call.args else None)
+    made = Mapping({}, Unknown('defaultdict', call.place) if call.args else None)
+    made.fills = bool(call.args)
+    return made
 
 
 def _environment(machine: Machine, receiver: Value, call: Call) -> Value:

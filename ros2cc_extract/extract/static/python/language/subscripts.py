@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values import constant_folding
@@ -29,6 +30,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import ADDS
 
 
 def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
@@ -38,12 +40,28 @@ def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     machine.world.reading.note_use(node.value, at)
     owner = machine.evaluate(node.value, frame)
     key = machine.evaluate(node.slice, frame)
+    _note_filled(machine, owner, key, node, frame)
     place = frame.place(node)
     found = choice(
         [_item(machine, option, key, node, frame) for option in options_of(owner)]
         or [machine.mystery('item that could not be followed', place, node)]
     )
     return choice(list(options_of(found))) if isinstance(found, Choice) else found
+
+
+def _note_filled(
+    machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame: Frame
+) -> None:
+    """A dictionary may put in what is asked for."""
+    world = machine.world
+    if world.effects is not None and any(_may_fill(each, key) for each in options_of(owner)):
+        world.moves = ADDS
+        machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
+        world.moves = None
+
+
+def _may_fill(owner: Value, key: Value) -> bool:
+    return isinstance(owner, Mapping) and owner.fills and not loops.has_key(owner, key)
 
 
 def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame: Frame) -> Value:

@@ -71,9 +71,13 @@ class Sequence(Collection):
 
 
 class Mapping(Collection):
-    """A dictionary; slots: ``entries`` (key -> value), and those of a collection, by key."""
+    """
+    A dictionary; slots: ``entries`` (key -> value), and those of a collection, by key.
 
-    __slots__ = ()
+    :ivar fills: it puts in what is asked for and is not there, as ``collections.defaultdict``.
+    """
+
+    __slots__ = ('fills',)
 
     def __init__(
         self,
@@ -83,6 +87,7 @@ class Mapping(Collection):
     ) -> None:
         super().__init__(others, many)
         self.slots['entries'] = entries
+        self.fills = False
 
     @property
     def entries(self) -> dict[Value, Value]:
