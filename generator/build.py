@@ -262,7 +262,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         'asks_groups': has_executor_laps,
         'num_actors': 'NUM_ACTOR' if unit.activities else 'NUM_CB',
         'is_activity': False,
-        # On a pool whoever spins the pool only hands over, and the workers run what is there.
+        # On a pool the spinning thread only hands over, and the workers run what is there.
         'nests_on_threads': unit.has_global_spins or (unit.has_own_spins and not has_pool),
         'nested_runs': min(unit.nested_runs, freedom.nested or unit.nested_runs),
         'drops_harvest': unit.has_own_spins and not has_pool,

@@ -75,7 +75,7 @@ def is_spin(block: Blocking) -> bool:
 
 
 def is_aside(block: Blocking) -> bool:
-    """True for a nested spin of nodes that nothing else serves: it is told who ends it."""
+    """Return whether a nested spin is of nodes that nothing else serves: only then it has wakers."""
     return is_spin(block) and bool(block.wakers)
 
 
@@ -116,7 +116,7 @@ def _is_step(block: Blocking) -> bool:
 
 
 def _is_of_another(future: Blocking, callback: Callback) -> bool:
-    """Tell a future from its spin: two waits of one place; without a spin it is left alone."""
+    """Return whether the wait for a future is part of a spin, another wait of its place."""
     return future.call == _FOR_FUTURE and any(
         block.call != _FOR_FUTURE and future in _futures_of(block, callback)
         for block in callback.blocking
@@ -191,7 +191,7 @@ def _is_global(spec: Spec) -> bool:
 
 def _refusal(block: Blocking, how: str, spun: Spun, spec: Spec) -> Refusal:
     """
-    Tell whether the executor, which spins already, lets itself be spun.
+    Return whether the executor, which spins already, lets itself be spun.
 
     Measured on 7.1.6: where the thread that spins a pool and a worker ask for the same, both
     resume one generator, and one of them gets ``ValueError: generator already executing``.

@@ -110,5 +110,5 @@ class NamedWait:
 
 
 def gives(steps: Iterable[NamedWait], resource: Resource) -> bool:
-    """Tell whether one of some steps gives a resource a signal."""
+    """Return whether one of some steps gives a resource a signal."""
     return any(step.is_signal and step.resource == resource for step in steps)

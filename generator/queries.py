@@ -47,8 +47,8 @@ class Query:
     :param callbacks: names of the callbacks it is about, in the unit's order.
     :param groups: names of the groups it is about.
     :param left_out: what the node does that is not in the model and could refute the claim.
-    :param whatever: the claim however it is with what is not known; ``formula`` then counts only
-        runs in which that does not matter. A claim is refuted by the one, proven by the other.
+    :param whatever: the claim for any value of what is not known; ``formula`` then counts only
+        runs in which that does not matter. ``formula`` refutes a claim, ``whatever`` proves it.
     """
 
     family: Family
@@ -121,7 +121,7 @@ def _without_doubt(query: Query) -> Query:
 
 
 def waits(callback: UnitCallback) -> bool:
-    """Tell whether it may not come to its end, as far as the callback itself says."""
+    """Return whether it may not come to its end, as far as the callback itself says."""
     return bool(callback.needs or callback.left_out)
 
 
@@ -254,7 +254,7 @@ def _self_overlap(callback: UnitCallback) -> Query:
 
 
 def _progress(callback: UnitCallback, unit: Unit) -> Query:
-    """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
+    """Arrivals are bounded, so what is stuck is stuck when nothing moves any more."""
     ending = [
         ' or '.join(wait.wakers) or unit.callbacks[wait.place].name
         for wait in callback.waits
@@ -287,7 +287,7 @@ def _progress_beside(activity: UnitActivity) -> Query:
 
 
 def _pool_exhaustion(unit: Unit) -> Iterator[Query]:
-    """Every thread waits, and whoever could end a wait would need one."""
+    """Every thread waits, and what could end a wait would need one."""
     waiting = [
         c
         for c in unit.callbacks

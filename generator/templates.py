@@ -47,7 +47,7 @@ class KeptBytecode(FileSystemBytecodeCache):
         """A damaged file counts as none."""
         try:
             super().load_bytecode(bucket)
-        except Exception:  # whatever pickle says of it
+        except Exception:  # pickle may raise anything
             bucket.reset()
 
     def dump_bytecode(self, bucket: Bucket) -> None:

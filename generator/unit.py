@@ -157,7 +157,7 @@ class Unit:
 
     @property
     def has_tokens(self) -> bool:
-        """True when whoever gives a signal may have to give another one."""
+        """Return whether code that gives a signal may have to give another one."""
         return any(resource.counts for resource in self.resources)
 
     @property
@@ -167,7 +167,7 @@ class Unit:
 
     @property
     def counted(self) -> str:
-        """The table of what whoever waits is counted for."""
+        """The table of what each waiting callback is counted for."""
         return 'resource_counts' if self.has_counts else 'resource_each'
 
     @property
@@ -484,7 +484,7 @@ def resources_of(steps: Mapping[str, Sequence[NamedWait]]) -> tuple[Resource, ..
 def _most_signals(
     resource: Resource, steps: Mapping[str, Sequence[NamedWait]], arrivals: Mapping[str, int]
 ) -> int:
-    """One for each arrival of whoever gives it; one for good where the first ends all waits."""
+    """One for each arrival of its giver; one for good where the first ends all waits."""
     if not resource.is_each:
         return resource.least
     given = sum(

@@ -78,7 +78,7 @@ class UnitWait:
 @dataclass(frozen=True, order=True)
 class SpinForm:
     """
-    How nested spins are told.
+    How nested spins are described.
 
     :param spun: number of the executor.
     """

@@ -107,7 +107,7 @@ class Blocking:
         reads that pipe.
     :param answer_to: the topic of the message on which another process must answer, by a
         subscription, before the wait ends.
-    :param unsent: the topics whose messages end it, where whoever publishes there in this program
+    :param unsent: the topics whose messages end it, if the publishing code of this program
         does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
     :param repeats: a loop of which nobody knows how often it goes round stands between one of the
@@ -179,7 +179,7 @@ ADDS, TAKES = 'adds', 'takes'
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
-"""The name of the change by which a callback tells a running goal to stop."""
+"""The name of the change by which a callback stops a running goal."""
 FOUND_NONE, FOUND_FALSE, FOUND_TRUE = 'None', 'false', 'true'
 FOUND_THIS, FOUND_OTHER = '== ', '!= '
 

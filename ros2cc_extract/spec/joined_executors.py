@@ -116,7 +116,7 @@ def _parts(whole: Spec, units: Sequence[Spec]) -> dict[str, _Part] | str:
 
 
 def _spins(callbacks: Iterable[Callback]) -> bool:
-    """Whether one of them serves others while it waits, of whatever executor these are."""
+    """Whether one of them serves others while it waits, of any executor."""
     blocks = (block for callback in callbacks for block in callback.blocking)
     return any(block.call.rpartition('.')[2].startswith('spin') for block in blocks)
 
@@ -183,7 +183,7 @@ def _kept_by(doer: Callback | Activity) -> set[object]:
 
 
 def without_idle(spec: Spec) -> Spec:
-    """Whoever neither waits nor is waited for comes to its end, and takes nothing forever."""
+    """Remove what neither waits nor is waited for: it comes to its end, and keeps nothing."""
     needed = {
         name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
     }
@@ -244,7 +244,7 @@ def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup
     """
     Count one for each run that may wait, one of a group, and one for all others.
 
-    Whoever is in no exclusive group runs for what arrives by itself, and for each who asks it.
+    A callback in no exclusive group runs for what arrives by itself, and for each caller.
     """
     exclusive = {group.name for group in groups if group.type is GroupType.EXCLUSIVE}
     runs: dict[object, int] = {}

@@ -131,7 +131,7 @@ class NodeGraph:
     :param declared: those of them that have a type.
     :param open: why it may have more endpoints than these.
     :param awaits: what its program waits for before it is spun.
-    :param apart: why names and remaps that its process is told may not reach it.
+    :param apart: why names and remaps that its process is given may not reach it.
     """
 
     name: str | Unknown

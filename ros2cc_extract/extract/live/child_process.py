@@ -1,7 +1,7 @@
 """
 Runs a command as if we were not there: same terminal, same signals, same end.
 
-Linux: signals are taken by ``sigwaitinfo``, which tells one that was sent to us alone from one
+Linux: signals are taken by ``sigwaitinfo``, which distinguishes a signal sent to us alone from one
 that the terminal has sent to the whole foreground group, our child included.
 """
 
@@ -60,7 +60,7 @@ def run_child(command: Sequence[str], environment: Mapping[str, str]) -> int:
 
 @contextmanager
 def deaf_to_ctrl_c() -> Iterator[None]:
-    """Finish something short, whoever presses Ctrl-C once more meanwhile."""
+    """Finish something short, even if somebody presses Ctrl-C once more meanwhile."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

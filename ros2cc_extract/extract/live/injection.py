@@ -144,7 +144,7 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
     """
     Run a script in a process by the first of ``ways`` that is let in.
 
-    :raises ToolNotFoundError: when none is; says what each was told.
+    :raises ToolNotFoundError: if none is; the message has the answer to each.
     """
     refused: dict[str, Exception] = {}
     for injector in ways:
@@ -154,7 +154,7 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
             refused[injector.name] = error
         else:
             return
-    # Some tell whole pages.
+    # Some messages are whole pages.
     told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
     raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
 

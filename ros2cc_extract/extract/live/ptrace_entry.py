@@ -42,7 +42,7 @@ def library() -> Path | None:
 
 
 def is_available() -> bool:
-    """Tell whether there are the injector, and the library for it to load."""
+    """Return whether the injector and the library that it loads are there."""
     try:
         importlib.import_module('pyinjector')
     except ImportError:
@@ -153,7 +153,7 @@ def _in_a_child(work: Callable[[], None], pid: int, deadline: float) -> None:
     Do in a child what holds a thread of another process, and wait for it until the deadline.
 
     Neither that nor Ctrl-C may end the child: it holds the thread in the middle of a call that is
-    not its own, and whoever lets go of it there ends the process. So it stays until that call is
+    not its own, and letting go of it there ends the process. So it stays until that call is
     done, and nobody waits.
 
     :raises OSError: with what a refusal says.

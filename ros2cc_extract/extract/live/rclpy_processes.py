@@ -8,7 +8,7 @@ from pathlib import Path
 from ros2cc_extract.file_ownership import user_of_process
 
 _PROC = Path('/proc')
-# The part of rclpy in C++; whoever imports rclpy has it in memory (``impl/``, 1.0 and later).
+# The part of rclpy in C++; processes with rclpy have it in memory (``impl/``, 1.0 and later).
 _LIBRARY = b'_rclpy_pybind11'
 
 

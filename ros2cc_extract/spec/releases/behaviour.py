@@ -38,7 +38,7 @@ class Behaviour:
 
     def holds(self, version: str | None) -> bool | None:
         """
-        Tell whether a release behaves so.
+        Return whether a release behaves so.
 
         :param version: a release, a distribution, or ``None`` for all that are supported.
         :return: ``None`` where releases of it differ, or nothing is known.

@@ -1,4 +1,4 @@
-"""From what the code says of a node and what the launch tells its process to resolved names."""
+"""Resolve names from what the code says of a node and what the launch gives its process."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class StartWait:
 
     @property
     def key(self) -> Key:
-        """What tells it apart."""
+        """What distinguishes it."""
         return self.process.name, self.awaited.source
 
 

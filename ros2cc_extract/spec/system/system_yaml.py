@@ -90,7 +90,7 @@ def _launched(launched: Launched) -> dict[str, Any]:
 
 
 def _told(launched: Launched) -> Iterator[SetParameter]:
-    """Parameters; the pattern of the node is told where it is not for all."""
+    """Parameters; the pattern of the node is written if it is not for all."""
     for each in launched.parameters:
         yield each if each.node != ANY_NODE else replace(each, node='')
 

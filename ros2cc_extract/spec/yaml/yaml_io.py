@@ -279,7 +279,7 @@ def _represent_flow(dumper: yaml.SafeDumper, data: Flow) -> yaml.Node:
 
 
 def _represent_text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
-    """On one line, whatever is in it; else its own lines could pass for others."""
+    """Write any text on one line; else its own lines could pass for others."""
     style = None if data.isprintable() else '"'
     return dumper.represent_scalar('tag:yaml.org,2002:str', data, style=style)
 

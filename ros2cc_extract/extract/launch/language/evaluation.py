@@ -1,5 +1,5 @@
 """
-What substitutions stand for, given what is set; ``Unknown`` where that cannot be told.
+What substitutions stand for, given what is set; ``Unknown`` if that cannot be resolved.
 
 Source: launch (Jazzy) ``substitutions/``, ``conditions/evaluate_condition_expression_impl.py``
 (``true`` and ``1``, ``false`` and ``0``, in any case).
@@ -37,7 +37,7 @@ ShareOf = Callable[[str], FilePath | None]
 
 class Evaluator:
     """
-    Tells what expressions are.
+    Evaluates expressions.
 
     :param share_of: the folder of a package, ``None`` where it is not in sight.
     """

@@ -146,7 +146,7 @@ class Actions:
         return [each if each.open else replace(each, open=why) for each in found]
 
     def of_list(self, value: Value | None, place: Place) -> list[Action]:
-        """The actions of a list; what could not be followed is told as such."""
+        """The actions of a list; what could not be followed is marked as such."""
         items, rest = self._values.items(value, place)
         found = [action for item in items for action in self._of_item(item, place)]
         if rest is not None:

@@ -106,7 +106,7 @@ class PythonFile:
         return self._actions.of_description(description, function.place)
 
     def _bounded(self, act: Callable[[], None], place: Place) -> list[Action]:
-        """Do ``act``; what is too large or nested too deeply is told."""
+        """Do ``act``; what is too large or nested too deeply is reported."""
         machine, context = self._machine, self._context
         machine.steps = context.steps
         machine.step_limit = min(context.steps + _STEPS, _STEPS_IN_ALL)

@@ -35,7 +35,7 @@ class Control:
     """
     All threads of the process, as far as they come to points of control.
 
-    :param begun: is told of each callback of the program that begins.
+    :param begun: called with each callback of the program that begins.
     :param known: labels of callbacks that may be ready soon.
     :param refuses: who may not begin yet is refused, and asked for again; else it waits, where
         that holds nobody else, and may begin at once where nobody is sure to ask again.

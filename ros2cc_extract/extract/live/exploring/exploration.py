@@ -117,7 +117,7 @@ def lost_row(mark: Mark, conductor: Conductor, values: dict[str, Any]) -> dict[s
 
 
 def _end_with(watcher: int) -> None:
-    """Whoever watches has been killed: nobody else would end this process."""
+    """End with the watching process: if that was killed, nothing else would end this one."""
     while watcher:
         time.sleep(1.0)
         try:

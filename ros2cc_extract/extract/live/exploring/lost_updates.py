@@ -37,7 +37,7 @@ class Accesses:
     """
     What one call of a function has read, and writes.
 
-    :param tell: is told of a lost update.
+    :param tell: called with a lost update.
     """
 
     def __init__(self, writers: Writers, tell: Tell) -> None:

@@ -4,7 +4,7 @@ Who goes on next: the policies of a schedule.
 Random priorities are those of PCT (Burckhardt, Kothari, Musuvathi, Nagarakatte: A Randomized
 Scheduler with Probabilistic Guarantees of Finding Bugs, ASPLOS 2010): each activity gets a random
 priority, the highest one goes on, and at depth - 1 steps, chosen at random among as many as the
-schedule is expected to have, whoever is about to go on falls below all others. Bounded preemption
+schedule is expected to have, the thread about to go on falls below all others. Bounded preemption
 is that of CHESS (Musuvathi, Qadeer: Iterative Context Bounding, PLDI 2007).
 
 Runs inside the user's process: the standard library only.
@@ -94,7 +94,7 @@ class RandomWalk:
 
 
 class FewPreemptions:
-    """Whoever goes on, goes on; but for a few steps, chosen at random."""
+    """The current thread goes on, except at a few steps, chosen at random."""
 
     is_over = False
 
@@ -150,7 +150,7 @@ class Recorded:
 
 class Prefix:
     """
-    Fixed first choices, then whoever goes on goes on: one leaf of a depth-first search.
+    Fixed first choices, then the current thread goes on: one leaf of a depth-first search.
 
     :param steps: after so many choices it is over.
     """

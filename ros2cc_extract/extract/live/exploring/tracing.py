@@ -26,7 +26,7 @@ Trace = Callable[[FrameType, str, Any], Any]
 
 class Tracing:
     """
-    :param tell_lost: is told of each lost update.
+    :param tell_lost: called with each lost update.
     :param everywhere: hold at every mark, also where an interpreter with its global lock would
         let no other thread in since the mark before.
     """

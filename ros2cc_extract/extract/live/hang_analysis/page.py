@@ -119,5 +119,5 @@ def _line(place: Frame) -> str:
 
 
 def _text(text: str) -> str:
-    """Names and lines are whatever the process says."""
+    """Escape a text; names and lines come from the process and may hold anything."""
     return escape(one_line(text))

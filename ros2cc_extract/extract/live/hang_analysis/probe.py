@@ -191,7 +191,7 @@ def _position(frame: FrameType) -> list[int] | None:
 
 def _item(frame: FrameType) -> int | None:
     """
-    Which item of its `with` a frame is entering, where positions do not tell.
+    Which item of its `with` a frame is entering, where positions do not show it.
 
     Until Python 3.11 all items of a statement have the place of the statement, or only its line.
     """
@@ -264,7 +264,7 @@ def _node(node: Any) -> dict[str, Any]:
         context = node.context.handle
         with context:
             row['domain'] = context.get_domain_id()
-    # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
+    # `use_sim_time`: then a rate waits for a publisher of `/clock`.
     row['simulated_clock'] = bool(
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)
     )

@@ -17,7 +17,7 @@ from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait, lo
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Entity, Executor, Look
 
 BY_ANY_CODE = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE)
-"""Waits that whatever runs in the process may end."""
+"""Waits that any running code of the process may end."""
 _ANSWERS = (Kind.ANSWER, Kind.ACTION)
 _OWN_BUSINESS = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.WORK, Kind.FUTURE, Kind.JOIN)
 

@@ -28,7 +28,7 @@ _KEPT = '_ros2cc_measured'
 
 
 def mark_spinning(executor_class: Any, replace: Replace) -> None:
-    """Put a frame of ours around the C++ code, by which its reading is told from others'."""
+    """Put a frame of ours around the C++ code, which distinguishes its reading from others'."""
     for name in SPINNING:
         original = executor_class.__dict__.get(name)
         if original is not None:

@@ -160,7 +160,7 @@ def trace_submits(recorder: Recorder, executor: Any) -> None:
     """
     Report when a task is first handed to an executor's pool of threads.
 
-    rclpy hands over whatever has not begun on every lap, which changes nothing (9.1,
+    rclpy hands over all that has not begun on every lap, which changes nothing (9.1,
     ``executors.py``). Nothing here keeps the pool alive: its threads end when it is let go.
     """
     pool = executor._executor
@@ -252,7 +252,7 @@ def mark_task(recorder: Recorder, task: Any, record: TaskRecord) -> None:
 
 
 def report_early_run(recorder: Recorder, task: Any) -> None:
-    """Report a run that was over before the task was marked; whoever comes first does so."""
+    """Report a run that was over before the task was marked; the first thread there does so."""
     early = vars(task).pop('_ros2cc_early', None)
     if early is not None:
         began, paused, thread = early
@@ -262,7 +262,7 @@ def report_early_run(recorder: Recorder, task: Any) -> None:
 
 
 class _Steps:
-    """What to tell of one run of a task: when it began, and whether that has been told."""
+    """What to report of one run of a task: when it began, and whether that has been reported."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._journal = recorder.journal
@@ -305,7 +305,7 @@ def _can_go_on(task: Any) -> bool:
 
 
 def _is_paused(task: Any) -> bool:
-    """Tell a pause from a call in vain: another thread may hold the task and not run it yet."""
+    """Distinguish a pause from a call in vain: another thread may hold a task not run yet."""
     handler = task._handler
     if not inspect.iscoroutine(handler):
         return False

@@ -1,5 +1,5 @@
 """
-What is wrapped in rclpy so that a running process tells what its executors hold.
+What is wrapped in rclpy so that a running process reports what its executors hold.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. Executors and groups are wrapped, callbacks never. Each wrapper calls the original

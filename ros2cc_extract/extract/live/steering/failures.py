@@ -1,5 +1,5 @@
 """
-Tells which exceptions end a callback, a thread or the program.
+Report the exceptions that end a callback, a thread or the program.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.
@@ -28,7 +28,7 @@ class Failures:
         self._undo: list[Callable[[], None]] = []
 
     def watch_threads(self) -> None:
-        """Tell what ends the program, or a thread of it."""
+        """Report what ends the program, or a thread of it."""
         of_program, of_threads = sys.excepthook, threading.excepthook
 
         def uncaught(kind: Any, error: Any, trace: Any) -> None:

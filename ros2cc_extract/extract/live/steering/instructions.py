@@ -1,5 +1,5 @@
 """
-Has Python tell of each instruction of a call, in every version that does.
+Have Python report each instruction of a call, in every version that can.
 
 Source: Python, ``sys.settrace``; ``Objects/frameobject.c`` and ``Python/legacy_tracing.c`` of 3.12
 and 3.13.

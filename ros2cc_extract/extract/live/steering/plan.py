@@ -95,7 +95,7 @@ class Plan:
     :param held: not to begin before.
     :param surroundings: a file that is there once what the node meets outside is.
     :param race: two writes of one attribute to be forced, see ``races.py``.
-    :param destroys: what whoever destroys an entity at the first point waits for: ``destroys.py``.
+    :param destroys: what the destroyer of an entity at the first point waits for: ``destroys.py``.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 

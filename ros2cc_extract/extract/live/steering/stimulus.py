@@ -70,7 +70,7 @@ class Stimulus:
         self._actions: dict[str, Any] = {}
 
     def run(self) -> None:
-        """Go on until killed, or until whoever has started it is gone."""
+        """Go on until killed, or until the process that started it is gone."""
         executor = importlib.import_module('rclpy.executors').SingleThreadedExecutor()
         executor.add_node(self._node)
         parent = os.getppid()
@@ -264,7 +264,7 @@ class Stimulus:
 
 
 def _usable(quality: Any) -> Any:
-    """The graph does not tell how deep a queue is."""
+    """Return the quality with a queue depth, which the graph does not give."""
     if hasattr(quality, 'depth'):
         policy = importlib.import_module('rclpy.qos').HistoryPolicy
         quality.history, quality.depth = policy.KEEP_LAST, 10

@@ -109,7 +109,7 @@ def begin(
 
 def _note_again(world: ConcurrentWorld, known: ActivityState) -> None:
     """
-    It starts itself anew; what leads there from its own function is told.
+    Note that it starts itself anew, and what leads there from its own function.
 
     Only where it is followed beside the callbacks are tests open on what others change.
     """

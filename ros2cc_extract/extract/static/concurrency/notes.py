@@ -1,5 +1,5 @@
 """
-What the interpreter tells of, handed to whom it concerns: the door of what runs concurrently.
+What the interpreter reports, handed to the code it concerns: the entry to concurrency.
 
 The interpreter calls these hooks, see ``observer.py``; each module behind them knows one matter.
 """
@@ -98,7 +98,7 @@ class Notes(Effects):
             polling_loops.mark_recursive(self, node, frame, begun)
 
     def note_results(self, value: Value, place: Place) -> None:
-        """Whoever goes over what ``Executor.map`` gives waits for it."""
+        """Note a wait: a loop over what ``Executor.map`` returns waits for it."""
         if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
             self.note_blocking('Executor.map', value, None, place)
 

@@ -174,7 +174,7 @@ def _lacks_caller(world: RosWorld, method: _Method, instance: Instance) -> bool:
     Whether nobody in sight calls it.
 
     It is followed for each object that the set-up makes, and once for others of its class; one
-    that only the class itself is to call once as well, whatever keeps the class from it.
+    that only the class itself calls is followed once as well, even if the class does not reach it.
     """
     number = id(method.text.node)
     is_of_set_up = all(step != UNCALLED for _, step in instance.path)

@@ -65,7 +65,7 @@ def run_library(
         _use_without_caller(machine, value)
         run_callbacks(machine)
         run_rest_of_instances(machine)
-        if not machine.steps_left:  # and that was told
+        if not machine.steps_left:  # and that was reported
             break
     note_kept_locks(machine.world)
     return machine
@@ -105,7 +105,7 @@ def _inherits(value: Class | Function) -> bool:
 def _has_uncovered(
     project: Project, source: SourceFile, tree: ast.Module, covered: frozenset[Place]
 ) -> bool:
-    """Whether something that may make entities was not followed, by what the text tells."""
+    """Whether something that may make entities was not followed, by its text."""
     left = [
         node
         for node in tree.body

@@ -2,7 +2,7 @@
 One scan: the programs from their entries, then what no entry reaches.
 
 Files are followed in pieces, in children where there are several cores. What a file gives
-does not depend on who follows it: the second round tells each what all others have covered,
+does not depend on which child follows it: in the second round each gets what the others covered,
 and follows a file again where one before it in the order of files has covered more since.
 """
 
@@ -303,7 +303,7 @@ class _Scan:
 
     @contextmanager
     def _ended_by_interrupt(self) -> Iterator[None]:
-        """End what is within on an interrupt, where what is done is to be told."""
+        """End what is within on an interrupt, where results so far are to be reported."""
         try:
             yield
         except KeyboardInterrupt:
@@ -312,7 +312,7 @@ class _Scan:
             self._is_interrupted = True
 
     def _told_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
-        """Tell once what may be missing, at the first file of it."""
+        """Report once what may be missing, at the first file of it."""
         places = [source.shown for source, why in zip(self._files, cut, strict=True) if why]
         if places:
             yield Diagnostic(

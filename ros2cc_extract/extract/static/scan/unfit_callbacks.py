@@ -37,7 +37,7 @@ _PASSED = {
 
 
 def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> bool:
-    """Whether an entity can never call that function; this is told."""
+    """Whether an entity can never call that function; if so, report it."""
     numbers = _PASSED.get(entity.kind)
     function, bound = _called(callback, entity.place)
     if numbers is None or entity.library is not None or not isinstance(function, Function):

@@ -355,7 +355,7 @@ def _plain_label(node: Instance) -> str:
 
 
 def _key_of(entity: EntityState) -> tuple[str | Unknown | None, str | None]:
-    """Its name, and the rule by which that was assumed; a client's unknown name is told once."""
+    """Its name, and the rule that assumed it; a client's unknown name is reported once."""
     key, assumed = _key(entity.key)
     is_told = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
     return (None, None) if is_told else (key, assumed)
@@ -398,7 +398,7 @@ def _number(value: Value | None) -> float | None:
 
 
 def _unit_label(nodes: Sequence[str]) -> str:
-    """Name a unit by its nodes; a file is often called ``node.py`` and tells nothing."""
+    """Name a unit by its nodes; a file is often called ``node.py`` and says nothing."""
     if len(nodes) > 2:
         return f'{nodes[0]}_and_{len(nodes) - 1}_more'
     return '_and_'.join(nodes) or 'unit'

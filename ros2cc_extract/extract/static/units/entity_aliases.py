@@ -1,4 +1,4 @@
-"""Which entities of a node that nobody knows are one and the same, as far as the text tells."""
+"""Which entities of an unknown node are one and the same, as far as the text shows."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _group(group: Instance) -> object:
 
 
 def _code(callback: Value | None) -> object:
-    """Equal for functions of one text, whatever object they belong to."""
+    """Return a key that is equal for functions of one text, on any object."""
     if isinstance(callback, Partial):
         return _code(callback.function)
     function = callback.function if isinstance(callback, Bound) else callback
@@ -61,9 +61,9 @@ def _code(callback: Value | None) -> object:
 
 def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     """
-    Units of unknown nodes alone are told once, however many programs lead to them.
+    Units of unknown nodes alone are kept once, however many programs lead to them.
 
-    One that only lacks a caller is not told where another unit has that caller in sight.
+    A unit that only lacks a caller is left out if another unit has that caller.
     """
     known = [c for unit in units for c in unit.callbacks if isinstance(c.node, str)]
     owned = {_what(c) for c in known}
@@ -90,10 +90,10 @@ def _nobody_passes(fact: object) -> bool:
 
 
 def _line(callback: Callback) -> object:
-    """Equal for one line that makes one thing under whatever name, on whatever node."""
+    """Return a key that is equal for one line that makes one thing, under any name on any node."""
     return callback.entity, callback.source, callback.function
 
 
 def _what(callback: Callback) -> object:
-    """Equal for one line that makes one thing on whatever node."""
+    """Return a key that is equal for one line that makes one thing on any node."""
     return callback.entity, callback.source, callback.function, callback.key

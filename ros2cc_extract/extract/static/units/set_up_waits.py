@@ -1,7 +1,7 @@
 """
 Waits of code that no callback runs: ``main``, constructors, functions nobody in sight calls.
 
-They hold up nobody but the code itself, so that no model has them. Who ends each is told as for
+They hold up only the code itself, so they are in no model. What ends each is found as for
 the waits of callbacks; where that is a callback, its node must be spun meanwhile.
 """
 
@@ -41,7 +41,7 @@ def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
     homes = {id(node): unit for unit in units for node in unit.nodes}
     for wait in world.set_up.values():
         if wait.by is not None and not wait.by.is_executor:
-            continue  # it is told as a wait of that thread
+            continue  # it is reported as a wait of that thread
         touched = (homes.get(id(node)) for node in _nodes_of(wait, world))
         home = next((unit for unit in touched if unit is not None), units[0] if units else None)
         if home is not None:
@@ -128,7 +128,7 @@ class _SetUpWaits:
     def _is_sure(
         self, unserved: Sequence[UnservedWait], wakers: int, block: Blocking, wait: SetUpWait
     ) -> bool:
-        """Whether it never ends, whatever else is there that was not seen."""
+        """Whether it never ends, even if there is more that was not seen."""
         is_needed = len(unserved) == wakers or block.needs is Needs.ALL
         is_needed = is_needed and not any(each.may_skip for each in unserved)
         is_needed = is_needed and not wait.in_handler

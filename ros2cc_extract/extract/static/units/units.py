@@ -84,7 +84,7 @@ def wholes_of(world: RosWorld, entry: str | None, specs: Sequence[Spec]) -> Iter
 
 
 def _is_known(executor: Executor) -> bool:
-    """Whether it is spun, whatever branch is taken, and serves as those of rclpy do."""
+    """Whether it is spun on every branch, and serves as those of rclpy do."""
     is_spun = executor.spun is not None and executor.alternative is None
     return is_spun and executor.unresolved is None and executor.kind in KINDS
 

@@ -107,7 +107,7 @@ class UnitWaits(DataWriters):
         return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
-        """Waits of code that no callback runs, each as it was met and as the unit tells it."""
+        """Waits of code that no callback runs, each as it was met and as it is in the unit."""
         doer = ActivityState(ActivityKind.MAIN, NOWHERE, effects=EffectLog(blocking=raws))
         kept = self._kept[id(doer)] = self._keep(doer)
         named = self.of(doer)

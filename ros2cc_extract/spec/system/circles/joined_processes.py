@@ -3,7 +3,7 @@ Processes that wait for each other in a circle, as one unit.
 
 A unit's verdict rests on the assumption that what is outside of it answers. Where a process needs
 another one, and that one needs the first, neither verdict can bear the other: these processes, and
-no others, are put into one network. What they call each other is told by the graph; parts of
+no others, are put into one network. The graph says what they call each other; parts of
 one name have that of their process before it.
 """
 

@@ -95,7 +95,7 @@ def _sending(
     """
     Waits for messages, before each of which there is the one that lets its only sender run.
 
-    :param asked: topics on which whoever waits has sent before.
+    :param asked: topics on which the waiting code has sent before.
     """
     found: list[Blocking] = []
     known = set(asked)

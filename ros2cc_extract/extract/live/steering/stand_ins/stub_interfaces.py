@@ -69,7 +69,7 @@ def _kind_over(base: Any) -> Any:
     """
     Give the type of a type whose names in capitals are constants.
 
-    Whatever is of the borrowed type is one of it too: what has arrived is passed on.
+    Every object of the borrowed type is an instance too: what has arrived is passed on.
     """
 
     def missing(_cls: Any, name: str) -> Constant:

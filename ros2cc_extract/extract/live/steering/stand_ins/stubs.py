@@ -1,8 +1,8 @@
 """
 Stand-ins for modules that are not installed, such as the driver of a device.
 
-A stand-in has every name; what is called gives another one, and nothing happens. Whatever the
-program makes of it, nobody has shown that it does so with the device. Interfaces that are not
+A stand-in has every name; what is called gives another one, and nothing happens. What the
+program does with it does not show what it does with the device. Interfaces that are not
 installed become types that rclpy takes (``stub_interfaces.py``), and of some modules it is known
 what they do.
 

@@ -43,7 +43,7 @@ def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:
 
 
 def object_name(owner: Instance | Class, cls: Class) -> str:
-    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
+    """The class; helper objects of one class get numbers, nodes are distinguished by callbacks."""
     is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
     return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
 

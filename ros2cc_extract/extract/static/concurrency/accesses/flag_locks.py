@@ -1,7 +1,7 @@
 """
 Flags by which a callback keeps others out: ``if self.busy: return``, then ``self.busy = True``.
 
-Whoever has found a flag down and put it up holds it, as a lock, until it is put down again; a
+Code that finds a flag down and puts it up holds it, as a lock, until it is put down again; a
 done-callback takes over what its maker holds, and the execute callback of an action server what
 the goal callback holds wherever it accepts; where that has only found a flag down, the execute
 callback may put it up. Whether the test and the setting are one piece, and
@@ -51,7 +51,7 @@ def note_test(
     constant: Constant,
 ) -> None:
     """
-    An ``if`` tells where the flags are down that it asks for, alone or each for itself.
+    Note where the flags that an ``if`` asks for are down, together or each on its own.
 
     A state may stand for a flag: who has found that it is a constant, and stores another one, or
     the other way round.

@@ -33,7 +33,7 @@ from ros2cc_extract.spec.model import When
 
 
 def note_test(machine: ConcurrentMachine, node: ast.If, place: Place, frame: Frame) -> None:
-    """An ``if`` tells where the thread of an attribute is not alive."""
+    """Note where an ``if`` shows that the thread of an attribute is not alive."""
     world, steps = machine.world, steps_of(node)
     if world.effects is None:
         return
@@ -126,7 +126,7 @@ def _is_of_set_up(world: ConcurrentWorld, value: Value) -> bool:
 
 
 def note_begun(world: ConcurrentWorld, state: ActivityState, runner: Value | None) -> None:
-    """A thread is started, behind a test that tells that the one before has ended, or not."""
+    """Note a started thread, and whether a test showed first that the one before has ended."""
     now = _holds(world)
     starts = {
         kept: (world.activity or world.current, frozenset(holds.items() & now.items()))

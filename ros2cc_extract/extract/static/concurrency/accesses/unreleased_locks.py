@@ -32,7 +32,7 @@ def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple
     :param lock: text of the lock's expression, ``self.lock``.
     :param suffix: of the methods: ``_read`` for ``acquire_read`` and ``release_read``.
     :return: nothing where the function never gives the lock back: another one may; and nothing
-        where it gives it back first: whoever calls it holds the lock, and wants it held again. Nor
+        where it gives it back first: its caller holds the lock, and wants it held again. Nor
         where one loop takes several locks, and another one gives them back.
     """
     walk = _Walk(lock, suffix)
@@ -155,7 +155,7 @@ def locks_given_back(body: Sequence[ast.stmt], world: ConcurrentWorld) -> tuple[
 
 
 def note_kept_locks(world: ConcurrentWorld) -> None:
-    """Tell of every followed function that keeps a lock on some way out."""
+    """Note every followed function that keeps a lock on some way out."""
     if not world.locks:
         return
     for function in world.called.values():

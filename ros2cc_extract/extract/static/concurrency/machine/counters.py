@@ -44,7 +44,7 @@ class Rise:
         How many writes are missing; ``None`` where that is not known.
 
         :param first: what is stored there before anybody writes.
-        :param mine: how many writes lie behind whoever waits.
+        :param mine: how many writes the waiting code has made before.
         """
         values: list[float] = [value.value for value in first if isinstance(value, Const)]
         by = {step.by for step in steps}

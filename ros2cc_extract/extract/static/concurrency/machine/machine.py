@@ -82,4 +82,4 @@ class ConcurrentMachine(Machine, ABC):
 
     @abstractmethod
     def add_task(self, future: Instance, callback: Value, place: Place) -> None:
-        """Whoever takes the answer that ``future`` stands for runs ``callback`` then."""
+        """Note that the code that takes the answer of ``future`` then runs ``callback``."""

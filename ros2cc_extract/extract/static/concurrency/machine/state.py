@@ -157,7 +157,7 @@ class OutsideWait:
 @dataclass(frozen=True, eq=False)
 class SetUpWait:
     """
-    A wait of code that no callback runs, as ``outside`` tells it too.
+    A wait of code that no callback runs, as it is in ``outside`` too.
 
     :param block: with references to what it waits on.
     :param uncalled: the function, which nobody in sight calls, that leads there.
@@ -224,7 +224,7 @@ class ConcurrentWorld(World):
     :param found_down: flags that the last function found down wherever it turned no goal down.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
-    :param set_up: its waits as the specification tells them, each once.
+    :param set_up: its waits as they are in the specification, each once.
     :param asked_until: calls in the tests of loops that only their answer ends.
     :param retried: calls that a loop tries again and again until they raise no error.
     :param asked_outside: calls by which a library asks others outside whether something is over.

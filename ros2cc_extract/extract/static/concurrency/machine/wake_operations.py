@@ -100,7 +100,7 @@ class Waking:
     :param repeats: it stands in a loop.
     :param told: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
-    :param is_sign: what is put may tell who takes it to stop: it is a constant, or an object.
+    :param is_sign: what is put may be a sign to stop for the consumer: a constant, or an object.
     """
 
     word: Word

@@ -1,4 +1,4 @@
-"""Waits of code that is no callback: they are noted here, and told when all was followed."""
+"""Waits of code that is no callback: noted here, and reported when all was followed."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def note(
 
 
 def note_in_loop(world: ConcurrentWorld, awaited: Value, place: Place) -> None:
-    """Tell of a callback that asyncio runs and that awaits what only an executor understands."""
+    """Report a callback that asyncio runs and that awaits what only an executor understands."""
     state = awaited.state if isinstance(awaited, Instance) else None
     if isinstance(state, PlainState) and state.kind in _FUTURES and not world.retelling:
         world.diagnostics.append(_awaited_by_asyncio(place))

@@ -96,7 +96,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
 
     A coroutine that awaits in each round gives its thread back, as one that awaits the future.
 
-    :param told: what its test tells.
+    :param told: what its test shows.
     """
     world = machine.world
     if world.effects is None and not is_idle(loop):
@@ -120,7 +120,7 @@ def _note_rest(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Non
 
 
 def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
-    """Whether the test asks something by the name of such a method; what it asks is told."""
+    """Whether the test asks something by the name of such a method; what it asks is noted."""
     is_known = False
     for part in ast.walk(loop.test):
         if (
@@ -221,7 +221,7 @@ def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
 
 
 def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
-    """What a test tells where it stands, without any note of what it reads."""
+    """What a test shows where it stands, without any note of what it reads."""
     world = machine.world
     noted, ready, world.effects = world.effects, world.ready, EffectLog()
     try:
@@ -231,7 +231,7 @@ def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told 
 
 
 def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
-    """What makes a loop end whose test tells of it only after a round, or stands inside."""
+    """What ends a loop whose test shows it only after a round, or stands inside."""
     for test in exit_tests(loop):
         told = _told_now(machine, test, frame)
         if told is not None:
@@ -415,7 +415,7 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
 def _is_told(
     machine: ConcurrentMachine, loop: ast.While, effects: EffectLog, before: Mark
 ) -> bool:
-    """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
+    """Whether the waits inside stand for the loop; a thread's loop ends by its test."""
     inside = effects.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(machine, block.call)]
     if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):

@@ -134,7 +134,7 @@ class RosNotes(StandardBlocks, RosMachine):
         return result_of(self, future, place)
 
     def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
-        """Whoever is given a spin runs it, with what is handed along."""
+        """Whether it is a spin: code that is given one runs it, with what is handed along."""
         if function.name not in _SPINS:
             return False
         run_in_thread(self, function, Call(place, arguments))

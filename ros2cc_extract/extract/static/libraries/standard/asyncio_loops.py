@@ -67,7 +67,7 @@ def _by_loop(machine: ConcurrentMachine) -> Iterator[None]:
 
 
 def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) -> None:
-    """Something of a loop is touched; which thread does that is told after the run."""
+    """Note that something of a loop is touched; the thread that does it is found after the run."""
     world = machine.world
     doer = world.activity or (world.current if world.effects is not None else None)
     if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
@@ -175,7 +175,7 @@ def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
 
 
 def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """The loop calls it, which whoever hands it over need not wait for."""
+    """Let the loop call it; the code that hands it over need not wait for that."""
     if call.args:
         with _by_loop(machine):
             machine.call(call.args[0], Call(call.place, call.args[1:]))

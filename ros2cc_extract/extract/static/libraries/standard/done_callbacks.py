@@ -67,7 +67,7 @@ _AROUND = (
 @dataclass(frozen=True, eq=False)
 class _Left:
     """
-    A callback that whoever completes its future runs.
+    A callback that is run by the code that completes its future.
 
     :param around: of the world, who has added it, and where.
     """
@@ -91,7 +91,7 @@ def begin_anew(machine: ConcurrentMachine, receiver: Instance) -> None:
 
 
 def may_be_done(machine: ConcurrentMachine, future: Instance) -> None:
-    """What completes it runs beside whoever has got it."""
+    """Note that what completes it runs beside the code that has got it."""
     machine.store.write(future, _IS_DONE, _EITHER)
 
 
@@ -128,7 +128,7 @@ def _note_later(machine: ConcurrentMachine, future: Instance, callback: Value, c
 
 
 def add_left(machine: ConcurrentMachine) -> None:
-    """Make tasks of those that nobody in sight runs: whoever does so has a thread of his own."""
+    """Make tasks of those that no known code runs: what runs them has a thread of its own."""
     world = machine.world
     before = _around(world)
     left, world.left_callbacks = world.left_callbacks, []

@@ -115,7 +115,7 @@ def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     """
     Whether something is read of which the program has asked whether it is there.
 
-    ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
+    ``select`` shows before a read that it will not wait, and ``in_waiting`` what a port has;
     a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` or
     ``fcntl`` has changed give what there is. A function may have another one ask,
     or its caller does: ``if self.has_key():``.

@@ -1,5 +1,5 @@
 """
-What is put into the queues of a program, for whoever takes it out.
+What is put into the queues of a program, for the code that takes it out.
 
 Which item somebody gets is not known: it is one of all that are put in. Until all is followed
 each item is taken to be given away; at the end that is taken back of those that everybody in

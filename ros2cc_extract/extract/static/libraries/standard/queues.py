@@ -67,7 +67,7 @@ def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _is_sign(call: Call) -> bool:
-    """Whether what is put may mean the end to whoever takes it."""
+    """Whether what is put may mean the end to its consumer."""
     items = (*call.args[:1], *call.keywords.values())
     return any(isinstance(o, (Const, Instance)) for item in items for o in options_of(item))
 

@@ -220,7 +220,7 @@ def _give(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _meet(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Whoever comes to a barrier is waited for by the others."""
+    """Note that code comes to a barrier, where the others wait for it."""
     assert isinstance(receiver, Instance)
     machine.note_wake(receiver, Word.ARRIVE, call.place)
     timeout = call.argument(0, 'timeout') or receiver.slots.get(_PATIENCE)
@@ -229,7 +229,7 @@ def _meet(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _break_off(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Whoever waits at the barrier gets an error (``threading.py``, ``Barrier.abort``)."""
+    """Raise an error in all that wait at the barrier (``threading.py``, ``Barrier.abort``)."""
     why = Unknown('somebody breaks it off', call.place)
     machine.world.given.setdefault(id(receiver), why)
     return NONE

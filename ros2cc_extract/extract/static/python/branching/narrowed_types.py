@@ -1,5 +1,5 @@
 """
-What ``isinstance`` tells of a name or an attribute that may hold one of several objects.
+What ``isinstance`` shows about a name or an attribute that may hold one of several objects.
 
 In an arm of ``if isinstance(self.arm, Mock):`` the expression stands for fewer of them. What it
 does not stand for is kept in ``World.ready``, until the branches meet.
@@ -27,7 +27,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 def told(
     machine: Machine, node: ast.Call, function: Value, call: Call, result: Value, frame: Frame
 ) -> Value:
-    """The answer of ``isinstance``, with what it tells of its first argument."""
+    """The answer of ``isinstance``, with what it shows about its first argument."""
     text = _text(node.args[0]) if len(node.args) == len(call.args) == len(('of', 'class')) else ''
     if not text or not isinstance(result, Mystery) or not _is_kept(machine, node.args[0], frame):
         return result

@@ -2,7 +2,7 @@
 What a test in a callback reads may have changed since the set-up.
 
 Callbacks are followed one after the other from the state that the set-up leaves behind, but run
-in any order: a test on what some other function changes is open, whatever is stored there now.
+in any order: a test on what some other function changes is open, no matter what is stored now.
 So it is in the set-up itself once anything has been spun.
 """
 

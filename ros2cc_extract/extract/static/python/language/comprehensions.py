@@ -38,7 +38,7 @@ class Comprehensions(Machine):
                 many[key] = Mystery(why) if why is not None else self.why_many()
 
         ready = self.world.ready
-        # Whoever takes from a generator may stop before its end, as ``any`` does.
+        # Code that takes from a generator may stop before its end, as ``any`` does.
         is_whole = not isinstance(node, ast.GeneratorExp)
         self._generate(node.generators, inner, collect, None, is_whole=is_whole)
         picked, self.world.ready = self.world.ready - ready, ready

@@ -23,7 +23,7 @@ _IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
 @dataclass(frozen=True)
 class Asked:
     """
-    A test, as far as it tells that somebody waits for a condition in time.
+    A test, as far as it shows that code waits for a condition in time.
 
     :param names: of the data that it reads.
     :param holds: the locks that were held then, see ``lost_notifications.py``.
@@ -170,7 +170,7 @@ class Reading:
             self.used.add((place, name))
 
     def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
-        """``self.goal is goal``: whoever asks so reckons with others that store it."""
+        """Note ``self.goal is goal``: code with this test expects others to store it."""
         left, right = node.left, node.comparators[0]
         if len(node.ops) > 1 or not isinstance(node.ops[0], _IDENTITY):
             return

@@ -83,7 +83,7 @@ def merged(tables: list[Library]) -> Library:
 
 class LibraryModel:
     """
-    What is known of code that is not scanned: a class or function by whatever name.
+    What is known of code that is not scanned: a class or function of any name.
 
     :param harmless: how names begin of what does nothing with what it is given.
     :param making: how methods are called that make what matters: where one is asked for and

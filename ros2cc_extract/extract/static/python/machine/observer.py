@@ -1,7 +1,7 @@
 """
-What the interpreter tells of while it follows a program.
+What the interpreter reports while it follows a program.
 
-A bare interpreter tells nobody: each of these does nothing. Who wants to know what runs beside
+In a bare interpreter each of these does nothing. Code that needs to know what runs beside
 each other, waits for each other and shares data overrides them, see ``concurrency/notes.py``.
 """
 
@@ -102,7 +102,7 @@ class Observer:
         """A method of ``owner`` has run that is called like one of a lock."""
 
     def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
-        """A ``while`` begins whose test tells so; ``end_loop`` is given the result."""
+        """Begin a ``while`` whose test shows ``told``; ``end_loop`` is given the result."""
         return None
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
@@ -143,7 +143,7 @@ class LibraryHooks:
         return None
 
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
-        """Attribute ``name`` of a value of which only its use tells what it is."""
+        """Attribute ``name`` of a value; only its use shows what it is."""
         return None
 
     def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
@@ -155,7 +155,7 @@ class LibraryHooks:
         return None
 
     def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
-        """Whether whoever is given ``function`` is taken to run it with these arguments."""
+        """Whether code that is given ``function`` is taken to run it with these arguments."""
         return False
 
     def assumption(self, fact: str, value: Mystery) -> str:

@@ -1,10 +1,10 @@
 """
-What tests tell of the objects that others may wait for: a future is done, a thread has ended.
+What tests show about the objects that others may wait for: a future is done, a thread has ended.
 
 ``if not future.done(): await future`` waits; behind ``if future.done():`` the result is there, and
 a loop that asks until the answer changes is a wait itself. The answer to such a question is an
 ``Answer``, through ``not``, ``and``, ``or``, names and functions; where a test has come out, what
-it tells is kept in ``World.ready`` until the branches meet. Source: CPython 3.12,
+it shows is kept in ``World.ready`` until the branches meet. Source: CPython 3.12,
 ``concurrent/futures/_base.py``, ``threading.py``, ``queue.py``.
 """
 
@@ -49,7 +49,7 @@ _ASKED = 'the answer of what others change'
 @dataclass(frozen=True)
 class Told:
     """
-    What the truth of a test tells.
+    What follows from the truth of a test.
 
     :param holds: what has surely happened where it is true, ``fails`` where it is false.
     :param makes: what may make it true when it happens, ``breaks`` false.
@@ -80,7 +80,7 @@ class Told:
 
 
 class Answer(Mystery):
-    """A truth that could not be followed, and what it tells of the objects that were asked."""
+    """A truth that could not be followed, and what it shows about the objects that were asked."""
 
     __slots__ = ('told',)
 
@@ -112,7 +112,7 @@ def cancelled(future: Value, call: Call) -> Answer:
 
 
 def known_if_true(fact: tuple[Value, Word], call: Call) -> Answer:
-    """A truth that nobody waits for, and what it tells."""
+    """A truth that nobody waits for, and what it shows."""
     told = Told(knows=frozenset({fact}))
     return Answer(Unknown('a transform at run time', call.place), call.text or '', told)
 
@@ -124,7 +124,7 @@ def running(future: Value, call: Call) -> Answer:
 
 
 def told_by(value: Value | None) -> Told | None:
-    """What ``value`` tells as a test; of one of several objects that it is the one in question."""
+    """What ``value`` shows as a test; of one of several objects, that it is the one meant."""
     options = options_of(value) if value is not None else ()
     found = [option.told for option in options if isinstance(option, Answer)]
     return reduce(_both, found) if found else None

@@ -34,7 +34,7 @@ class EffectLog:
     """
     What one callback or activity does, in the order of its text.
 
-    :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param behind: the last wait that lies behind what is followed now, as ``way_of`` returns it.
     :param own: names of what only the loop around it asks for: changes of objects that nobody
         else has, and of what lies in a collection.
     :param stored: names of what is written in a hold of a lock, see ``lost_notifications.py``.
@@ -81,7 +81,7 @@ class Doer:
     """
     Code that is followed by itself, as it runs beside others: a callback, a thread.
 
-    What the interpreter and the notes of waits ask of it says whoever models it.
+    Subclasses say what the interpreter and the notes of waits ask of it.
     """
 
     effects: EffectLog | None

@@ -15,7 +15,7 @@ Effect = TypeVar('Effect', Access, Act, Blocking)
 
 
 def both(before: EffectLog, again: EffectLog) -> EffectLog:
-    """What is told of one place the second time replaces what was told of it the first time."""
+    """Merge two logs: what the second says of a place replaces what the first says of it."""
     return EffectLog(
         blocking=_both(before.blocking, again.blocking, lambda effect: effect.call),
         reads=_both(before.reads, again.reads, lambda effect: (effect.name, effect.update)),

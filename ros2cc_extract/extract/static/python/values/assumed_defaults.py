@@ -2,7 +2,7 @@
 What a value that nobody knows is where nobody says otherwise: the default of a parameter.
 
 Such a value stays unknown, ``Mystery``, and carries its default along, through arithmetic and
-text; whoever takes it says so in ``assumed``. Tests on it stay open.
+text; code that takes it says so in ``assumed``. Tests on it stay open.
 """
 
 from __future__ import annotations

@@ -103,7 +103,7 @@ class Mystery(Value):
 
 
 def source_text(node: ast.expr) -> str:
-    """Short source of an expression, for messages and to tell mysteries apart."""
+    """Short source of an expression, for messages and to distinguish mysteries."""
     try:
         text = ast.unparse(node)
     except RecursionError:

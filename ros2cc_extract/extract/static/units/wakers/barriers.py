@@ -2,7 +2,7 @@
 Barriers: who comes to one, and whether all come to every round of it.
 
 A barrier lets its parties through together and begins anew (CPython 3.12, ``threading.py``,
-``Barrier``). Whoever comes once more than the others waits for somebody who does not come; where
+``Barrier``). One that comes once more than the others waits for a party that does not come; if
 more come than it lets through, those of different rounds meet.
 """
 
@@ -78,7 +78,7 @@ def why_rounds_differ(
 
 def _reason(reference: ResourceRef, visits: Visits, mine: Sequence[Waking]) -> str | None:
     if _others_come(visits, mine):
-        return None  # who they are is told elsewhere
+        return None  # who they are is found elsewhere
     if not reference.is_own and any(_may_meet_itself(doer) for doer in visits):
         return 'several runs of one who comes may meet there'
     parties = reference.parties

@@ -30,7 +30,7 @@ Doer = EntityState | ActivityState
 
 @dataclass
 class Kept:
-    """The waits of one callback or activity that the unit tells of, and where each raw one is."""
+    """The waits of one callback or activity that are in the unit, and where each raw one is."""
 
     raw: list[Blocking] = field(default_factory=list)
     named: list[Blocking] = field(default_factory=list)
@@ -151,5 +151,5 @@ def _is_before(access: Access, on: DataRef) -> bool:
 
 
 def _all_recur(writes: Iterable[tuple[Doer, Access]]) -> bool:
-    """Whether whoever writes comes again and again."""
+    """Whether all the writers run again and again."""
     return all(isinstance(by, EntityState) and by.kind in RECURRING for by, _ in writes)

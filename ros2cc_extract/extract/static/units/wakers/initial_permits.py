@@ -1,7 +1,7 @@
 """
 What there is to take at first: the value of a semaphore, the room in a bounded queue.
 
-Whoever gives back in each run what it takes uses up nothing, so that the number at first holds for
+Code that gives back in each run what it takes uses up nothing, so the first number holds for
 every run and the model can count it. Else it is a matter of how many runs there were.
 """
 

@@ -1,8 +1,8 @@
 """
 Threads that empty a queue round by round, and wait for nobody else meanwhile.
 
-Whoever waits for room in it goes on when such a thread has taken the next item, however large the
-queue is and however often somebody puts: no number of runs uses it up. Whoever joins it goes on
+Code that waits for room goes on when such a thread has taken the next item, however large the
+queue is and however often somebody puts: no number of runs uses it up. Code that joins it goes on
 when such a thread has done the last one, and at once where there is none.
 """
 

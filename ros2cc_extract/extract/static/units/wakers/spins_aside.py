@@ -1,7 +1,7 @@
 """
 Nested spins of nodes that nothing else serves: they end by what comes from outside, or by time.
 
-A helper node that has its own clients, as ``BasicNavigator`` of Nav2, is in no executor: whoever
+A helper node that has its own clients (``BasicNavigator`` of Nav2) is in no executor: code that
 asks it spins it until the answer has come. Nothing of the unit runs meanwhile, and nothing of the
 unit is needed, where no callback of the helper waits or takes a lock itself.
 
@@ -57,7 +57,7 @@ def _ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
     by = raw if raw.call == FOR_FUTURE else _future_of(raw, doer)
     if by is raw or (by is None and raw.seconds is None):
         return _ender(raw, spins, world)
-    # It is over when its future is, or its time; who ends that is told there.
+    # It is over when its future is, or its time; what ends that is found there.
     is_ended = by is None or _ender(by, spins, world) is not None
     return Waker(by=TIME, source=raw.source) if is_ended else None
 

@@ -66,7 +66,7 @@ def is_first(raw: Blocking, reference: ResourceRef, doer: Doer) -> bool:
 
 
 def sent_in_hold(reference: ResourceRef, doer: Doer) -> frozenset[str]:
-    """The topics on which was published while whoever notifies had to wait for the lock."""
+    """The topics published on while the notifying code had to wait for the lock."""
     begun = reference.guard.begun if reference.guard is not None else frozenset()
     acts = (act for act in _effects(doer).publishes if act.source in begun)
     return frozenset(str(act.name).strip('/') for act in acts)

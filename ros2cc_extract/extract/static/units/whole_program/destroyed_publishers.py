@@ -31,7 +31,7 @@ _Doer = EntityState | ActivityState
 
 
 def published_meanwhile(end: End, publisher: Instance, world: RosWorld) -> Iterator[Diagnostic]:
-    """Tell of the first who may still publish when ``end`` destroys ``publisher``."""
+    """Report the first that may still publish when ``end`` destroys ``publisher``."""
     for use in world.ends:
         is_of_it = use.kind == PUBLISHED and use.what is publisher
         if is_of_it and _may_meet(end, use):

@@ -48,7 +48,7 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
 
 
 def note_spun_twice(world: RosWorld) -> None:
-    """Tell of each spin beside another of its executor, when all was followed: the worst."""
+    """Report, after all was followed, the worst spin beside another spin of its executor."""
     by_place: dict[Place, Diagnostic] = {}
     for each in (*_by_threads(world), *_by_callbacks(world)):
         known = by_place.setdefault(each.place, each)

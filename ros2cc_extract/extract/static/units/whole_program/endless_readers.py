@@ -23,7 +23,7 @@ from ros2cc_extract.spec.model import EntityKind, GroupType
 
 
 def note_endless_readers(world: RosWorld) -> None:
-    """Tell of callbacks that in each run send themselves the next message."""
+    """Report callbacks that in each run send themselves the next message."""
     for entity in world.entities:
         if _gives_no_way(entity):
             for place in _sends_to_itself(entity):

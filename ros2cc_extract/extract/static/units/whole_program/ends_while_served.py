@@ -57,7 +57,7 @@ _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 
 
 def note_ends(world: RosWorld) -> None:
-    """Tell of what nobody serves any more, when all was followed."""
+    """Report, after all was followed, what is no longer served."""
     found = (diagnostic for end in world.ends for diagnostic in _told(end, world))
     world.diagnostics.extend(dict.fromkeys(found))
 

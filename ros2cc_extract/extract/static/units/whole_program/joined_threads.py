@@ -1,5 +1,5 @@
 """
-Threads that the set-up joins while nobody serves whoever would end what they wait for.
+Threads that the set-up joins while nothing serves the code that would end their waits.
 
 At the end of many programs a flag is cleared and the thread is joined that asks for it; but the
 thread stands in a wait that only callbacks end, and the spin that served them is over.
@@ -110,7 +110,7 @@ def has_told_of_it(
 
 
 def _awaited_before(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
-    """What the program has waited for on its way to ``wait`` whatever branches it took."""
+    """What the program has waited for on its way to ``wait`` on every branch."""
     for each in world.outside[: world.outside.index(wait)]:
         is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
         is_sure = wait.path[: len(each.path)] == each.path

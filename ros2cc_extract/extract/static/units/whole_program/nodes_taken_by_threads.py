@@ -3,7 +3,7 @@ A thread spins a node for a while that another thread's executor serves: the nod
 
 ``rclpy.spin_once`` and ``rclpy.spin_until_future_complete`` add the node to an executor of their
 own, which takes it out of the one that has it, and take it out again when they are done. What a
-callback or ``main`` does is told where it is followed; a thread may be started before the other
+callback or ``main`` does is reported where it is followed. A thread may start before the other
 executor gets the node. Sources: rclpy 7.1.6 and 9.1.2, ``__init__.py``, ``node.py``
 (``Node.executor``), ``executors.py`` (``add_node``, ``remove_node``).
 """
@@ -22,7 +22,7 @@ _TAKES = 'rclpy.'
 
 
 def note_taken_by_threads(world: RosWorld) -> None:
-    """Tell of nodes that a thread takes out of an executor, when all was followed."""
+    """Report, after all was followed, nodes that a thread takes out of an executor."""
     told = {each.place for each in world.diagnostics if each.slug == SLUG}
     found = (each for each in _thefts(world) if each.place not in told)
     world.diagnostics.extend(dict.fromkeys(found))

@@ -28,7 +28,7 @@ from ros2cc_extract.spec.model import GroupType
 
 
 def note_taken(world: RosWorld) -> None:
-    """Tell of waits whose message the executor of the node may take, when all was followed."""
+    """Report, after all was followed, waits whose message the node's executor may take."""
     found = (_told(wait) for wait in world.message_waits if _is_taken(wait, world))
     world.diagnostics.extend(dict.fromkeys(found))
 

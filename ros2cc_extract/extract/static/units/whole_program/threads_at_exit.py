@@ -33,7 +33,7 @@ Serving = Callable[[OutsideWait], Sequence[Instance]]
 
 def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
     """
-    Tell of each thread that waits forever when the program has spun, once.
+    Report each thread that waits forever when the program has spun, once.
 
     :param spun_beside: gives the nodes that threads still spin at a wait of ``main``.
     """

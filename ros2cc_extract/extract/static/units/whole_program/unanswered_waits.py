@@ -33,7 +33,7 @@ from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 
 
 def note_unanswered(world: RosWorld) -> None:
-    """Tell of waits whose answer nobody can take, or nobody can give, when all was followed."""
+    """Report, after all was followed, waits whose answer nobody can take or give."""
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
     told = [each for wait in world.outside for each in _told(wait, world)]
@@ -153,7 +153,7 @@ def spun_beside(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
 def spins_beside(
     wait: OutsideWait, world: RosWorld
 ) -> Iterator[tuple[Spin, tuple[Instance, ...]]]:
-    """The spins of other threads, with their nodes; which thread is which is not told apart."""
+    """The spins of other threads, with their nodes; threads are not distinguished."""
     for number, spin in enumerate(world.spins.values()):
         is_later = wait.begun is not None and number >= wait.begun
         is_beside = (spin.in_thread or wait.in_thread) and not is_later

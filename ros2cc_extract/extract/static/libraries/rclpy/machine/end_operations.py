@@ -1,7 +1,7 @@
 """
 Notes of what callbacks and threads end.
 
-``ends_while_served.py`` tells what becomes of whom they serve.
+``ends_while_served.py`` reports what happens to the code that they serve.
 """
 
 from __future__ import annotations

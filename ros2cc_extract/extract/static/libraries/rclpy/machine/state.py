@@ -197,7 +197,7 @@ class EntityState(Doer, LibraryState):
 
     @property
     def has_own_text(self) -> bool:
-        """Whether it is made in the set-up, for one value, and is not told with others as one."""
+        """Whether it is made in the set-up, for one value, and is not merged with others."""
         return self.kind not in _MERGED and self.when is not When.CALLBACK
 
     @property

@@ -126,7 +126,7 @@ def _spin_node(
     _warn_of_theft(machine, node, executor, how, place)
     stays = not ever and node in nodes_of(executor)
     add_node(machine, executor, node)
-    # Nested spins tell the global executor by this name.
+    # Nested spins recognise the global executor by this name.
     called = f'rclpy.{how}' if executor.state.is_global else how
     record_spin(machine, executor, called, place, ever, future[1])
     machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))

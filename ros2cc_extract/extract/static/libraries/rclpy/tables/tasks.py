@@ -49,7 +49,7 @@ def create_task(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def note_its_end(machine: RosMachine, future: Value, place: Place) -> None:
-    """The future of a task is done when the task has ended, whoever asks for it."""
+    """The future of a task is done when the task has ended, no matter who asks for it."""
     world = machine.world
     world.kept.append(future)
     for entity in world.entities:

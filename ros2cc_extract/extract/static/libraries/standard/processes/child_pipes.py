@@ -2,7 +2,7 @@
 Pipes of a child process that nobody reads while its end is waited for.
 
 ``Popen.wait`` deadlocks when the child has written more than the pipe holds: it waits for a
-reader, and the only one waits for its end (CPython, library reference, ``subprocess``). Whoever
+reader, and the only one waits for its end (CPython, library reference, ``subprocess``). Code that
 asks for the stream before, or elsewhere in the program, counts as its reader.
 """
 
